@@ -1,0 +1,32 @@
+# Options, compiler flags that every target of Tyndall shares, and the generated version header.
+option(TYNDALL_TESTS "Build the tests and benchmarks" ON)
+option(TYNDALL_WERROR "Treat warnings as errors" OFF)
+set(TYNDALL_SANITIZE "" CACHE STRING "-fsanitize= list, e.g. address,undefined; empty for none")
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
+  set(_arch x86-64-v3)
+endif()
+set(TYNDALL_ARCH "${_arch}" CACHE STRING "-march=: x86-64-v3 runs on CPUs since 2013, native is for this one, empty is the compiler's own")
+
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
+endif()
+set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG")
+set(CMAKE_CXX_FLAGS_DEBUG "-Og -g -D_GLIBCXX_ASSERTIONS")
+
+configure_file(${PROJECT_SOURCE_DIR}/cmake/version.h.in ${PROJECT_BINARY_DIR}/include/tyndall/version.h @ONLY)
+
+add_library(tyndall_options INTERFACE)
+set(old_gcc $<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>)  # warns of `"text" + string`, GCC bug 105651
+# -fno-math-errno and -fno-trapping-math let sqrt and selects vectorise and keep NaN and infinity intact; -ffast-math would not.
+target_compile_options(tyndall_options INTERFACE
+  $<$<BOOL:${TYNDALL_ARCH}>:-march=${TYNDALL_ARCH}> -ffp-contract=off -fno-math-errno -fno-trapping-math
+  -Wall -Wextra -Wpedantic -Wshadow $<${old_gcc}:-Wno-restrict> $<$<BOOL:${TYNDALL_WERROR}>:-Werror>)
+target_include_directories(tyndall_options INTERFACE
+  ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/include ${PROJECT_BINARY_DIR}/include)
+
+if(TYNDALL_SANITIZE)
+  set(TYNDALL_SANITIZE_FLAG -fsanitize=${TYNDALL_SANITIZE})  # for whoever links the library from outside
+  target_compile_options(tyndall_options INTERFACE
+    ${TYNDALL_SANITIZE_FLAG} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  target_link_options(tyndall_options INTERFACE ${TYNDALL_SANITIZE_FLAG})
+endif()

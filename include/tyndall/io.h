@@ -1,0 +1,59 @@
+/// Files: scenes in, images in and out, and a description of what a file holds.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tyndall/image.h"
+#include "tyndall/scene.h"
+
+namespace tyndall {
+
+/// Something worth saying that is no error: an option that is known and not honoured, say.
+struct Warning {
+  Location where;
+  std::string message;
+};
+
+struct SceneFile {
+  Scene scene;
+  std::vector<Warning> warnings;
+};
+
+/// Read a pbrt-v4 scene (.pbrt, .pbrt.gz). Throws Error (Failure::scene) at the first problem.
+SceneFile read_scene(const std::string& path);
+
+/// Read a scene from text; `name` stands for the file in messages, relative paths start at `folder`.
+SceneFile read_scene_text(const std::string& text, const std::string& name, const std::string& folder = ".");
+
+/// Read as much as can be read and list every problem found, best first in file order. Empty: the scene reads.
+struct SceneCheck {
+  Scene scene;  ///< what could be read
+  std::vector<std::string> errors;
+  std::vector<Warning> warnings;
+};
+SceneCheck check_scene(const std::string& path);
+
+/// Read .exr (scanline or tiled, flat, single part), .png, .hdr, .jpg, .tga, .bmp by content, not by name.
+/// 8-bit values are made linear by `encoding` ("": sRGB for 8-bit colour). Throws Error (scene).
+Image read_image(const std::string& path, const std::string& encoding = "");
+
+/// Write a float EXR (ZIP): to a temporary name in the same folder, closed, checked, renamed.
+/// Throws Error (output) and leaves an existing file as it was.
+void write_exr(const Image& image, const std::string& path);
+/// Write an 8-bit sRGB PNG of R G B after `exposure` stops.
+void write_png(const Image& image, const std::string& path, float exposure = 0);
+
+/// What a .vdb, .nvdb, .exr (or other image) or .pbrt holds: rows of (subject, property, value).
+struct Property {
+  std::string subject, name, value;
+};
+struct Description {
+  std::string path, kind;
+  std::vector<Property> properties;
+};
+/// Throws Error (scene) when the file cannot be read.
+Description describe(const std::string& path);
+
+}  // namespace tyndall

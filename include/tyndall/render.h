@@ -1,0 +1,93 @@
+/// Scene -> build -> World -> render -> Image.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tyndall/image.h"
+#include "tyndall/scene.h"
+#include "tyndall/settings.h"
+
+namespace tyndall {
+
+struct BuildSettings {
+  LightStrategy lights = LightStrategy::tree_binary;
+  bool sanitize = false;  ///< NaN and infinite voxels become 0 instead of an error
+  int threads = 0;        ///< 0: all cores
+};
+
+/// What was built, for the summary of the command line.
+struct BuildSummary {
+  std::size_t triangles = 0, other_primitives = 0, lights = 0, media = 0;
+  std::size_t geometry_bytes = 0, light_bytes = 0, volume_bytes = 0;
+  double geometry_seconds = 0, light_seconds = 0, volume_seconds = 0;
+  std::vector<std::string> notes;  ///< grids chosen, voxels mended, and other things a user should see
+};
+
+/// A scene ready to render: immutable, opaque, shareable between threads.
+class World {
+ public:
+  struct Parts;
+  explicit World(std::unique_ptr<const Parts> parts);
+  World(World&&) noexcept;
+  World& operator=(World&&) noexcept;
+  ~World();
+
+  const BuildSummary& summary() const;
+  const Parts& parts() const { return *parts_; }
+
+ private:
+  std::unique_ptr<const Parts> parts_;
+};
+
+/// Load what the scene names and make it ready. The World keeps the scene: move it in when it is large.
+/// Throws Error for everything that can be wrong with a scene.
+World build(Scene scene, const BuildSettings& settings = {});
+
+/// Where a render stands.
+struct Progress {
+  int samples_done = 0;      ///< per pixel
+  double fraction = 0;       ///< of the whole, [0, 1]
+  double seconds = 0;        ///< since the start
+  double remaining = 0;      ///< estimated
+};
+
+/// A hand on a running render.
+struct RenderControl {
+  std::function<void(const Progress&)> progress;  ///< called a few times a second from one thread; may be empty
+  const std::atomic<bool>* stop = nullptr;        ///< set it to end at the next pass end with what there is
+};
+
+/// A sample that was not finite and was counted as black.
+struct BadSample {
+  int x, y, sample;
+};
+
+/// Counts of a render. A correct render has 0 in the second group.
+struct RenderReport {
+  int samples = 0;  ///< per pixel, done
+  bool stopped = false;  ///< ended by RenderControl::stop
+  double seconds = 0;
+  std::uint64_t paths = 0, rays = 0, shadow_rays = 0, density_lookups = 0;
+
+  std::uint64_t non_finite = 0, majorant_violations = 0, caps_hit = 0, parity_errors = 0;
+  std::vector<BadSample> bad_samples;  ///< the first 16
+};
+
+struct Rendering {
+  Image image;
+  RenderReport report;
+};
+
+/// Render `world`. The image depends on the scene, the settings and nothing else: not on threads or time
+/// (but for the number of samples when `settings.time` is set).
+Rendering render(const World& world, const RenderSettings& settings, const RenderControl& control = {});
+
+std::string_view version();  ///< "0.1.0"
+
+}  // namespace tyndall

@@ -1,0 +1,34 @@
+/// The one door to the thread library.
+#pragma once
+
+#include <cstddef>
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
+#include <tbb/task_arena.h>
+
+namespace tyndall {
+
+/// A pool of `threads` threads (<= 0: one a core) that runs work given to it.
+class ThreadPool {
+ public:
+  explicit ThreadPool(int threads) : arena_(threads > 0 ? threads : tbb::task_arena::automatic) {}
+
+  int size() const { return arena_.max_concurrency(); }
+
+  /// body(i) for i in [0, count), in any order, `grain` at a time. The first exception thrown is rethrown here.
+  template <typename Body>
+  void for_each(std::size_t count, std::size_t grain, const Body& body) {
+    arena_.execute([&] {
+      tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain), [&](const tbb::blocked_range<std::size_t>& r) {
+        for (std::size_t i = r.begin(); i != r.end(); ++i) body(i);
+      });
+    });
+  }
+
+ private:
+  tbb::task_arena arena_;
+};
+
+}  // namespace tyndall
