@@ -1,0 +1,98 @@
+#include "io/atomic_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <system_error>
+
+#include "tyndall/error.h"
+
+namespace tyndall {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string system_reason() { return std::strerror(errno); }
+
+std::string folder_of(const std::string& path) {
+  const std::string folder = fs::path(path).parent_path().string();
+  return folder.empty() ? "." : folder;
+}
+
+/// The file that `path` names in the end; a broken link, like no file at all, is taken as it is.
+std::string followed(const std::string& path) {
+  std::error_code ignored;
+  const fs::path real = fs::canonical(path, ignored);
+  return ignored ? path : real.string();
+}
+
+bool sync(const std::string& path, int flags) {
+  const int fd = ::open(path.c_str(), flags | O_CLOEXEC);
+  if (fd < 0) return false;
+  const bool synced = ::fsync(fd) == 0 || errno == EINVAL;  // EINVAL: a file system that has no such thing
+  ::close(fd);
+  return synced;
+}
+
+}  // namespace
+
+AtomicFile::AtomicFile(const std::string& path) : path_(path), target_(followed(path)) {
+  std::error_code ignored;
+  if (fs::exists(target_, ignored) && !fs::is_regular_file(target_, ignored)) fail("is not a regular file");
+  constexpr int attempts = 100;
+  int fd = -1;
+  for (int i = 0; i < attempts && fd < 0; ++i) {
+    temporary_ = (fs::path(folder_of(target_)) / ("." + fs::path(target_).filename().string() + "." +
+                                                  std::to_string(::getpid()) + "." + std::to_string(i) + ".part"))
+                     .string();
+    fd = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (fd < 0 && errno != EEXIST) break;
+  }
+  if (fd < 0) {
+    temporary_.clear();
+    fail(system_reason());
+  }
+  stream_ = ::fdopen(fd, "wb");
+  if (!stream_) {
+    const std::string reason = system_reason();
+    ::close(fd);
+    ::unlink(temporary_.c_str());
+    fail(reason);
+  }
+}
+
+AtomicFile::~AtomicFile() {
+  if (stream_) std::fclose(stream_);
+  if (!committed_) ::unlink(temporary_.c_str());
+}
+
+void AtomicFile::close() {
+  errno = 0;
+  const bool written = std::fflush(stream_) == 0 && !std::ferror(stream_);
+  const std::string reason = errno ? system_reason() : "an earlier write failed";
+  const auto size = ::ftello(stream_);  // writers leave the position at the end
+  const bool closed = std::fclose(stream_) == 0;
+  stream_ = nullptr;
+  if (!written || size < 0) fail(reason);
+  if (!closed) fail(system_reason());
+  struct stat status {};
+  if (::stat(temporary_.c_str(), &status) != 0) fail(system_reason());
+  if (status.st_size < size) fail("the file is shorter than what was written");
+}
+
+void AtomicFile::commit() {
+  if (!sync(temporary_, O_RDONLY)) fail(system_reason());
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(system_reason());
+  committed_ = true;
+  if (!sync(folder_of(target_), O_RDONLY | O_DIRECTORY)) fail(system_reason());
+}
+
+void AtomicFile::fail(const std::string& reason) const {
+  throw Error(Failure::output, path_ + ": cannot be written: " + reason + "; check the folder, its rights and free space");
+}
+
+}  // namespace tyndall

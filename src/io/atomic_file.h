@@ -1,0 +1,34 @@
+/// Writing a file so that its name holds either the old content or the complete new one, whatever fails.
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <string>
+
+namespace tyndall {
+
+/// A new file beside `path` under a temporary name. commit() moves it into place; without it the temporary file is
+/// removed and whatever stood at `path` stays. Every failure throws Error (output) that names `path` and the reason.
+class AtomicFile {
+ public:
+  explicit AtomicFile(const std::string& path);
+  ~AtomicFile();
+  AtomicFile(const AtomicFile&) = delete;
+  AtomicFile& operator=(const AtomicFile&) = delete;
+
+  std::FILE* stream() { return stream_; }
+  const std::string& temporary_path() const { return temporary_; }
+
+  /// Flushes and closes, checks that everything was accepted and that the file's size is what was written.
+  void close();
+  /// After close: to the disk, then to its name, then the folder's entry to the disk.
+  void commit();
+  [[noreturn]] void fail(const std::string& reason) const;  ///< throws the Error
+
+ private:
+  std::string path_, target_, temporary_;  ///< target_: path_ with a symbolic link followed
+  std::FILE* stream_ = nullptr;
+  bool committed_ = false;
+};
+
+}  // namespace tyndall

@@ -1,0 +1,89 @@
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include "io/describe_text.h"
+#include "io/exr.h"
+#include "io/file_text.h"
+#include "tyndall/io.h"
+#include "tyndall/volume_io.h"
+
+namespace tyndall {
+namespace {
+
+std::string size_text(const PixelBounds& b) {
+  return std::to_string(b.width()) + " x " + std::to_string(b.height()) + " at " + std::to_string(b.x0) + ", " +
+         std::to_string(b.y0);
+}
+
+std::string attribute_text(const Attribute& attribute) {
+  if (const auto* text = std::get_if<std::string>(&attribute)) return *text;
+  if (const auto* i = std::get_if<int>(&attribute)) return std::to_string(*i);
+  if (const auto* f = std::get_if<float>(&attribute)) return number_text(*f);
+  if (const auto* d = std::get_if<double>(&attribute)) return number_text(*d);
+  std::string rows;
+  for (float value : std::get<std::array<float, 16>>(attribute)) rows += (rows.empty() ? "" : " ") + number_text(value);
+  return rows;
+}
+
+/// Smallest, largest and mean finite value, and how many are not finite.
+std::string statistics_text(const std::vector<float>& values) {
+  double low = std::numeric_limits<double>::infinity(), high = -low, sum = 0;
+  std::size_t finite = 0;
+  for (float v : values) {
+    if (!std::isfinite(v)) continue;
+    low = std::min<double>(low, v);
+    high = std::max<double>(high, v);
+    sum += v;
+    ++finite;
+  }
+  std::string text = finite == 0 ? "no finite value"
+                                 : "min " + number_text(low) + ", max " + number_text(high) + ", mean " +
+                                       number_text(sum / static_cast<double>(finite));
+  if (finite < values.size()) text += ", " + std::to_string(values.size() - finite) + " NaN or infinite";
+  return text;
+}
+
+void add_image(const Image& image, const std::vector<std::string>& types, Description& result) {
+  result.properties.push_back({"image", "data window", size_text(image.data)});
+  result.properties.push_back({"image", "display window", size_text(image.display)});
+  if (const auto& c = image.chromaticities) {
+    std::string text;
+    for (Vec2 v : {c->red, c->green, c->blue, c->white})
+      text += (text.empty() ? "" : ", ") + number_text(v.x) + " " + number_text(v.y);
+    result.properties.push_back({"image", "chromaticities", text});
+  }
+  for (const auto& [name, value] : image.attributes) result.properties.push_back({"attribute", name, attribute_text(value)});
+  for (std::size_t i = 0; i < image.channels.size(); ++i) {
+    const Channel& c = image.channels[i];
+    if (i < types.size()) result.properties.push_back({c.name, "type", types[i]});
+    result.properties.push_back({c.name, "values", statistics_text(c.values)});
+  }
+}
+
+Description describe_image(const std::string& path) {
+  Description result{path, "image", {}};
+  if (!is_exr(path)) {
+    add_image(read_image(path), {}, result);
+    return result;
+  }
+  const ExrFile file = read_exr(path);
+  result.kind = "OpenEXR image";
+  result.properties.push_back({"image", "compression", file.compression});
+  result.properties.push_back({"image", "storage", file.storage});
+  add_image(file.image, file.channel_types, result);
+  return result;
+}
+
+}  // namespace
+
+Description describe(const std::string& path) {
+  const std::filesystem::path p(path);
+  const std::string extension = p.extension() == ".gz" ? p.stem().extension().string() : p.extension().string();
+  if (extension == ".vdb" || extension == ".nvdb") return describe_volume(path);
+  if (extension == ".pbrt") return describe_scene(path);
+  return describe_image(path);
+}
+
+}  // namespace tyndall

@@ -1,0 +1,36 @@
+/// Decoders of the picture formats behind read_image, each from a file's bytes in memory.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "tyndall/image.h"
+
+namespace tyndall {
+
+/// How stored integers become linear light.
+struct Encoding {
+  enum class Kind { linear, srgb, gamma } kind = Kind::srgb;
+  float gamma = 2.2f;
+
+  float decode(float stored) const;  ///< both in [0,1]
+};
+/// "" (sRGB), "sRGB", "linear" or "gamma <g>" as in pbrt. Throws Error (scene) that names `path` otherwise.
+Encoding parse_encoding(const std::string& text, const std::string& path);
+
+inline constexpr int kMaxImageSide = 1 << 16;
+
+/// Channels Y or R G B, and A when the file has transparency. Throw Error (scene) that names `path`.
+Image decode_png(std::string_view bytes, const Encoding& encoding, const std::string& path);
+/// .hdr, .jpg, .tga and .bmp.
+Image decode_stb(std::string_view bytes, const Encoding& encoding, const std::string& path);
+
+/// `samples` interleaved values in [0,1], `count` a pixel (1: Y, 2: Y A, 3: R G B, 4: R G B A), as planes. Alpha is
+/// taken as it is; the others go through `encoding`, by a table when they are 8 or 16 bit integers.
+template <class Integer>
+Image image_from_samples(const Integer* samples, int width, int height, int count, const Encoding& encoding);
+
+extern template Image image_from_samples(const std::uint8_t*, int, int, int, const Encoding&);
+extern template Image image_from_samples(const std::uint16_t*, int, int, int, const Encoding&);
+
+}  // namespace tyndall

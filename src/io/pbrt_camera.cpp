@@ -1,0 +1,61 @@
+#include <string>
+#include <utility>
+
+#include "io/pbrt_suggest.h"
+#include "io/pbrt_view.h"
+
+namespace tyndall::pbrt {
+namespace {
+
+/// Seconds the shutter is open; it only scales the picture, since nothing moves.
+double read_exposure(ParamList& params) {
+  const double open = params.number("shutteropen", 0), close = params.number("shutterclose", 1);
+  if (!(close > open)) throw params.error("shutterclose", "the shutter does not open; shutterclose must be above shutteropen");
+  return close - open;
+}
+
+void read_lens(ParamList& params, Camera& camera) {
+  camera.lens_radius = params.number("lensradius", 0);
+  camera.focal_distance = params.number("focaldistance", 1e6f);
+  if (camera.lens_radius < 0) throw params.error("lensradius", "lensradius must not be negative");
+  if (!(camera.focal_distance > 0)) throw params.error("focaldistance", "focaldistance must be above 0");
+}
+
+void read_screen(ParamList& params, Camera& camera) {
+  camera.frame_aspect_ratio = params.maybe_number("frameaspectratio");
+  if (camera.frame_aspect_ratio && !(*camera.frame_aspect_ratio > 0))
+    throw params.error("frameaspectratio", "frameaspectratio must be above 0");
+  const std::vector<float> window = params.numbers("screenwindow");
+  if (window.empty()) return;
+  if (window.size() != 4) throw params.error("screenwindow", "screenwindow takes four numbers: x0 x1 y0 y1");
+  if (window[0] == window[1] || window[2] == window[3]) throw params.error("screenwindow", "screenwindow is empty; x0 and x1, y0 and y1 must differ");
+  camera.screen_window = {window[0], window[1], window[2], window[3]};
+}
+
+}  // namespace
+
+void read_camera(State& state, Tokenizer& in, const Location& where) {
+  const std::string type(in.expect_string("a kind of camera, as \"perspective\"").text);
+  ParamList params = read_param_list(state, in, "camera \"" + printable(type) + "\"", where);
+  Camera camera;
+  camera.to_world = state.graphics.ctm.inverse();
+  camera.medium = state.graphics.outside;
+  if (type == "orthographic") camera.kind = Camera::Kind::orthographic;
+  else if (type == "realistic" || type == "spherical")
+    throw params.error("camera \"" + type + "\" is not supported by Tyndall; use \"perspective\" or \"orthographic\"");
+  else if (type != "perspective")
+    throw params.error("camera \"" + printable(type) + "\" is unknown; " + suggestion(type, {"perspective", "orthographic"}));
+  const double exposure = read_exposure(params);
+  read_lens(params, camera);
+  read_screen(params, camera);
+  if (camera.kind == Camera::Kind::perspective) {
+    camera.fov_degrees = params.number("fov", 90);
+    if (!(camera.fov_degrees > 0 && camera.fov_degrees < 180)) throw params.error("fov", "fov must lie between 0 and 180 degrees");
+  }
+  params.finish();
+  state.coordinate_systems["camera"] = camera.to_world;
+  state.exposure_time = exposure;
+  state.scene.camera = std::move(camera);
+}
+
+}  // namespace tyndall::pbrt

@@ -1,0 +1,134 @@
+/// pbrt divides every light's spectrum by its photometric Y and then applies "scale", and "power" or "illuminance" in
+/// place of the spectrum's own strength. An rgb is a multiple of the colour space's white, whose Y the division
+/// makes 1, so `power` with an rgb other than white scales by that rgb too.
+#include "io/pbrt_lights.h"
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "io/pbrt_colors.h"
+#include "io/pbrt_suggest.h"
+
+namespace tyndall::pbrt {
+namespace {
+
+/// Photometric strengths ("power", "illuminance") count only when positive, as in pbrt.
+std::optional<float> positive(ParamList& params, std::string_view name) {
+  const auto value = params.maybe_number(name);
+  return value && *value > 0 ? value : std::nullopt;
+}
+
+/// The unit direction from "from" to "to" in light space.
+Vec3 aim(ParamList& params, Vec3 from, Vec3 to) {
+  const Vec3 direction = normalize(to - from);
+  if (length_squared(direction) == 0) throw params.error("to", "\"from\" and \"to\" are the same point; move one");
+  return direction;
+}
+
+PointLight point_light(State& state, ParamList& params) {
+  Rgb I = light_color(state, params, "I") * params.number("scale", 1);
+  if (const auto power = positive(params, "power")) I *= *power / (4 * kPi);
+  return {state.graphics.ctm.point(params.point("from", {0, 0, 0})), I};
+}
+
+/// Moves the origin to `from` and +z to the unit vector `z`.
+Transform frame_at(Vec3 from, Vec3 z) {
+  const Vec3 helper = std::abs(z.x) > std::abs(z.y) ? Vec3{0, 1, 0} : Vec3{1, 0, 0};
+  const Vec3 x = normalize(cross(helper, z)), y = cross(z, x);
+  return Transform(Transform::Matrix{
+      {{x.x, y.x, z.x, from.x}, {x.y, y.y, z.y, from.y}, {x.z, y.z, z.z, from.z}, {0, 0, 0, 1}}});
+}
+
+SpotLight spot_light(State& state, ParamList& params) {
+  SpotLight light;
+  light.I = light_color(state, params, "I") * params.number("scale", 1);
+  light.cone_angle_degrees = params.number("coneangle", 30);
+  light.falloff_start_degrees = light.cone_angle_degrees - params.number("conedeltaangle", 5);
+  if (!(light.cone_angle_degrees > 0 && light.cone_angle_degrees <= 180))
+    throw params.error("coneangle", "coneangle must be above 0 and at most 180 degrees");
+  if (light.falloff_start_degrees > light.cone_angle_degrees)
+    throw params.error("conedeltaangle", "conedeltaangle must not be negative");
+  if (const auto power = positive(params, "power")) {
+    const float end = std::cos(light.cone_angle_degrees * kPi / 180);
+    const float start = std::cos(light.falloff_start_degrees * kPi / 180);
+    light.I *= *power / (2 * kPi * ((1 - start) + (start - end) / 2));  // the integral of pbrt's smoothstep falloff
+  }
+  const Vec3 from = params.point("from", {0, 0, 0}), to = params.point("to", {0, 0, 1});
+  light.to_world = state.graphics.ctm * frame_at(from, aim(params, from, to));
+  return light;
+}
+
+DistantLight distant_light(State& state, ParamList& params) {
+  const Rgb E = light_color(state, params, "L") * params.number("scale", 1) * positive(params, "illuminance").value_or(1);
+  const Vec3 from = params.point("from", {0, 0, 0}), to = params.point("to", {0, 0, 1});
+  return {normalize(state.graphics.ctm.vector(aim(params, from, to))), E};
+}
+
+InfiniteLight infinite_light(State& state, ParamList& params) {
+  InfiniteLight light;
+  light.to_world = state.graphics.ctm;
+  if (params.find("portal", {ParamType::point3}))
+    throw params.error("portal", "portals are not supported by Tyndall; remove the parameter, the picture is the same but for noise");
+  const float scale = params.number("scale", 1);
+  const auto illuminance = positive(params, "illuminance");
+  const auto L = find_color(state, params, "L", ColorUse::light);
+  if (params.find("filename", {ParamType::string})) {
+    if (L) throw params.error("L", "an infinite light takes \"L\" or \"filename\", not both; use \"scale\" with a map");
+    light.path = resolve_asset(state, params.where("filename"), params.string("filename", ""));
+    light.L = Rgb(scale);
+    light.illuminance = illuminance;
+    return light;
+  }
+  // A surface under a uniform hemisphere of L receives pi L.
+  light.L = light_color(state, params, "L") * scale * (illuminance ? *illuminance / kPi : 1);
+  return light;
+}
+
+decltype(Light::kind) read_kind(State& state, ParamList& params, const std::string& type) {
+  if (type == "point") return point_light(state, params);
+  if (type == "spot") return spot_light(state, params);
+  if (type == "distant") return distant_light(state, params);
+  if (type == "infinite") return infinite_light(state, params);
+  if (type == "projection" || type == "goniometric")
+    throw params.error("light \"" + type + "\" is not supported by Tyndall; use a spot light or an area light with an image");
+  throw params.error("light \"" + printable(type) + "\" is unknown; " + suggestion(type, {"point", "spot", "distant", "infinite"}));
+}
+
+AreaLight read_area_light(State& state, ParamList& params, const std::string& type) {
+  if (type != "diffuse")
+    throw params.error("area light \"" + printable(type) + "\" is unknown; " + suggestion(type, {"diffuse"}));
+  AreaLight light;
+  const float scale = params.number("scale", 1);
+  const auto L = find_color(state, params, "L", ColorUse::light);
+  light.two_sided = params.boolean("twosided", false);
+  light.power = positive(params, "power");
+  if (params.find("filename", {ParamType::string})) {
+    if (L) throw params.error("L", "an area light takes \"L\" or \"filename\", not both; use \"scale\" with an image");
+    light.path = resolve_asset(state, params.where("filename"), params.string("filename", ""));
+    light.L = Rgb(scale);
+  } else {
+    light.L = light_color(state, params, "L") * scale;
+  }
+  return light;
+}
+
+}  // namespace
+
+void read_light_source(State& state, Tokenizer& in, const Location& where) {
+  const std::string type(in.expect_string("a kind of light, as \"point\"").text);
+  ParamList params = read_param_list(state, in, "light \"" + printable(type) + "\"", where, &AttributeDefaults::light);
+  auto kind = read_kind(state, params, type);
+  params.finish();
+  state.scene.lights.push_back({std::move(kind), where});
+}
+
+void read_area_light_source(State& state, Tokenizer& in, const Location& where) {
+  const std::string type(in.expect_string("a kind of area light, \"diffuse\"").text);
+  ParamList params = read_param_list(state, in, "area light \"" + printable(type) + "\"", where, &AttributeDefaults::light);
+  AreaLight light = read_area_light(state, params, type);
+  params.finish();
+  state.graphics.area_light = std::move(light);
+}
+
+}  // namespace tyndall::pbrt

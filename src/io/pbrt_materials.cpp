@@ -1,0 +1,188 @@
+#include "io/pbrt_materials.h"
+
+#include <string>
+#include <utility>
+
+#include "io/pbrt_suggest.h"
+#include "io/pbrt_textures.h"
+
+namespace tyndall::pbrt {
+namespace {
+
+using Kind = decltype(Material::kind);
+
+/// `prefix` + "roughness", "uroughness", "vroughness"; pbrt's default is smooth.
+Roughness read_roughness(State& state, ParamList& params, std::array<std::string_view, 3> names) {
+  const auto both = find_float_texture(state, params, names[0]);
+  const auto u = find_float_texture(state, params, names[1]);
+  const auto v = find_float_texture(state, params, names[2]);
+  const TextureId rest = both ? *both : constant_texture(state, Rgb(0.0f));
+  return {u.value_or(rest), v.value_or(rest), params.boolean("remaproughness", true)};
+}
+
+Roughness read_roughness(State& state, ParamList& params) {
+  return read_roughness(state, params, {"roughness", "uroughness", "vroughness"});
+}
+
+/// A spectrum for conductor_rgb, unless the parameter is an rgb or a texture.
+std::optional<Spectrum> metal_spectrum(State& state, const Param* p, const char* otherwise) {
+  if (!p) return named_spectrum(otherwise);
+  if (p->type == ParamType::spectrum) return to_spectrum(state, *p);
+  return std::nullopt;
+}
+
+ConductorOptics read_conductor(State& state, ParamList& params, std::string_view eta_name, std::string_view k_name) {
+  ConductorOptics optics;
+  optics.reflectance = find_color_texture(state, params, "reflectance", ColorUse::albedo);
+  const Param* eta = params.find(eta_name, kColorTextureTypes);
+  const Param* k = params.find(k_name, kColorTextureTypes);
+  if (optics.reflectance) {
+    if (eta || k)
+      throw params.error("reflectance", "a conductor takes \"reflectance\" or \"" + std::string(eta_name) + "\" and \"" +
+                                            std::string(k_name) + "\", not both; remove one");
+    return optics;
+  }
+  const auto eta_spectrum = metal_spectrum(state, eta, "metal-Cu-eta");
+  const auto k_spectrum = metal_spectrum(state, k, "metal-Cu-k");
+  if (eta_spectrum && k_spectrum) {
+    const ConductorRgb metal = conductor_rgb(*eta_spectrum, *k_spectrum);
+    optics.eta = constant_texture(state, metal.eta);
+    optics.k = constant_texture(state, metal.k);
+    return optics;
+  }
+  const auto part = [&](std::string_view name, const std::optional<Spectrum>& spectrum) {
+    const auto given = find_color_texture(state, params, name, ColorUse::unbounded);
+    return given ? *given : constant_texture(state, reflectance_rgb(*spectrum));
+  };
+  optics.eta = part(eta_name, eta_spectrum);
+  optics.k = part(k_name, k_spectrum);
+  return optics;
+}
+
+Coating read_coating(State& state, ParamList& params, Roughness roughness, std::string_view eta_name) {
+  Coating c{};
+  c.roughness = roughness;
+  c.thickness = float_texture(state, params, "thickness", 0.01f);
+  c.eta = find_eta(state, params, eta_name);
+  c.g = float_texture(state, params, "g", 0);
+  c.albedo = color_texture(state, params, "albedo", Rgb(0.0f));
+  c.max_depth = params.integer("maxdepth", 10);
+  c.samples = params.integer("nsamples", 1);
+  if (c.max_depth < 1) throw params.error("maxdepth", "maxdepth must be at least 1");
+  if (c.samples < 1) throw params.error("nsamples", "nsamples must be at least 1");
+  return c;
+}
+
+MixMaterial read_mix(State& state, ParamList& params) {
+  const std::vector<std::string> names = params.strings("materials");
+  if (names.size() != 2) throw params.error("materials", "a mix takes two names in \"string materials\"");
+  MaterialId ids[2];
+  for (int i = 0; i < 2; ++i) {
+    const auto it = state.materials.find(names[i]);
+    if (it == state.materials.end())
+      throw params.error("materials", "material \"" + printable(names[i]) + "\" is not defined; define it with MakeNamedMaterial before (" +
+                                          suggestion(names[i], names_of(state.materials)) + ")");
+    ids[i] = it->second;
+  }
+  return {ids[0], ids[1], float_texture(state, params, "amount", 0.5f)};
+}
+
+DiffuseTransmissionMaterial read_diffuse_transmission(State& state, ParamList& params) {
+  return {color_texture(state, params, "reflectance", Rgb(0.25f)), color_texture(state, params, "transmittance", Rgb(0.25f)),
+          params.number("scale", 1)};
+}
+
+CoatedConductorMaterial read_coated_conductor(State& state, ParamList& params) {
+  CoatedConductorMaterial m{};
+  m.optics = read_conductor(state, params, "conductor.eta", "conductor.k");
+  m.conductor_roughness =
+      read_roughness(state, params, {"conductor.roughness", "conductor.uroughness", "conductor.vroughness"});
+  const Roughness interface =
+      read_roughness(state, params, {"interface.roughness", "interface.uroughness", "interface.vroughness"});
+  m.coating = read_coating(state, params, interface, "interface.eta");
+  return m;
+}
+
+Kind read_kind(State& state, ParamList& params, const std::string& type) {
+  if (type == "diffuse") return DiffuseMaterial{color_texture(state, params, "reflectance", Rgb(0.5f))};
+  if (type == "conductor") return ConductorMaterial{read_conductor(state, params, "eta", "k"), read_roughness(state, params)};
+  if (type == "dielectric") return DielectricMaterial{find_eta(state, params, "eta"), read_roughness(state, params)};
+  if (type == "thindielectric") return ThinDielectricMaterial{find_eta(state, params, "eta")};
+  if (type == "diffusetransmission") return read_diffuse_transmission(state, params);
+  if (type == "coateddiffuse")
+    return CoatedDiffuseMaterial{color_texture(state, params, "reflectance", Rgb(0.5f)),
+                                 read_coating(state, params, read_roughness(state, params), "eta")};
+  if (type == "coatedconductor") return read_coated_conductor(state, params);
+  if (type == "mix") return read_mix(state, params);
+  if (type == "interface" || type == "none" || type.empty()) return InterfaceMaterial{};
+  for (const char* other : {"hair", "measured", "subsurface"})
+    if (type == other)
+      throw params.error("material \"" + type + "\" is not supported by Tyndall; use coateddiffuse or a dielectric around a medium");
+  throw params.error("material \"" + printable(type) + "\" is unknown; " +
+                     suggestion(type, {"diffuse", "conductor", "dielectric", "thindielectric", "diffusetransmission",
+                                       "coateddiffuse", "coatedconductor", "mix", "interface"}));
+}
+
+Kind read_checked_kind(State& state, ParamList& params, const std::string& type) {
+  Kind kind = read_kind(state, params, type);
+  params.ignore("displacement", {ParamType::number, ParamType::texture}, "surfaces are not displaced");
+  params.ignore("normalmap", {ParamType::string}, "normals come from the mesh alone");
+  params.finish();
+  return kind;
+}
+
+MaterialId add_material(State& state, Material material) {
+  state.scene.materials.push_back(std::move(material));
+  return static_cast<MaterialId>(state.scene.materials.size() - 1);
+}
+
+/// Unnamed plain materials of equal content are one.
+MaterialId shared_material(State& state, Kind kind, const Location& where) {
+  if (const auto* diffuse = std::get_if<DiffuseMaterial>(&kind)) {
+    const auto it = state.diffuse_materials.find(diffuse->reflectance);
+    if (it != state.diffuse_materials.end()) return it->second;
+    return state.diffuse_materials[diffuse->reflectance] = add_material(state, {kind, "", where});
+  }
+  if (std::holds_alternative<InterfaceMaterial>(kind)) {
+    if (!state.interface_material) state.interface_material = add_material(state, {kind, "", where});
+    return *state.interface_material;
+  }
+  return add_material(state, {std::move(kind), "", where});
+}
+
+}  // namespace
+
+void read_material(State& state, Tokenizer& in, const Location& where) {
+  const std::string type(in.expect_string("a kind of material, as \"diffuse\"").text);
+  ParamList params =
+      read_param_list(state, in, "material \"" + printable(type) + "\"", where, &AttributeDefaults::material);
+  state.graphics.material = shared_material(state, read_checked_kind(state, params, type), where);
+}
+
+void read_make_named_material(State& state, Tokenizer& in, const Location& where) {
+  const std::string name(in.expect_string("a material name").text);
+  ParamList params =
+      read_param_list(state, in, "material \"" + printable(name) + "\"", where, &AttributeDefaults::material);
+  if (state.materials.contains(name))
+    throw Error(where, "material \"" + printable(name) + "\" is defined twice; rename one");
+  try {
+    const std::string type = params.string("type", "?");
+    if (type == "?") throw params.error("material \"" + printable(name) + "\" has no type; add \"string type\"");
+    Material material{read_checked_kind(state, params, type), name, where};
+    state.materials[name] = add_material(state, std::move(material));
+  } catch (const Error&) {
+    state.materials.try_emplace(name, 0);  // the default, so that its users are not reported as well
+    throw;
+  }
+}
+
+void read_named_material(State& state, Tokenizer& in, const Location& where) {
+  const Token name = in.expect_string("a material name");
+  const auto it = state.materials.find(std::string(name.text));
+  if (it == state.materials.end())
+    throw in.error(name.at, "material \"" + printable(name.text) + "\" is not defined; define it with MakeNamedMaterial before line " +
+                                std::to_string(where.line) + " (" + suggestion(name.text, names_of(state.materials)) + ")");
+  state.graphics.material = it->second;
+}
+
+}  // namespace tyndall::pbrt

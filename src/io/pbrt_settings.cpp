@@ -1,0 +1,139 @@
+#include "io/pbrt_settings.h"
+
+#include <algorithm>
+#include <cctype>
+#include <string>
+
+#include "io/pbrt_suggest.h"
+
+namespace tyndall::pbrt {
+namespace {
+
+int at_least(ParamList& params, std::string_view name, int otherwise, int least) {
+  const int value = params.integer(name, otherwise);
+  if (value < least) throw params.error(name, std::string(name) + " must be at least " + std::to_string(least));
+  return value;
+}
+
+template <typename Strategy>
+void read_strategy(ParamList& params, std::string_view name, std::optional<Strategy> (*parse)(std::string_view),
+                   const std::vector<std::string_view>& known, Strategy& out) {
+  if (!params.find(name, {ParamType::string})) return;
+  const std::string text = params.string(name, "");
+  const auto strategy = parse(text);
+  if (!strategy)
+    throw params.error(name, "\"" + printable(text) + "\" is no value of \"" + std::string(name) + "\"; " +
+                                 suggestion(text, {known.begin(), known.end()}));
+  out = *strategy;
+}
+
+/// Samples a pixel as pbrt's sampler of this type takes them.
+int read_pixel_samples(ParamList& params, const std::string& type) {
+  if (type == "stratified") {
+    const int x = at_least(params, "xsamples", 4, 1), y = at_least(params, "ysamples", 4, 1);
+    if (double(x) * y > 1e9) throw params.error("xsamples", "xsamples * ysamples is too large");
+    params.boolean("jitter", true);
+    return x * y;
+  }
+  params.string("randomization", "");  // ours is always Owen scrambled
+  return at_least(params, "pixelsamples", type == "independent" ? 4 : 16, 1);
+}
+
+/// pbrt's own light samplers; "lights" names ours and wins.
+void read_light_sampler(ParamList& params, RenderSettings& settings) {
+  const std::string sampler = params.choice("lightsampler", "", {"", "uniform", "power", "bvh", "exhaustive"});
+  if (sampler == "bvh") settings.lights = LightStrategy::tree_binary;
+  else if (const auto strategy = parse_light_strategy(sampler)) settings.lights = *strategy;
+  read_strategy(params, "lights", parse_light_strategy, light_strategy_names(), settings.lights);
+}
+
+/// Tyndall's options under the names of the command line.
+void read_own_options(State& state, ParamList& params) {
+  RenderSettings& s = state.scene.settings;
+  state.spp_from_integrator |= params.find("spp", {ParamType::integer}) != nullptr;
+  state.seed_from_integrator |= params.find("seed", {ParamType::integer}) != nullptr;
+  s.spp = at_least(params, "spp", s.spp, 1);
+  if (state.seed_from_integrator) s.seed = static_cast<std::uint64_t>(params.integer("seed", 0));
+  if (const auto time = params.maybe_number("time")) {
+    if (!(*time > 0)) throw params.error("time", "time must be above 0 seconds");
+    s.time = *time;
+  }
+  s.threads = at_least(params, "threads", s.threads, 0);
+  read_strategy(params, "transmittance", parse_transmittance_strategy, transmittance_strategy_names(), s.transmittance);
+  s.reproducible = params.boolean("reproducible", s.reproducible);
+  if (params.find("aov", {ParamType::string})) s.aovs = params.strings("aov");
+  const std::vector<std::string_view> known = aov_names();
+  for (const std::string& aov : s.aovs)
+    if (std::find(known.begin(), known.end(), aov) == known.end())
+      throw params.error("aov", "\"" + printable(aov) + "\" is no AOV; " + suggestion(aov, {known.begin(), known.end()}));
+  if (const auto crop = params.integers("crop"); !crop.empty()) {
+    if (crop.size() != 4) throw params.error("crop", "crop takes four integers: x0 x1 y0 y1");
+    s.crop = PixelBounds{crop[0], crop[2], crop[1], crop[3]};
+  }
+}
+
+void ask_for_foreign_parameters(ParamList& params, const std::string& type) {
+  if (type == "ao") params.boolean("cossample", true), params.number("maxdistance", kInfinity);
+  if (type == "simplepath") params.boolean("samplelights", true), params.boolean("samplebsdf", true);
+  if (type == "bdpt") params.boolean("visualizestrategies", false), params.boolean("visualizeweights", false);
+  if (type == "mlt")
+    for (const char* name : {"bootstrapsamples", "chains", "mutationsperpixel"}) params.integer(name, 0);
+  if (type == "mlt") params.number("largestepprobability", 0.3f), params.number("sigma", 0.01f);
+  if (type == "sppm") params.integer("photonsperiteration", -1), params.number("radius", 1);
+}
+
+}  // namespace
+
+void read_sampler(State& state, Tokenizer& in, const Location& where) {
+  const std::string type(in.expect_string("a kind of sampler, as \"independent\"").text);
+  ParamList params = read_param_list(state, in, "sampler \"" + printable(type) + "\"", where);
+  const std::vector<std::string> known{"halton", "independent", "paddedsobol", "pmj02bn", "sobol", "stratified", "zsobol"};
+  if (std::find(known.begin(), known.end(), type) == known.end())
+    throw params.error("sampler \"" + printable(type) + "\" is unknown; " + suggestion(type, known));
+  const int samples = read_pixel_samples(params, type);
+  const auto seed = static_cast<std::uint64_t>(params.integer("seed", 0));
+  params.finish();
+  if (!state.spp_from_integrator) state.scene.settings.spp = samples;
+  if (!state.seed_from_integrator) state.scene.settings.seed = seed;
+}
+
+void read_integrator(State& state, Tokenizer& in, const Location& where) {
+  const std::string type(in.expect_string("a kind of integrator, as \"volpath\"").text);
+  ParamList params = read_param_list(state, in, "integrator \"" + printable(type) + "\"", where);
+  const std::vector<std::string> known{"volpath", "path", "simplevolpath", "simplepath", "lightpath", "randomwalk", "bdpt", "mlt", "sppm", "ao"};
+  if (std::find(known.begin(), known.end(), type) == known.end())
+    throw params.error("integrator \"" + printable(type) + "\" is unknown; " + suggestion(type, known));
+  if (type != "volpath" && type != "path")
+    params.reports().warn(where, "integrator \"" + type + "\" is replaced by \"volpath\", the one method of Tyndall");
+  RenderSettings& settings = state.scene.settings;
+  settings.max_depth = at_least(params, "maxdepth", 5, 0);
+  settings.max_depth = at_least(params, "max-depth", settings.max_depth, 0);
+  read_light_sampler(params, settings);
+  if (params.boolean("regularize", false))
+    params.reports().warn(params.where("regularize"), "parameter \"regularize\" is ignored: it would bias the picture");
+  ask_for_foreign_parameters(params, type);
+  read_own_options(state, params);
+  params.finish();
+}
+
+void read_option(State& state, Tokenizer& in, const Location& where) {
+  const Token declaration = in.expect_string("an option name");
+  const Token value = in.next();
+  if (value.is(Token::Kind::end)) throw in.error(value.at, "option has no value; give one");
+  // pbrt compares names without case, '-' and '_'; a type before the name is allowed.
+  std::string name;
+  for (const char c : declaration.text.substr(declaration.text.find_last_of(' ') + 1))
+    if (c != '-' && c != '_') name += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (name == "seed") {
+    state.scene.settings.seed = static_cast<std::uint64_t>(in.to_integer(value));
+    return;
+  }
+  const std::vector<std::string> known{"disablepixeljitter", "disabletexturefiltering", "disablewavelengthjitter", "displacementedgescale",
+                                       "forcediffuse", "msereferenceimage", "msereferenceout", "pixelstats", "rendercoordsys", "seed", "wavefront"};
+  if (std::find(known.begin(), known.end(), name) == known.end())
+    throw in.error(declaration.at, "option \"" + printable(declaration.text) + "\" is unknown; " + suggestion(name, known));
+  if (name == "disablepixeljitter" || name == "forcediffuse" || name.starts_with("mse") || name == "pixelstats")
+    if (value.text != "false") state.reports.warn(where, "option \"" + name + "\" is ignored");
+}
+
+}  // namespace tyndall::pbrt

@@ -1,0 +1,12 @@
+/// The directives Sampler, Integrator and Option: how to render.
+#pragma once
+
+#include "io/pbrt_state.h"
+
+namespace tyndall::pbrt {
+
+void read_sampler(State& state, Tokenizer& in, const Location& where);
+void read_integrator(State& state, Tokenizer& in, const Location& where);
+void read_option(State& state, Tokenizer& in, const Location& where);
+
+}  // namespace tyndall::pbrt

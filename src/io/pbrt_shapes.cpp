@@ -1,0 +1,120 @@
+#include "io/pbrt_shapes.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "io/pbrt_meshes.h"
+#include "io/pbrt_suggest.h"
+#include "io/pbrt_textures.h"
+
+namespace tyndall::pbrt {
+namespace {
+
+float positive(ParamList& params, std::string_view name, float otherwise) {
+  const float value = params.number(name, otherwise);
+  if (!(value > 0)) throw params.error(name, std::string(name) + " must be above 0");
+  return value;
+}
+
+float phi_max(ParamList& params) {
+  const float phi = params.number("phimax", 360);
+  if (!(phi > 0)) throw params.error("phimax", "phimax must be above 0 degrees");
+  return std::min(phi, 360.0f);
+}
+
+Sphere sphere(ParamList& params) {
+  const float r = positive(params, "radius", 1);
+  const float z0 = params.number("zmin", -r), z1 = params.number("zmax", r);
+  const Sphere s{r, std::clamp(std::min(z0, z1), -r, r), std::clamp(std::max(z0, z1), -r, r), phi_max(params)};
+  if (s.z_min == s.z_max) throw params.error("zmin", "the sphere is cut away entirely; zmin and zmax must enclose a part of it");
+  return s;
+}
+
+Disk disk(ParamList& params) {
+  const Disk d{params.number("height", 0), positive(params, "radius", 1), params.number("innerradius", 0), phi_max(params)};
+  if (d.inner_radius < 0 || d.inner_radius >= d.radius)
+    throw params.error("innerradius", "innerradius must be at least 0 and below radius");
+  return d;
+}
+
+Cylinder cylinder(ParamList& params) {
+  const float r = positive(params, "radius", 1);
+  const float z0 = params.number("zmin", -1), z1 = params.number("zmax", 1);
+  if (z0 == z1) throw params.error("zmin", "the cylinder has no height; zmin and zmax must differ");
+  return {r, std::min(z0, z1), std::max(z0, z1), phi_max(params)};
+}
+
+using Kind = decltype(Shape::kind);
+
+std::vector<Kind> read_kinds(State& state, ParamList& params, const std::string& type) {
+  std::vector<Kind> kinds;
+  if (type == "sphere") kinds.emplace_back(sphere(params));
+  else if (type == "disk") kinds.emplace_back(disk(params));
+  else if (type == "cylinder") kinds.emplace_back(cylinder(params));
+  else if (type == "trianglemesh") kinds.emplace_back(read_triangle_mesh(params));
+  else if (type == "bilinearmesh") kinds.emplace_back(read_bilinear_mesh(params));
+  else if (type == "plymesh") kinds = read_ply_mesh(state, params);
+  else if (type == "curve" || type == "loopsubdiv")
+    throw params.error("shape \"" + type + "\" is not supported by Tyndall; convert it to a plymesh");
+  else
+    throw params.error("shape \"" + printable(type) + "\" is unknown; " +
+                       suggestion(type, {"trianglemesh", "plymesh", "bilinearmesh", "sphere", "disk", "cylinder"}));
+  return kinds;
+}
+
+/// The group of the innermost attribute or object block for the media in force; new when the block has none.
+std::optional<BoundaryId> boundary_group(State& state) {
+  const auto inside = state.graphics.inside, outside = state.graphics.outside;
+  if (inside == outside) return std::nullopt;
+  const auto block = std::find_if(state.blocks.rbegin(), state.blocks.rend(),
+                                  [](const Block& b) { return b.kind != Block::Kind::import; });
+  for (const BlockBoundary& b : block->boundaries)
+    if (b.inside == inside && b.outside == outside) return b.id;
+  const auto id = static_cast<BoundaryId>(state.scene.boundaries.size());
+  state.scene.boundaries.push_back({inside, outside});
+  block->boundaries.push_back({inside, outside, id});
+  return id;
+}
+
+std::optional<AreaLight> emission(State& state, const Location& where) {
+  if (!state.graphics.area_light) return std::nullopt;
+  if (std::holds_alternative<InterfaceMaterial>(state.scene.materials[state.graphics.material].kind)) {
+    state.reports.warn(where, "shapes with material \"interface\" do not emit: their AreaLightSource is ignored");
+    return std::nullopt;
+  }
+  return state.graphics.area_light;
+}
+
+/// A constant of 1 or more is no alpha at all.
+std::optional<TextureId> read_alpha(State& state, ParamList& params) {
+  const auto alpha = find_float_texture(state, params, "alpha");
+  if (!alpha) return std::nullopt;
+  const auto* constant = std::get_if<ConstantTexture>(&state.scene.textures[*alpha].kind);
+  return constant && constant->value.r >= 1 ? std::nullopt : alpha;
+}
+
+}  // namespace
+
+void read_shape(State& state, Tokenizer& in, const Location& where) {
+  const std::string type(in.expect_string("a kind of shape, as \"sphere\"").text);
+  ParamList params = read_param_list(state, in, "shape \"" + printable(type) + "\"", where, &AttributeDefaults::shape);
+  std::vector<Kind> kinds = read_kinds(state, params, type);
+  const auto alpha = read_alpha(state, params);
+  params.finish();
+
+  auto& shapes = state.open_object ? state.scene.objects[*state.open_object].shapes : state.scene.shapes;
+  for (Kind& kind : kinds) {
+    Shape& shape = shapes.emplace_back();
+    shape.kind = std::move(kind);
+    shape.to_world = state.graphics.ctm;
+    shape.reverse_orientation = state.graphics.reverse_orientation;
+    shape.material = state.graphics.material;
+    shape.emission = emission(state, where);
+    shape.boundary = boundary_group(state);
+    shape.alpha = alpha;
+    shape.where = where;
+  }
+}
+
+}  // namespace tyndall::pbrt

@@ -1,0 +1,105 @@
+/// What a reading of a scene file knows at each moment: the scene so far, the names in it, the graphics state.
+#pragma once
+
+#include <array>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "io/color.h"
+#include "io/pbrt_params.h"
+#include "io/pbrt_reports.h"
+#include "tyndall/scene.h"
+
+namespace tyndall::pbrt {
+
+/// Parameters that the Attribute directive gave to every later entity of a kind.
+struct AttributeDefaults {
+  std::vector<Param> shape, light, material, medium, texture;
+};
+
+/// What AttributeBegin saves and AttributeEnd restores.
+struct GraphicsState {
+  Transform ctm;
+  bool start_active = true;  ///< false after `ActiveTransform EndTime`: transforms then move only the end of the shutter
+  bool reverse_orientation = false;
+  MaterialId material = 0;
+  std::optional<AreaLight> area_light;
+  std::optional<MediumId> inside, outside;
+  const ColorSpace* color_space = nullptr;
+  std::shared_ptr<const AttributeDefaults> defaults;  ///< shared between states, replaced when Attribute adds to it
+};
+
+/// Media on the two sides, and the boundary group that shapes of this block with these media form.
+struct BlockBoundary {
+  std::optional<MediumId> inside, outside;
+  BoundaryId id;
+};
+
+struct Block {
+  enum class Kind { world, attribute, object, import } kind = Kind::world;
+  Location opened;
+  GraphicsState saved;
+  std::vector<BlockBoundary> boundaries;
+};
+
+/// Blocks and included files may be nested this deep; more is an endless recursion or a broken exporter.
+inline constexpr std::size_t kMaxDepth = 64;
+
+template <typename Id>
+using Names = std::unordered_map<std::string, Id>;
+
+struct State {
+  Scene scene;
+  Reports reports;
+  std::string folder;  ///< of the top file; relative names start here
+
+  bool in_world = false;
+  GraphicsState graphics;
+  std::vector<Block> blocks;
+  std::optional<ObjectId> open_object;
+  std::size_t include_depth = 0;
+
+  Names<MediumId> media;
+  Names<MaterialId> materials;
+  Names<TextureId> float_textures, spectrum_textures;
+  Names<ObjectId> objects;
+  Names<Transform> coordinate_systems;
+
+  // Equal constants share one texture, equal plain materials one material; a scene of a million lights needs it.
+  std::map<std::array<float, 3>, TextureId> constants;
+  std::map<TextureId, MaterialId> diffuse_materials;
+  std::optional<MaterialId> interface_material;
+  Names<Rgb> spectrum_colors;  ///< of named spectra and black bodies, by use
+
+  // Wait for WorldBegin: the film needs the camera's shutter, the settings the Film's frame.
+  Location film_where;
+  double exposure_time = 1;
+  float iso = 100;
+  bool spp_from_integrator = false, seed_from_integrator = false;
+};
+
+/// A state at the start of a file: pbrt's defaults, one default material.
+State initial_state(std::string folder);
+
+/// `name` against the top file's folder unless absolute; Error at `where` when no such file exists.
+std::string resolve_asset(const State& state, const Location& where, const std::string& name);
+
+/// The parameter list that follows in the tokenizer, with the Attribute defaults of its kind.
+ParamList read_param_list(State& state, Tokenizer& in, std::string owner, Location where,
+                          std::vector<Param> AttributeDefaults::*defaults);
+ParamList read_param_list(State& state, Tokenizer& in, std::string owner, Location where);
+
+/// All names of a table, sorted; for suggestions.
+template <typename Id>
+std::vector<std::string> names_of(const Names<Id>& table) {
+  std::vector<std::string> names;
+  for (const auto& entry : table) names.push_back(entry.first);
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+}  // namespace tyndall::pbrt

@@ -1,0 +1,160 @@
+#include "io/pbrt_textures.h"
+
+#include <utility>
+
+#include "io/pbrt_suggest.h"
+
+namespace tyndall::pbrt {
+namespace {
+
+/// Scalars and colours are the same thing but for the types and the table of names.
+enum class Content { scalar, color };
+
+TextureId operand(State& state, ParamList& params, Content content, std::string_view name, float otherwise) {
+  return content == Content::scalar ? float_texture(state, params, name, otherwise)
+                                    : color_texture(state, params, name, Rgb(otherwise));
+}
+
+TextureId look_up(const Names<TextureId>& table, const Names<TextureId>& other, const Param& p, const char* kind,
+                  const char* other_kind) {
+  if (p.strings.size() != 1) throw Error(p.where, "parameter \"" + p.name + "\" names more than one texture; give one");
+  const std::string& name = p.strings[0];
+  if (const auto it = table.find(name); it != table.end()) return it->second;
+  if (other.contains(name))
+    throw Error(p.where, "texture \"" + printable(name) + "\" is a " + other_kind + " texture, and \"" + p.name +
+                             "\" takes a " + kind + " texture; declare it as \"" + kind + "\"");
+  throw Error(p.where, std::string(kind) + " texture \"" + printable(name) + "\" is not defined; define it with Texture before line " +
+                           std::to_string(p.where.line) + " (" + suggestion(name, names_of(table)) + ")");
+}
+
+TextureMapping read_mapping(State& state, ParamList& params) {
+  using Kind = TextureMapping::Kind;
+  TextureMapping m;
+  const std::string kind = params.choice("mapping", "uv", {"uv", "spherical", "cylindrical", "planar"});
+  m.kind = kind == "uv" ? Kind::uv : kind == "spherical" ? Kind::spherical : kind == "cylindrical" ? Kind::cylindrical : Kind::planar;
+  m.scale = {params.number("uscale", 1), params.number("vscale", 1)};
+  m.offset = {params.number("udelta", 0), params.number("vdelta", 0)};
+  m.v1 = params.vector("v1", {1, 0, 0});
+  m.v2 = params.vector("v2", {0, 1, 0});
+  m.to_texture = state.graphics.ctm.inverse();
+  return m;
+}
+
+ConstantTexture read_constant(State& state, ParamList& params, Content content) {
+  if (content == Content::scalar) return {Rgb(params.number("value", 1))};
+  return {find_color(state, params, "value", ColorUse::unbounded).value_or(Rgb(1.0f))};
+}
+
+ScaleTexture read_scale(State& state, ParamList& params, Content content) {
+  return {operand(state, params, content, "tex", 1), float_texture(state, params, "scale", 1)};
+}
+
+MixTexture read_mix(State& state, ParamList& params, Content content) {
+  return {operand(state, params, content, "tex1", 0), operand(state, params, content, "tex2", 1),
+          float_texture(state, params, "amount", 0.5f)};
+}
+
+ImageTexture read_image_map(State& state, ParamList& params, Content) {
+  ImageTexture t;
+  t.mapping = read_mapping(state, params);
+  t.path = resolve_asset(state, params.where("filename"), params.string("filename", ""));
+  t.scale = params.number("scale", 1);
+  t.invert = params.boolean("invert", false);
+  const std::string wrap = params.choice("wrap", "repeat", {"repeat", "black", "clamp"});
+  t.wrap = wrap == "repeat" ? ImageTexture::Wrap::repeat : wrap == "black" ? ImageTexture::Wrap::black : ImageTexture::Wrap::clamp;
+  const std::string filter = params.choice("filter", "bilinear", {"point", "bilinear", "trilinear", "ewa", "EWA"});
+  t.filter = filter == "point" ? ImageTexture::Filter::point : ImageTexture::Filter::bilinear;
+  if (filter != "point" && filter != "bilinear")
+    params.reports().warn(params.where("filter"), "texture filter \"" + filter + "\" is replaced by \"bilinear\": textures have no levels");
+  params.ignore("maxanisotropy", {ParamType::number}, "textures have no levels");
+  t.encoding = params.string("encoding", "");
+  if (!t.encoding.empty() && t.encoding != "sRGB" && t.encoding != "linear" && !t.encoding.starts_with("gamma "))
+    throw params.error("encoding", "encoding \"" + printable(t.encoding) + "\" is unknown; use sRGB, linear or \"gamma 2.2\"");
+  return t;
+}
+
+CheckerboardTexture read_checkerboard(State& state, ParamList& params, Content content) {
+  CheckerboardTexture t{};
+  t.dimension = params.integer("dimension", 2);
+  if (t.dimension != 2 && t.dimension != 3) throw params.error("dimension", "a checkerboard has dimension 2 or 3");
+  t.mapping = read_mapping(state, params);
+  t.first = operand(state, params, content, "tex1", 1);
+  t.second = operand(state, params, content, "tex2", 0);
+  return t;
+}
+
+TextureId make_texture(State& state, ParamList& params, const std::string& kind, Content content) {
+  const auto add = [&](auto texture) {
+    params.finish();
+    state.scene.textures.push_back({std::move(texture), params.where()});
+    return static_cast<TextureId>(state.scene.textures.size() - 1);
+  };
+  if (kind == "constant") {
+    const ConstantTexture constant = read_constant(state, params, content);
+    params.finish();
+    return constant_texture(state, constant.value);
+  }
+  if (kind == "scale") return add(read_scale(state, params, content));
+  if (kind == "mix") return add(read_mix(state, params, content));
+  if (kind == "imagemap") return add(read_image_map(state, params, content));
+  if (kind == "checkerboard") return add(read_checkerboard(state, params, content));
+  for (const char* other : {"bilerp", "directionmix", "dots", "fbm", "marble", "ptex", "windy", "wrinkled"})
+    if (kind == other) throw params.error("texture \"" + kind + "\" is not supported by Tyndall; bake it into an imagemap");
+  throw params.error("texture \"" + printable(kind) + "\" is unknown; " +
+                     suggestion(kind, {"constant", "scale", "mix", "imagemap", "checkerboard"}));
+}
+
+}  // namespace
+
+TextureId constant_texture(State& state, Rgb value) {
+  auto& textures = state.scene.textures;
+  const auto [it, added] = state.constants.try_emplace({value.r, value.g, value.b}, static_cast<TextureId>(textures.size()));
+  if (added) textures.push_back({ConstantTexture{value}, {}});
+  return it->second;
+}
+
+std::optional<TextureId> find_float_texture(State& state, ParamList& params, std::string_view name) {
+  const Param* p = params.find(name, {ParamType::number, ParamType::texture});
+  if (!p) return std::nullopt;
+  if (p->type == ParamType::texture) return look_up(state.float_textures, state.spectrum_textures, *p, "float", "spectrum");
+  if (p->numbers.size() != 1) throw Error(p->where, "parameter \"" + p->name + "\" has more than one value; give one");
+  return constant_texture(state, Rgb(p->numbers[0]));
+}
+
+TextureId float_texture(State& state, ParamList& params, std::string_view name, float otherwise) {
+  const auto id = find_float_texture(state, params, name);
+  return id ? *id : constant_texture(state, Rgb(otherwise));
+}
+
+std::optional<TextureId> find_color_texture(State& state, ParamList& params, std::string_view name, ColorUse use) {
+  const Param* p = params.find(name, kColorTextureTypes);
+  if (!p) return std::nullopt;
+  if (p->type == ParamType::texture) return look_up(state.spectrum_textures, state.float_textures, *p, "spectrum", "float");
+  return constant_texture(state, to_color(state, *p, use));
+}
+
+TextureId color_texture(State& state, ParamList& params, std::string_view name, Rgb otherwise, ColorUse use) {
+  const auto id = find_color_texture(state, params, name, use);
+  return id ? *id : constant_texture(state, otherwise);
+}
+
+void read_texture(State& state, Tokenizer& in, const Location& where) {
+  const std::string name(in.expect_string("a texture name").text);
+  const Token type = in.expect_string("a texture type, \"float\" or \"spectrum\"");
+  const std::string kind(in.expect_string("a kind of texture, as \"imagemap\"").text);
+  ParamList params = read_param_list(state, in, "texture \"" + printable(kind) + "\"", where, &AttributeDefaults::texture);
+  if (type.text != "float" && type.text != "spectrum")
+    throw in.error(type.at, "texture type \"" + printable(type.text) + "\" is unknown; use \"float\" or \"spectrum\"");
+  const Content content = type.text == "float" ? Content::scalar : Content::color;
+  auto& table = content == Content::scalar ? state.float_textures : state.spectrum_textures;
+  if (table.contains(name)) throw Error(where, "texture \"" + printable(name) + "\" is defined twice; rename one");
+  try {
+    const TextureId id = make_texture(state, params, kind, content);
+    table[name] = id;
+  } catch (const Error&) {
+    table.try_emplace(name, constant_texture(state, Rgb(0.5f)));  // so that its users are not reported as well
+    throw;
+  }
+}
+
+}  // namespace tyndall::pbrt

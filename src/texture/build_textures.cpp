@@ -1,0 +1,117 @@
+#include <map>
+
+#include "math/cie.h"
+#include "texture/textures.h"
+#include "tyndall/error.h"
+#include "tyndall/io.h"
+
+namespace tyndall {
+namespace {
+
+std::vector<TextureId> inputs(const Texture& texture) {
+  if (const auto* t = std::get_if<ScaleTexture>(&texture.kind)) return {t->texture, t->scale};
+  if (const auto* t = std::get_if<MixTexture>(&texture.kind)) return {t->first, t->second, t->amount};
+  if (const auto* t = std::get_if<CheckerboardTexture>(&texture.kind)) return {t->first, t->second};
+  return {};
+}
+
+/// Inputs before the textures that use them; refuses unknown and circular references. Iterative: chains may be long.
+std::vector<TextureId> evaluation_order(const std::vector<Texture>& textures) {
+  enum class State { unseen, open, done };
+  std::vector<State> state(textures.size(), State::unseen);
+  std::vector<TextureId> order, stack;
+  for (TextureId root = 0; root < textures.size(); ++root) {
+    stack.push_back(root);
+    while (!stack.empty()) {
+      const TextureId id = stack.back();
+      if (state[id] != State::unseen) {
+        if (state[id] == State::open) order.push_back(id);
+        state[id] = State::done;
+        stack.pop_back();
+        continue;
+      }
+      state[id] = State::open;
+      for (TextureId input : inputs(textures[id])) {
+        if (input >= textures.size())
+          throw Error(textures[id].where, "texture refers to number " + std::to_string(input) + " of " +
+                                              std::to_string(textures.size()) + "; refer to an existing texture");
+        if (state[input] == State::open)
+          throw Error(textures[id].where, "texture refers to itself through its inputs; break the circle");
+        if (state[input] == State::unseen) stack.push_back(input);
+      }
+    }
+  }
+  return order;
+}
+
+}  // namespace
+
+class Textures::Builder {
+ public:
+  explicit Builder(const std::vector<Texture>& textures) : textures_(textures) {
+    result_.nodes_.resize(textures.size());
+  }
+
+  Textures build() {
+    for (TextureId id : evaluation_order(textures_)) {
+      result_.nodes_[id] = make_node(textures_[id]);
+      if (foldable(id)) result_.nodes_[id] = ConstantTexture{result_.eval(id, {})};
+    }
+    return std::move(result_);
+  }
+
+ private:
+  /// Loaded images by path and encoding, with the matrix that the file's chromaticities give.
+  struct Loaded {
+    std::size_t index;
+    std::optional<std::array<float, 9>> to_rec709;
+  };
+
+  Node make_node(const Texture& texture) {
+    if (const auto* image = std::get_if<ImageTexture>(&texture.kind)) return image_node(*image, texture.where);
+    return std::visit(
+        [](const auto& kind) -> Node {
+          if constexpr (std::is_same_v<std::decay_t<decltype(kind)>, ImageTexture>)
+            return ConstantTexture{};
+          else
+            return kind;
+        },
+        texture.kind);
+  }
+
+  Node image_node(const ImageTexture& texture, const Location& where) {
+    const auto key = std::pair(texture.path, texture.encoding);
+    auto found = loaded_.find(key);
+    if (found == loaded_.end()) found = loaded_.emplace(key, load(texture, where)).first;
+    ImageNode node{texture, found->second.index};
+    if (found->second.to_rec709) node.texture.to_rec709 = *found->second.to_rec709;
+    return node;
+  }
+
+  Loaded load(const ImageTexture& texture, const Location& where) try {
+    const Image image = read_image(texture.path, texture.encoding);
+    Loaded loaded{result_.images_.size(), {}};
+    if (image.chromaticities) loaded.to_rec709 = rec709_from(*image.chromaticities, true);
+    result_.images_.push_back(TexelImage::from(image, texture.path));
+    return loaded;
+  } catch (const Error& error) {
+    throw Error(where, error.what());
+  }
+
+  bool foldable(TextureId id) const {
+    const std::vector<TextureId> ids = inputs(textures_[id]);
+    for (TextureId input : ids)
+      if (!result_.is_constant(input)) return false;
+    if (const auto* t = std::get_if<CheckerboardTexture>(&textures_[id].kind))
+      return *result_.constant(t->first) == *result_.constant(t->second);
+    return !ids.empty();
+  }
+
+  const std::vector<Texture>& textures_;
+  std::map<std::pair<std::string, std::string>, Loaded> loaded_;
+  Textures result_;
+};
+
+Textures build_textures(const std::vector<Texture>& textures) { return Textures::Builder(textures).build(); }
+
+}  // namespace tyndall

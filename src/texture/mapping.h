@@ -1,0 +1,18 @@
+/// From a surface point to texture coordinates, with pbrt-v4's conventions.
+#pragma once
+
+#include "tyndall/scene.h"
+
+namespace tyndall {
+
+/// Where a texture is looked up: uv and the point in world space.
+struct TextureQuery {
+  Vec2 uv;
+  Vec3 p;
+};
+
+/// uv: scale * uv + offset. Of the point q in texture space: spherical (theta / pi, phi / 2 pi), cylindrical
+/// ((pi + phi') / 2 pi, q.z), planar offset + (q . v1, q . v2). phi is in [0, 2 pi), phi' in [-pi, pi].
+Vec2 map_to_texture(const TextureMapping& mapping, const TextureQuery& query);
+
+}  // namespace tyndall

@@ -1,0 +1,107 @@
+#include "texture/textures.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tyndall {
+namespace {
+
+Rgb clamp_zero(Rgb c) { return {std::max(c.r, 0.0f), std::max(c.g, 0.0f), std::max(c.b, 0.0f)}; }
+
+bool is_odd(float x) {
+  const float f = std::floor(x);
+  return f - 2 * std::floor(f * 0.5f) != 0;
+}
+
+/// The pattern's value at a point. pbrt-v4 filters it over the pixel; many samples a pixel converge to the same.
+TextureId checker(const CheckerboardTexture& texture, const TextureQuery& query) {
+  bool odd;
+  if (texture.dimension == 3) {
+    const Vec3 q = texture.mapping.to_texture.point(query.p);
+    odd = (is_odd(q.x) != is_odd(q.y)) != is_odd(q.z);
+  } else {
+    const Vec2 st = map_to_texture(texture.mapping, query);
+    odd = is_odd(st.x) != is_odd(st.y);
+  }
+  return odd ? texture.second : texture.first;
+}
+
+Vec2 image_coordinates(const ImageTexture& texture, const TextureQuery& query) {
+  const Vec2 st = map_to_texture(texture.mapping, query);
+  return {st.x, 1 - st.y};  // v points up, rows go down
+}
+
+Rgb lookup(const TexelImage& image, const ImageTexture& texture, Vec2 st) {
+  return texture.filter == ImageTexture::Filter::point ? image.nearest(st, texture.wrap) : image.bilinear(st, texture.wrap);
+}
+
+float lookup_alpha(const TexelImage& image, const ImageTexture& texture, Vec2 st) {
+  return texture.filter == ImageTexture::Filter::point ? image.nearest_alpha(st, texture.wrap)
+                                                       : image.bilinear_alpha(st, texture.wrap);
+}
+
+}  // namespace
+
+struct Textures::RgbEvaluator {
+  const Textures& textures;
+  const TextureQuery& query;
+
+  Rgb operator()(const ConstantTexture& t) const { return t.value; }
+  Rgb operator()(const ScaleTexture& t) const {
+    return textures.eval(t.texture, query) * textures.eval_float(t.scale, query);
+  }
+  Rgb operator()(const MixTexture& t) const {
+    const float amount = textures.eval_float(t.amount, query);
+    return (1 - amount) * textures.eval(t.first, query) + amount * textures.eval(t.second, query);
+  }
+  Rgb operator()(const ImageNode& node) const {
+    const ImageTexture& t = node.texture;
+    Rgb c = t.scale * lookup(textures.images_[node.image], t, image_coordinates(t, query));
+    c = clamp_zero(t.invert ? Rgb(1.0f) - c : c);
+    return t.to_rec709 == TexelImage::kIdentity ? c : clamp_zero(transformed(t.to_rec709, c));
+  }
+  Rgb operator()(const CheckerboardTexture& t) const { return textures.eval(checker(t, query), query); }
+};
+
+struct Textures::FloatEvaluator {
+  const Textures& textures;
+  const TextureQuery& query;
+
+  float operator()(const ConstantTexture& t) const { return mean(t.value); }
+  float operator()(const ScaleTexture& t) const {
+    return textures.eval_float(t.texture, query) * textures.eval_float(t.scale, query);
+  }
+  float operator()(const MixTexture& t) const {
+    const float amount = textures.eval_float(t.amount, query);
+    return (1 - amount) * textures.eval_float(t.first, query) + amount * textures.eval_float(t.second, query);
+  }
+  float operator()(const ImageNode& node) const {
+    const ImageTexture& t = node.texture;
+    const TexelImage& image = textures.images_[node.image];
+    const Vec2 st = image_coordinates(t, query);
+    const float value = t.scale * (image.has_alpha() ? lookup_alpha(image, t, st) : mean(lookup(image, t, st)));
+    return t.invert ? std::max(0.0f, 1 - value) : value;
+  }
+  float operator()(const CheckerboardTexture& t) const { return textures.eval_float(checker(t, query), query); }
+};
+
+Rgb Textures::eval(TextureId id, const TextureQuery& query) const {
+  return std::visit(RgbEvaluator{*this, query}, nodes_[id]);
+}
+
+float Textures::eval_float(TextureId id, const TextureQuery& query) const {
+  return std::visit(FloatEvaluator{*this, query}, nodes_[id]);
+}
+
+std::optional<Rgb> Textures::constant(TextureId id) const {
+  if (const auto* t = std::get_if<ConstantTexture>(&nodes_[id])) return t->value;
+  return {};
+}
+
+std::size_t Textures::memory_bytes() const {
+  std::size_t sum = 0;
+  for (const TexelImage& image : images_) sum += image.memory_bytes();
+  return sum;
+}
+
+}  // namespace tyndall

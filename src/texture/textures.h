@@ -1,0 +1,47 @@
+/// The scene's textures, built once and evaluated at shading points.
+#pragma once
+
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "texture/mapping.h"
+#include "texture/texel_image.h"
+#include "tyndall/scene.h"
+
+namespace tyndall {
+
+/// Immutable after build_textures; safe to evaluate from any number of threads.
+class Textures {
+ public:
+  Rgb eval(TextureId id, const TextureQuery& query) const;
+  /// For scalar parameters (roughness, alpha, amounts): the mean of the channels; of an image that has transparency
+  /// its alpha, as pbrt's float textures. The scale of a ScaleTexture and the amount of a MixTexture are scalars too.
+  float eval_float(TextureId id, const TextureQuery& query) const;
+  /// The value when it is the same everywhere.
+  std::optional<Rgb> constant(TextureId id) const;
+  bool is_constant(TextureId id) const { return constant(id).has_value(); }
+  std::size_t size() const { return nodes_.size(); }
+  std::size_t image_count() const { return images_.size(); }
+  std::size_t memory_bytes() const;  ///< of the images
+
+ private:
+  friend Textures build_textures(const std::vector<Texture>& textures);
+  struct ImageNode {
+    ImageTexture texture;  ///< to_rec709 replaced by the file's own where it states chromaticities
+    std::size_t image;     ///< into images_
+  };
+  using Node = std::variant<ConstantTexture, ScaleTexture, MixTexture, ImageNode, CheckerboardTexture>;
+  struct RgbEvaluator;
+  struct FloatEvaluator;
+  class Builder;
+
+  std::vector<Node> nodes_;
+  std::vector<TexelImage> images_;
+};
+
+/// Loads every image once (textures of the same path and encoding share it) and folds what is constant.
+/// Throws Error (scene) at the texture's place: an image that cannot be read, an unknown or a circular reference.
+Textures build_textures(const std::vector<Texture>& textures);
+
+}  // namespace tyndall

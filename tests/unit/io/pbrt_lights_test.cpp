@@ -1,0 +1,126 @@
+#include "io/color.h"
+#include "unit/io/scene_text.h"
+
+using namespace tyndall;
+using test::read_world;
+using test::world_error;
+
+namespace {
+
+template <typename Kind>
+Kind light(const std::string& text) {
+  return std::get<Kind>(read_world(text).lights.at(0).kind);
+}
+
+AreaLight area(const std::string& params) {
+  return *read_world("AreaLightSource \"diffuse\" " + params + " Shape \"sphere\"").shapes.at(0).emission;
+}
+
+void check_near(Rgb a, Rgb b) {
+  for (int i = 0; i < 3; ++i) CHECK(a[i] == doctest::Approx(b[i]).epsilon(1e-5).scale(1));
+}
+
+}  // namespace
+
+TEST_CASE("point") {
+  const auto p = light<PointLight>("Scale 2 2 2 LightSource \"point\" \"point3 from\" [1 2 3] \"rgb I\" [6 5 4] \"float scale\" .5");
+  CHECK(p.position == Vec3{2, 4, 6});
+  check_near(p.I, {3, 2.5f, 2});
+  check_near(light<PointLight>("LightSource \"point\"").I, Rgb(1.0f));
+  // Power is spread over the sphere; scale multiplies it.
+  check_near(light<PointLight>("LightSource \"point\" \"float power\" 80 \"float scale\" .5").I, Rgb(40 / (4 * kPi)));
+}
+
+TEST_CASE("spectra of lights are scaled to luminance 1") {
+  const Rgb warm = light<PointLight>("LightSource \"point\" \"blackbody I\" 3000 \"float scale\" 5").I;
+  CHECK(luminance(warm) == doctest::Approx(5).epsilon(1e-3));
+  CHECK(warm.r > warm.b);
+  CHECK(luminance(light<PointLight>("LightSource \"point\" \"spectrum I\" [300 7 900 7]").I) == doctest::Approx(1).epsilon(1e-3));
+  check_near(light<PointLight>("LightSource \"point\" \"spectrum I\" \"stdillum-D65\"").I, illuminant_rgb(*named_spectrum("stdillum-D65")));
+}
+
+TEST_CASE("spot") {
+  const auto s = light<SpotLight>("LightSource \"spot\" \"point3 from\" [1 0 0] \"point3 to\" [1 5 0] \"rgb I\" [1 2 3] \"float coneangle\" 40 \"float conedeltaangle\" 10");
+  CHECK(s.to_world.point({0, 0, 0}) == Vec3{1, 0, 0});
+  const Vec3 axis = s.to_world.vector({0, 0, 1});
+  CHECK(axis.y == doctest::Approx(1));
+  CHECK_FALSE(s.to_world.swaps_handedness());
+  CHECK(s.cone_angle_degrees == 40);
+  CHECK(s.falloff_start_degrees == 30);
+  // The power integrates the smoothstep falloff: 2 pi (1 - (cos 30 + cos 40) / 2).
+  const auto p = light<SpotLight>("LightSource \"spot\" \"float power\" 10 \"float coneangle\" 40 \"float conedeltaangle\" 10");
+  check_near(p.I, Rgb(10 / (2 * kPi * (1 - (0.8660254f + 0.7660444f) / 2))));
+  CHECK_CONTAINS(world_error("LightSource \"spot\" \"point3 to\" [0 0 0]"), "same point");
+  CHECK_CONTAINS(world_error("LightSource \"spot\" \"float coneangle\" 0"), "coneangle must be above 0");
+}
+
+TEST_CASE("distant") {
+  const auto d = light<DistantLight>("LightSource \"distant\" \"point3 from\" [0 2 0] \"point3 to\" [0 0 0] \"rgb L\" [2 2 2] \"float scale\" 3");
+  CHECK(d.direction == Vec3{0, -1, 0});
+  check_near(d.E, Rgb(6.0f));
+  CHECK(light<DistantLight>("LightSource \"distant\"").direction == Vec3{0, 0, 1});
+  check_near(light<DistantLight>("LightSource \"distant\" \"float illuminance\" 7").E, Rgb(7.0f));
+  const Vec3 turned = light<DistantLight>("Rotate 90 1 0 0 LightSource \"distant\"").direction;
+  CHECK(turned.y == doctest::Approx(-1));
+}
+
+TEST_CASE("infinite") {
+  check_near(light<InfiniteLight>("LightSource \"infinite\" \"rgb L\" [1 2 3] \"float scale\" 2").L, {2, 4, 6});
+  check_near(light<InfiniteLight>("LightSource \"infinite\" \"float illuminance\" 10").L, Rgb(10 / kPi));
+  const test::TempFolder folder;
+  folder.write("sky.exr", "not read here");
+  const Scene s = read_scene_text("WorldBegin Rotate 90 0 1 0 LightSource \"infinite\" \"string filename\" \"sky.exr\" \"float scale\" 3 \"float illuminance\" 9",
+                                  "test.pbrt", folder.path()).scene;
+  const auto map = std::get<InfiniteLight>(s.lights.at(0).kind);
+  CHECK(map.path == folder.path() + "/sky.exr");
+  CHECK(map.L == Rgb(3.0f));
+  CHECK(*map.illuminance == 9);
+  CHECK_FALSE(map.to_world.is_identity());
+  CHECK_CONTAINS(world_error("LightSource \"infinite\" \"point3 portal\" [0 0 0 1 0 0 1 1 0 0 1 0]"), "portals are not supported");
+  CHECK_CONTAINS(world_error("LightSource \"infinite\" \"string filename\" \"absent.exr\""), "does not exist");
+}
+
+TEST_CASE("area lights") {
+  check_near(area("").L, Rgb(1.0f));
+  const AreaLight a = area("\"rgb L\" [4 8 3] \"float scale\" 2 \"bool twosided\" true \"float power\" 40");
+  check_near(a.L, {8, 16, 6});
+  CHECK(a.two_sided);
+  CHECK(*a.power == 40);
+  CHECK_FALSE(area("\"float power\" -1").power);
+  CHECK_FALSE(area("").two_sided);
+  CHECK_CONTAINS(world_error("AreaLightSource \"diffus\""), "did you mean \"diffuse\"?");
+}
+
+TEST_CASE("an interface does not emit, and that is said") {
+  const SceneFile file = test::read_world_file("AreaLightSource \"diffuse\" Material \"interface\" Shape \"sphere\"");
+  CHECK_FALSE(file.scene.shapes.at(0).emission);
+  CHECK(file.warnings.size() == 1);
+}
+
+TEST_CASE("colours are read in the colour space in force") {
+  const ColorSpace& aces = *find_color_space("aces2065-1");
+  check_near(light<PointLight>("ColorSpace \"aces2065-1\" LightSource \"point\" \"rgb I\" [1 2 3]").I, mul(aces.to_rec709, {1, 2, 3}));
+  check_near(light<PointLight>("ColorSpace \"aces2065-1\" LightSource \"point\"").I, mul(aces.to_rec709, Rgb(1.0f)));
+  // The Attribute's parameters keep the space of their own place.
+  check_near(light<PointLight>("ColorSpace \"aces2065-1\" Attribute \"light\" \"rgb I\" [1 2 3] ColorSpace \"srgb\" LightSource \"point\"").I,
+             mul(aces.to_rec709, {1, 2, 3}));
+  const Scene s = read_world("ColorSpace \"aces2065-1\" Material \"diffuse\" \"rgb reflectance\" [.5 .5 .5]");
+  check_near(test::constant(s, std::get<DiffuseMaterial>(s.materials[0].kind).reflectance), Rgb(.5f));
+}
+
+TEST_CASE("light errors") {
+  CHECK_CONTAINS(world_error("LightSource \"goniometric\""), "not supported by Tyndall");
+  CHECK_CONTAINS(world_error("LightSource \"pint\""), "did you mean \"point\"?");
+  CHECK_CONTAINS(world_error("LightSource \"point\" \"rgb L\" [1 1 1]"), "light \"point\" has no parameter \"L\"");
+  CHECK_CONTAINS(world_error("LightSource \"point\" \"spectrum I\" \"metal-Xx\""), "neither a named spectrum");
+  CHECK_CONTAINS(world_error("LightSource \"point\" \"spectrum I\" [400 1 300 1]"), "wavelengths out of order");
+  CHECK_CONTAINS(world_error("LightSource \"point\" \"spectrum I\" [400 1 500]"), "odd number of values");
+  CHECK_CONTAINS(world_error("LightSource \"point\" \"blackbody I\" -3"), "no temperature");
+}
+
+TEST_CASE("spectra come from files too") {
+  const test::TempFolder folder;
+  folder.write("flat.spd", "# wavelength value\n300 2\n900 2\n");
+  const Scene s = read_scene_text("WorldBegin MakeNamedMedium \"m\" \"string type\" \"homogeneous\" \"spectrum sigma_s\" \"flat.spd\"", "test.pbrt", folder.path()).scene;
+  check_near(s.media.at(0).optics.sigma_s, Rgb(2.0f));
+}

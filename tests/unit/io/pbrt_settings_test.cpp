@@ -1,0 +1,74 @@
+#include "unit/io/scene_text.h"
+
+using namespace tyndall;
+using test::error_of;
+
+namespace {
+
+RenderSettings settings(const std::string& directives) { return test::read(directives + " WorldBegin").settings; }
+
+}  // namespace
+
+TEST_CASE("Sampler gives samples and seed") {
+  CHECK(settings("Sampler \"zsobol\" \"integer pixelsamples\" 128 \"integer seed\" 7").spp == 128);
+  CHECK(settings("Sampler \"zsobol\" \"integer pixelsamples\" 128 \"integer seed\" 7").seed == 7);
+  CHECK(settings("Sampler \"stratified\" \"integer xsamples\" 3 \"integer ysamples\" 5 \"bool jitter\" true").spp == 15);
+  CHECK(settings("Sampler \"independent\"").spp == 4);
+  CHECK(settings("Sampler \"halton\" \"string randomization\" \"none\"").spp == 16);
+  CHECK_CONTAINS(error_of("Sampler \"sobul\""), "did you mean \"sobol\"?");
+  CHECK_CONTAINS(error_of("Sampler \"sobol\" \"integer pixelsamples\" 0"), "at least 1");
+}
+
+TEST_CASE("Integrator gives depth and light sampler") {
+  CHECK(settings("Integrator \"volpath\" \"integer maxdepth\" 30").max_depth == 30);
+  CHECK(settings("Integrator \"path\"").max_depth == 5);
+  CHECK(settings("Integrator \"volpath\" \"string lightsampler\" \"power\"").lights == LightStrategy::power);
+  CHECK(settings("Integrator \"volpath\" \"string lightsampler\" \"uniform\"").lights == LightStrategy::uniform);
+  CHECK(settings("Integrator \"volpath\" \"string lightsampler\" \"exhaustive\"").lights == LightStrategy::exhaustive);
+  CHECK(settings("Integrator \"volpath\" \"string lightsampler\" \"bvh\"").lights == LightStrategy::tree_binary);
+  CHECK_CONTAINS(error_of("Integrator \"volpath\" \"string lightsampler\" \"bvx\""), "did you mean \"bvh\"?");
+  CHECK_CONTAINS(error_of("Integrator \"volpaht\""), "did you mean \"volpath\"");
+  CHECK_CONTAINS(error_of("Integrator \"volpath\" \"integer maxdepth\" -1"), "at least 0");
+}
+
+TEST_CASE("Tyndall's own options stand on the Integrator line") {
+  const RenderSettings s = settings(R"(Integrator "volpath" "string lights" "uniform" "string transmittance" "ratio" "integer spp" 9
+    "integer seed" 5 "float time" 2.5 "integer threads" 2 "string aov" ["Albedo" "N"] "bool reproducible" true "integer crop" [1 2 3 4]
+    "integer max-depth" 12)");
+  CHECK(s.lights == LightStrategy::uniform);
+  CHECK(s.transmittance == TransmittanceStrategy::ratio);
+  CHECK(s.spp == 9);
+  CHECK(s.seed == 5);
+  CHECK(*s.time == 2.5);
+  CHECK(s.threads == 2);
+  CHECK(s.aovs == std::vector<std::string>{"Albedo", "N"});
+  CHECK(s.reproducible);
+  CHECK(*s.crop == PixelBounds{1, 3, 2, 4});
+  CHECK(s.max_depth == 12);
+  CHECK_CONTAINS(error_of("Integrator \"volpath\" \"string lights\" \"tree-binari\""), "did you mean \"tree-binary\"?");
+  CHECK_CONTAINS(error_of("Integrator \"volpath\" \"string aov\" \"Albdo\""), "did you mean \"Albedo\"?");
+  CHECK_CONTAINS(error_of("Integrator \"volpath\" \"float time\" 0"), "above 0 seconds");
+}
+
+TEST_CASE("spp and seed of the Integrator win over the Sampler's, in either order") {
+  CHECK(settings("Sampler \"sobol\" \"integer pixelsamples\" 64 Integrator \"volpath\" \"integer spp\" 9").spp == 9);
+  CHECK(settings("Integrator \"volpath\" \"integer spp\" 9 \"integer seed\" 3 Sampler \"sobol\" \"integer pixelsamples\" 64").spp == 9);
+  CHECK(settings("Integrator \"volpath\" \"integer seed\" 3 Sampler \"sobol\" \"integer seed\" 4").seed == 3);
+}
+
+TEST_CASE("what is known and not honoured is a warning") {
+  const auto warnings = [](const std::string& text) { return read_scene_text(text + " WorldBegin", "test.pbrt").warnings.size(); };
+  CHECK(warnings("Integrator \"bdpt\" \"bool visualizestrategies\" false") == 1);
+  CHECK(warnings("Integrator \"volpath\" \"bool regularize\" true") == 1);
+  CHECK(warnings("Integrator \"volpath\" \"bool regularize\" false") == 0);
+  CHECK(warnings("Option \"disablepixeljitter\" true") == 1);
+  CHECK(warnings("Option \"disablepixeljitter\" false Option \"wavefront\" true") == 0);
+  CHECK(warnings("Accelerator \"kdtree\" \"integer maxdepth\" 3") == 0);
+}
+
+TEST_CASE("Option") {
+  CHECK(settings("Option \"seed\" 42").seed == 42);
+  CHECK(settings("Option \"string render-coord-sys\" \"world\"").seed == 0);
+  CHECK_CONTAINS(error_of("Option \"sead\" 1"), "did you mean \"seed\"?");
+  CHECK_CONTAINS(error_of("Option \"seed\""), "no value");
+}

@@ -1,0 +1,86 @@
+#include "unit/io/scene_text.h"
+
+using namespace tyndall;
+using test::read_world;
+using test::world_error;
+
+namespace {
+
+template <typename Kind>
+Kind last_texture(const Scene& scene) {
+  return std::get<Kind>(scene.textures.back().kind);
+}
+
+}  // namespace
+
+TEST_CASE("constants of one value are one texture") {
+  const Scene s = read_world(R"(Material "diffuse" "rgb reflectance" [.1 .1 .1] Material "dielectric" "float roughness" .1
+    Texture "c" "float" "constant" "float value" .1 Texture "d" "spectrum" "constant" "rgb value" [.1 .1 .1])");
+  int equal = 0;
+  for (const Texture& t : s.textures)
+    if (const auto* c = std::get_if<ConstantTexture>(&t.kind)) equal += c->value == Rgb(.1f);
+  CHECK(equal == 1);
+}
+
+TEST_CASE("scale and mix of constants and textures") {
+  const Scene s = read_world(R"(Texture "a" "spectrum" "constant" "rgb value" [.2 .4 .6]
+    Texture "f" "float" "constant" "float value" .3
+    Texture "m" "spectrum" "mix" "texture tex1" "a" "rgb tex2" [1 0 0] "texture amount" "f"
+    Texture "s" "spectrum" "scale" "texture tex" "m" "float scale" .5)");
+  const auto scale = last_texture<ScaleTexture>(s);
+  CHECK(test::constant(s, scale.scale) == Rgb(.5f));
+  const auto mix = std::get<MixTexture>(s.textures.at(scale.texture).kind);
+  CHECK(test::constant(s, mix.first) == Rgb(.2f, .4f, .6f));
+  CHECK(test::constant(s, mix.second) == Rgb(1, 0, 0));
+  CHECK(test::constant(s, mix.amount) == Rgb(.3f));
+  const auto plain = last_texture<MixTexture>(read_world("Texture \"m\" \"float\" \"mix\""));
+  CHECK(plain.first != plain.second);
+}
+
+TEST_CASE("checkerboard and mappings") {
+  const Scene s = read_world(R"(Translate 1 2 3 Texture "c" "spectrum" "checkerboard" "integer dimension" 3 "rgb tex1" [.1 .1 .1]
+    "string mapping" "planar" "vector3 v1" [1 2 3] "vector3 v2" [4 5 6] "float udelta" 7 "float vscale" 8)");
+  const auto c = last_texture<CheckerboardTexture>(s);
+  CHECK(c.dimension == 3);
+  CHECK(test::constant(s, c.first) == Rgb(.1f));
+  CHECK(test::constant(s, c.second) == Rgb(0.0f));
+  CHECK(c.mapping.kind == TextureMapping::Kind::planar);
+  CHECK(c.mapping.v1 == Vec3{1, 2, 3});
+  CHECK(c.mapping.v2 == Vec3{4, 5, 6});
+  CHECK(c.mapping.offset.x == 7);
+  CHECK(c.mapping.scale.y == 8);
+  CHECK(c.mapping.to_texture.point({1, 2, 3}) == Vec3{0, 0, 0});
+  CHECK_CONTAINS(world_error("Texture \"c\" \"float\" \"checkerboard\" \"integer dimension\" 4"), "dimension 2 or 3");
+  CHECK_CONTAINS(world_error("Texture \"c\" \"float\" \"checkerboard\" \"string mapping\" \"cubic\""), "\"cubic\" is no mapping");
+}
+
+TEST_CASE("imagemap") {
+  const test::TempFolder folder;
+  folder.write("tex/a.png", "not read here");
+  const SceneFile file = read_scene_text(R"(WorldBegin Texture "i" "spectrum" "imagemap" "string filename" "tex/a.png" "string wrap" "clamp"
+    "string filter" "trilinear" "float scale" 2 "bool invert" true "string encoding" "gamma 2.2" "float maxanisotropy" 8)",
+                                         "test.pbrt", folder.path());
+  const auto t = last_texture<ImageTexture>(file.scene);
+  CHECK(t.path == folder.path() + "/tex/a.png");
+  CHECK(t.wrap == ImageTexture::Wrap::clamp);
+  CHECK(t.filter == ImageTexture::Filter::bilinear);
+  CHECK(t.scale == 2);
+  CHECK(t.invert);
+  CHECK(t.encoding == "gamma 2.2");
+  CHECK(file.warnings.size() == 2);
+  CHECK_CONTAINS(world_error("Texture \"i\" \"float\" \"imagemap\" \"string filename\" \"absent.png\""), "test.pbrt:1:43: file \"absent.png\" does not exist");
+  CHECK_CONTAINS(world_error("Texture \"i\" \"float\" \"imagemap\""), "file name is empty");
+}
+
+TEST_CASE("textures are looked up by kind, and must stand before") {
+  CHECK_CONTAINS(world_error("Material \"diffuse\" \"texture reflectance\" \"w\""),
+                 "spectrum texture \"w\" is not defined; define it with Texture before line 1");
+  CHECK_CONTAINS(world_error("Texture \"f\" \"float\" \"constant\" Material \"diffuse\" \"texture reflectance\" \"f\""),
+                 "texture \"f\" is a float texture, and \"reflectance\" takes a spectrum texture");
+  CHECK_CONTAINS(world_error("Texture \"f\" \"float\" \"scale\" \"texture tex\" \"f\""), "is not defined");
+  CHECK_CONTAINS(world_error("Texture \"f\" \"float\" \"constant\" Texture \"f\" \"float\" \"constant\""), "defined twice");
+  CHECK_CONTAINS(world_error("Texture \"f\" \"color\" \"constant\""), "use \"float\" or \"spectrum\"");
+  CHECK_CONTAINS(world_error("Texture \"f\" \"float\" \"fbm\""), "not supported by Tyndall");
+  CHECK_CONTAINS(world_error("Texture \"f\" \"float\" \"scales\""), "did you mean \"scale\"?");
+  CHECK(world_error("Texture \"f\" \"float\" \"constant\" Texture \"f\" \"spectrum\" \"constant\"") == "no error");
+}

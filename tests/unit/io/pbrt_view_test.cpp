@@ -1,0 +1,100 @@
+#include "unit/io/scene_text.h"
+
+using namespace tyndall;
+using test::error_of;
+using test::read;
+
+TEST_CASE("without any directive pbrt's defaults hold") {
+  const Scene s = read("WorldBegin");
+  CHECK(s.camera.kind == Camera::Kind::perspective);
+  CHECK(s.camera.fov_degrees == 90);
+  CHECK(s.camera.to_world.is_identity());
+  CHECK_FALSE(s.camera.medium);
+  CHECK(s.film.width == 1280);
+  CHECK(s.film.height == 720);
+  CHECK(s.film.imaging_ratio == 1);
+  CHECK(s.film.max_component == kInfinity);
+  CHECK(s.filter.kind == PixelFilter::Kind::gaussian);
+  CHECK(s.settings.spp == 16);
+  CHECK(s.settings.max_depth == 5);
+  CHECK(s.source == "test.pbrt");
+}
+
+TEST_CASE("Camera") {
+  const Scene s = read(R"(LookAt 0 0 -5 0 0 0 0 1 0
+    Camera "perspective" "float fov" 40 "float lensradius" .1 "float focaldistance" 5 "float frameaspectratio" 2
+      "float screenwindow" [-1 1 -.5 .5] WorldBegin)");
+  CHECK(s.camera.fov_degrees == 40);
+  CHECK(s.camera.lens_radius == .1f);
+  CHECK(s.camera.focal_distance == 5);
+  CHECK(*s.camera.frame_aspect_ratio == 2);
+  CHECK(*s.camera.screen_window == std::array<float, 4>{-1, 1, -.5f, .5f});
+  CHECK(s.camera.to_world.point({0, 0, 0}).z == doctest::Approx(-5));
+  CHECK(read("Camera \"orthographic\" WorldBegin").camera.kind == Camera::Kind::orthographic);
+  CHECK_CONTAINS(error_of("Camera \"orthographic\" \"float fov\" 3"), "has no parameter \"fov\"");
+  CHECK_CONTAINS(error_of("Camera \"perspective\" \"float fov\" 180"), "fov must lie between");
+  CHECK_CONTAINS(error_of("Camera \"perspective\" \"float screenwindow\" [1 2]"), "takes four numbers");
+  CHECK_CONTAINS(error_of("Camera \"perspective\" \"float shutteropen\" 2"), "shutter does not open");
+  CHECK_CONTAINS(error_of("Camera \"spherical\""), "not supported by Tyndall");
+  CHECK_CONTAINS(error_of("Camera \"perspectiv\""), "did you mean \"perspective\"?");
+}
+
+TEST_CASE("the camera's medium is the outside of the MediumInterface before it") {
+  const Scene s = read(R"(MakeNamedMedium "fog" "string type" "homogeneous" MediumInterface "" "fog" Camera "perspective" WorldBegin)");
+  CHECK(s.camera.medium == MediumId{0});
+  CHECK_FALSE(read("MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" Camera \"perspective\" MediumInterface \"fog\" WorldBegin").camera.medium);
+}
+
+TEST_CASE("Film: size, crop, exposure") {
+  const Film f = read(R"(Film "rgb" "integer xresolution" 200 "integer yresolution" 100 "string filename" "a.exr" "float iso" 200
+    "float maxcomponentvalue" 10 "bool savefp16" false "float diagonal" 20 "string sensor" "cie1931" "float cropwindow" [.25 .5 0 .333]
+    Camera "perspective" "float shutterclose" .25 WorldBegin)").film;
+  CHECK(f.width == 200);
+  CHECK(f.height == 100);
+  CHECK(f.filename == "a.exr");
+  CHECK(f.imaging_ratio == doctest::Approx(0.5));
+  CHECK(f.max_component == 10);
+  CHECK(f.crop == PixelBounds{50, 0, 100, 34});
+  CHECK_FALSE(f.gbuffer);
+  const Film g = read("Film \"gbuffer\" \"integer xresolution\" 64 \"integer yresolution\" 64 \"integer pixelbounds\" [8 16 4 99] WorldBegin").film;
+  CHECK(g.gbuffer);
+  CHECK(g.crop == PixelBounds{8, 4, 16, 64});
+  CHECK_CONTAINS(error_of("Film \"rgb\" \"integer xresolution\" 0"), "xresolution must be from 1");
+  CHECK_CONTAINS(error_of("Film \"rgb\" \"float cropwindow\" [.5 .5 0 1]"), "leaves no pixel");
+  CHECK_CONTAINS(error_of("Film \"spectral\""), "not supported");
+  CHECK_CONTAINS(error_of("Film \"rgb\" \"float gain\" 1"), "film \"rgb\" has no parameter \"gain\"");
+}
+
+TEST_CASE("sensors are not simulated, and that is said once") {
+  const SceneFile file = read_scene_text("Film \"rgb\" \"string sensor\" \"canon_eos_100d\" \"float whitebalance\" 5000 WorldBegin", "test.pbrt");
+  CHECK(file.warnings.size() == 2);
+}
+
+TEST_CASE("the film is written in the colour space in force at Film") {
+  const Film f = read("ColorSpace \"aces2065-1\" Film \"rgb\" ColorSpace \"srgb\" WorldBegin").film;
+  CHECK(f.chromaticities.red.x == doctest::Approx(0.7347));
+  CHECK(f.from_rec709[0] != 1);
+  CHECK_CONTAINS(error_of("ColorSpace \"aces\""), "colour space \"aces\" is unknown");
+}
+
+TEST_CASE("PixelFilter") {
+  struct Row {
+    const char* name;
+    PixelFilter::Kind kind;
+    float radius;
+  };
+  using Kind = PixelFilter::Kind;
+  for (const Row& row : {Row{"box", Kind::box, .5f}, {"triangle", Kind::triangle, 2}, {"gaussian", Kind::gaussian, 1.5f},
+                         {"mitchell", Kind::mitchell, 2}, {"sinc", Kind::sinc, 4}}) {
+    const PixelFilter f = read("PixelFilter \"" + std::string(row.name) + "\" \"float yradius\" 3 WorldBegin").filter;
+    CHECK(f.kind == row.kind);
+    CHECK(f.radius.x == row.radius);
+    CHECK(f.radius.y == 3);
+  }
+  CHECK(read("PixelFilter \"mitchell\" \"float B\" .2 \"float C\" .4 WorldBegin").filter.c == .4f);
+  CHECK(read("PixelFilter \"sinc\" \"float tau\" 5 WorldBegin").filter.tau == 5);
+  CHECK(read("PixelFilter \"gaussian\" \"float sigma\" 1 WorldBegin").filter.sigma == 1);
+  CHECK_CONTAINS(error_of("PixelFilter \"box\" \"float sigma\" 1"), "no parameter \"sigma\"");
+  CHECK_CONTAINS(error_of("PixelFilter \"box\" \"float xradius\" 0"), "above 0");
+  CHECK_CONTAINS(error_of("PixelFilter \"tent\""), "filter \"tent\" is unknown");
+}
