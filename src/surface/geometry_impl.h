@@ -1,0 +1,124 @@
+/// What Geometry is made of. Private to surface/geometry*.
+#pragma once
+
+#include <atomic>
+#include <mutex>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include <embree3/rtcore.h>
+
+#include "surface/geometry.h"
+#include "surface/shape_mesh.h"
+#include "surface/shape_quadric.h"
+
+namespace tyndall {
+
+struct EmbreeRelease {
+  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+  void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
+};
+template <typename Handle>
+using Embree = std::unique_ptr<std::remove_pointer_t<Handle>, EmbreeRelease>;
+
+/// One shape in the space it was placed in. Its index in its set is its Embree geometry id.
+struct Part {
+  const Shape* shape;
+  std::variant<PlacedMesh, PlacedQuadric> form;
+  bool is_patch = false;  ///< the mesh is one of bilinear patches
+  bool real = true;       ///< not of interface material
+  std::uint32_t index = 0;
+  const Textures* alpha_textures = nullptr;  ///< null: opaque
+
+  std::uint32_t primitive_count() const;
+  Bounds3 primitive_bounds(std::uint32_t primitive) const;
+  ShapeRoots intersect(std::uint32_t primitive, const ShapeRay& ray) const;
+  ShapeSurface surface(std::uint32_t primitive, double u, double v) const;
+  int orientation(std::uint32_t primitive) const;  ///< of ng against the roots' facing
+};
+
+/// The shapes of the world, or of one object. Two structures: real surfaces, and everything that bounds media.
+struct PartSet {
+  std::vector<Part> parts;
+  Embree<RTCScene> real, boundary;  ///< null: nothing of that kind
+  Bounds3 bounds;
+};
+
+/// An object placed in the world.
+struct PlacedObject {
+  const PartSet* set;
+  AffineMap map;
+  std::uint32_t first_placed;  ///< index into placed() of the object's first shape
+};
+
+/// The passage of a ray through one primitive of a boundary, before duplicates are removed.
+struct BoundaryRecord {
+  double t;
+  double cosine;
+  std::uint32_t group, shape, primitive;  ///< shape: into placed()
+  int sign;
+};
+using BoundaryRecords = SmallVector<BoundaryRecord, 16>;
+
+struct GeometryImpl {
+  GeometryImpl(const Scene& scene, const Textures* textures, int threads);
+
+  // Embree reports to these until the device is gone, and everything built with the device is released before it.
+  std::atomic<std::ptrdiff_t> embree_bytes = 0;
+  std::mutex error_mutex;
+  std::string error;  ///< first complaint of Embree
+  Embree<RTCDevice> device;
+
+  std::vector<PlacedShape> placed;
+  std::vector<BoundaryGroup> groups;
+  std::vector<std::unique_ptr<PartSet>> sets;  ///< the world, then one for each object
+  std::vector<PlacedObject> objects;           ///< one for each instance; Embree id: parts of the world + index
+  Bounds3 bounds;
+  std::size_t triangle_count = 0;
+
+  const PartSet& world() const { return *sets.front(); }
+  std::size_t vertex_bytes() const;
+
+ private:
+  void create_device(int threads);
+  void place_shapes(const Scene& scene);
+  std::unique_ptr<PartSet> make_set(const Scene& scene, const std::vector<Shape>& shapes, const Textures* textures);
+  void build_set(PartSet& set, bool with_objects);
+  Embree<RTCScene> build_scene(PartSet& set, bool real, bool with_objects);
+  void attach_part(RTCScene scene, Part& part, bool real);
+  void attach_object(RTCScene scene, PlacedObject& object, std::uint32_t id, bool real);
+  void check_embree();
+};
+
+/// One query; callbacks find it behind Embree's context, which must stay its first member.
+struct GeometryQuery {
+  enum class Boundaries { of_interfaces, all };
+
+  RTCIntersectContext context;
+  const GeometryImpl* impl = nullptr;
+  Ray ray;                           ///< in the world: the seed of alpha's decisions
+  std::uint32_t first_placed = 0;    ///< of the object being visited
+  Boundaries boundaries = Boundaries::of_interfaces;
+  BoundaryRecords* records = nullptr;
+};
+
+// Embree's callbacks, in geometry_callbacks.cpp.
+void part_bounds(const RTCBoundsFunctionArguments* args);
+void part_intersect(const RTCIntersectFunctionNArguments* args);
+void part_occluded(const RTCOccludedFunctionNArguments* args);
+void part_record(const RTCIntersectFunctionNArguments* args);
+void part_alpha_filter(const RTCFilterFunctionNArguments* args);
+void object_bounds(const RTCBoundsFunctionArguments* args);
+void object_intersect(const RTCIntersectFunctionNArguments* args);
+void object_occluded(const RTCOccludedFunctionNArguments* args);
+void object_record(const RTCIntersectFunctionNArguments* args);
+
+/// Crossings from records: sorted, without duplicates (geometry_crossings.cpp).
+Crossings crossings_of(BoundaryRecords& records, const Ray& ray);
+
+/// The hit that Embree found, in the world (geometry_hit.cpp).
+SurfaceHit surface_hit(const GeometryImpl& impl, const RTCRayHit& found);
+
+}  // namespace tyndall

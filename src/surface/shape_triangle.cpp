@@ -1,0 +1,97 @@
+#include "surface/shape_exact.h"
+#include "surface/shape_mesh.h"
+#include "math/frame.h"
+
+namespace tyndall {
+
+// The three edge functions of one line have one sign exactly when it passes through the triangle; they are also the
+// weights of the opposite vertices, up to their sum [Shevtsov et al. 2007]. t is interpolated with them, not divided by
+// the plane's slope, so it stays between the vertices however grazing the ray.
+std::optional<ShapeRoot> intersect_triangle(const ShapeRay& ray, const std::array<Vec3d, 3>& abc) {
+  const auto& [a, b, c] = abc;
+  const EdgeSide ab = edge_side(ray, a, b);
+  const EdgeSide bc = edge_side(ray, b, c);
+  if (ab.sign == 0 || ab.sign != bc.sign) return {};
+  const EdgeSide ca = edge_side(ray, c, a);
+  if (ab.sign != ca.sign) return {};
+
+  const double sum = ab.value + bc.value + ca.value;
+  if (!(sum > 0)) return {};
+  const double w0 = bc.value / sum, w1 = ca.value / sum, w2 = ab.value / sum;
+  const Vec3d point = (a - ray.o) * w0 + (b - ray.o) * w1 + (c - ray.o) * w2;
+  const double d2 = dot(ray.d, ray.d);
+  const double area = length(cross(b - a, c - a));
+  return ShapeRoot{.t = dot(point, ray.d) / d2,
+                   .facing = ab.sign,
+                   .cosine = std::min(1.0, sum / (area * std::sqrt(d2))),
+                   .u = w1,
+                   .v = w2};
+}
+
+namespace {
+
+struct Tangent {
+  Vec3d dpdu;
+  Vec2 uv;
+};
+
+Tangent triangle_tangent(const PlacedMesh& mesh, const std::array<std::uint32_t, 3>& corner, const std::array<double, 3>& w) {
+  const Vec3d p2 = mesh.position(corner[2]);
+  const Vec3d dp02 = mesh.position(corner[0]) - p2, dp12 = mesh.position(corner[1]) - p2;
+  std::array<Vec2, 3> uv{Vec2{0, 0}, Vec2{1, 0}, Vec2{1, 1}};
+  if (!mesh.uvs->empty()) {
+    for (std::size_t i = 0; i < 3; ++i) uv[i] = (*mesh.uvs)[corner[i]];
+  }
+  Tangent tangent;
+  tangent.uv = {static_cast<float>(w[0] * uv[0].x + w[1] * uv[1].x + w[2] * uv[2].x),
+                static_cast<float>(w[0] * uv[0].y + w[1] * uv[1].y + w[2] * uv[2].y)};
+  const double du02 = double(uv[0].x) - uv[2].x, dv02 = double(uv[0].y) - uv[2].y;
+  const double du12 = double(uv[1].x) - uv[2].x, dv12 = double(uv[1].y) - uv[2].y;
+  const double determinant = du02 * dv12 - dv02 * du12;
+  if (std::abs(determinant) >= 1e-9) {  // pbrt's threshold
+    tangent.dpdu = (dp02 * dv12 - dp12 * dv02) * (1 / determinant);
+  }
+  if (!(dot(tangent.dpdu, tangent.dpdu) > 0)) {
+    tangent.dpdu = Vec3d(Frame::around(to_vec3(normalize(cross(dp02, dp12)))).x);
+  }
+  return tangent;
+}
+
+/// How far off the plane the ray tracer's single-precision test may put a point of the triangle: a few roundings of
+/// the vertices relative to the ray's origin, and the tilt of a thin triangle's normal.
+double test_error(Vec3d p, const std::array<Vec3d, 3>& v, double doubled_area) {
+  double reach2 = 0;
+  for (const Vec3d& vertex : v) reach2 = std::max(reach2, dot(vertex - p, vertex - p));
+  const double thinness = doubled_area > 0 ? std::min(reach2 / doubled_area, 1e3) : 1e3;
+  return 0x1p-22 * std::sqrt(reach2) * (1 + thinness);
+}
+
+}  // namespace
+
+ShapeSurface triangle_surface(const PlacedMesh& mesh, std::uint32_t primitive, double b1, double b2) {
+  const auto corner = mesh.corners<3>(primitive);
+  const std::array<double, 3> w{1 - b1 - b2, b1, b2};
+  const std::array<Vec3d, 3> v{mesh.position(corner[0]), mesh.position(corner[1]), mesh.position(corner[2])};
+  const Vec3d winding = cross(v[0] - v[2], v[1] - v[2]);
+
+  ShapeSurface surface;
+  surface.p = v[0] * w[0] + v[1] * w[1] + v[2] * w[2];
+  surface.ng = surface.ns = normalize(winding) * (mesh.flip ? -1 : 1);
+  const Tangent tangent = triangle_tangent(mesh, corner, w);
+  surface.uv = tangent.uv;
+  surface.dpdu = tangent.dpdu;
+  surface.error = test_error(surface.p, v, length(winding));
+  if (mesh.normals.empty()) return surface;
+
+  // Vertex normals bend the shading normal and decide the side, as pbrt's authoritative orientation.
+  const auto normal = [&](std::size_t i) { return Vec3d(mesh.normals[corner[i]]); };
+  const Vec3d ns = normal(0) * w[0] + normal(1) * w[1] + normal(2) * w[2];
+  if (dot(ns, ns) > 0) surface.ns = normalize(ns);
+  if (dot(surface.ng, surface.ns) < 0) surface.ng = -surface.ng;
+  const Vec3d bitangent = cross(surface.ns, surface.dpdu);
+  surface.dpdu = dot(bitangent, bitangent) > 0 ? cross(bitangent, surface.ns)
+                                               : Vec3d(Frame::around(to_vec3(surface.ns)).x);
+  return surface;
+}
+
+}  // namespace tyndall
