@@ -1,0 +1,18 @@
+/// Fills a BrickGrid from a VoxelSource.
+#pragma once
+
+#include "volume/brick_grid.h"
+
+namespace tyndall {
+
+struct BrickBuildOptions {
+  VoxelRules rules;
+  bool float_bricks = false;
+};
+
+/// Voxels are stored as 16-bit steps of their brick's range (error below 2^-16 of it, 0 stays exactly 0) or as floats.
+/// Ranges in the hierarchy are those of the decoded values, widened by a few units in the last place so that they
+/// hold for the rounding of the interpolation too.
+BrickGrid build_brick_grid(const VoxelSource& source, const BrickBuildOptions& options);
+
+}  // namespace tyndall

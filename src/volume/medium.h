@@ -1,0 +1,59 @@
+/// Participating media ready to render: coefficients at a point, and majorants along a ray for tracking.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tyndall/math.h"
+#include "tyndall/scene.h"
+
+namespace tyndall {
+
+/// What a medium does at a point.
+struct Coefficients {
+  Rgb sigma_a, sigma_s;  ///< 1/world unit
+  Rgb Le;                ///< radiance scale: emission is sigma_a * Le per world unit
+  float g = 0;           ///< Henyey-Greenstein mean cosine
+  Rgb sigma_t() const { return sigma_a + sigma_s; }
+};
+
+struct MediumBuildOptions {
+  bool sanitize = false;      ///< voxels that are NaN or infinite become 0 instead of an error
+  bool float_bricks = false;  ///< keep voxels as 32-bit floats instead of 16-bit steps of each brick's range
+};
+
+struct MediumData;  // medium_data.h, for tracking
+
+/// One medium. Immutable; safe to use from any number of threads. Its address may change by a move, its data's not.
+class ParticipatingMedium {
+ public:
+  explicit ParticipatingMedium(std::unique_ptr<const MediumData> data);
+  ParticipatingMedium(ParticipatingMedium&&) noexcept;
+  ParticipatingMedium& operator=(ParticipatingMedium&&) noexcept;
+  ~ParticipatingMedium();
+
+  /// At world-space `p`; grids are interpolated trilinearly.
+  Coefficients at(Vec3 p) const;
+  bool emissive() const;
+  bool scatters() const;  ///< false: sigma_s is 0 everywhere
+  bool homogeneous() const;
+  float g() const;
+  /// World-space box around all non-zero density: infinite for a homogeneous medium, empty for an empty grid.
+  Bounds3 bounds() const;
+  /// Largest extinction coefficient of any channel anywhere, 1/world unit.
+  float sigma_maj() const;
+  std::size_t memory_bytes() const;
+
+  const MediumData& data() const { return *data_; }
+
+ private:
+  std::unique_ptr<const MediumData> data_;
+};
+
+/// Load and prepare `medium`. Appends to `notes` what was chosen or changed ("smoke.vdb: density grid "density", ...").
+/// Throws Error (scene) when a file or grid cannot be used.
+ParticipatingMedium build_medium(const Medium& medium, const MediumBuildOptions& options, std::vector<std::string>& notes);
+
+}  // namespace tyndall

@@ -1,0 +1,105 @@
+/// Several overlapping media along one ray.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "volume/medium.h"
+#include "volume/medium_walk.h"
+
+namespace tyndall {
+
+/// The pieces of each medium, cut where any of them ends; rates, controls and coefficients add. Same interface as
+/// MediumWalk. Allocates only for more than kInline media.
+template <WalkMode mode>
+class MergedWalk {
+ public:
+  MergedWalk(std::span<const ParticipatingMedium* const> media, const Ray& ray, double t0, double t1)
+      : count_(media.size()), t_(t0), t_end_(t0), limit_(t1) {
+    walks_ = reinterpret_cast<MediumWalk<mode>*>(inline_);
+    if (count_ > kInline) {
+      heap_ = std::make_unique<std::byte[]>(count_ * sizeof(MediumWalk<mode>));
+      walks_ = reinterpret_cast<MediumWalk<mode>*>(heap_.get());
+    }
+    for (std::size_t i = 0; i < count_; ++i) std::construct_at(walks_ + i, media[i]->data(), ray, t0, t1);
+  }
+  MergedWalk(const MergedWalk&) = delete;
+  MergedWalk& operator=(const MergedWalk&) = delete;
+
+  bool next() {
+    t_ = t_end_;
+    if (t_ >= limit_) return false;
+    t_end_ = limit_;
+    rate_ = 0;
+    control_ = {};
+    for (std::size_t i = 0; i < count_; ++i) {
+      MediumWalk<mode>& walk = walks_[i];
+      while (walk.t_end() <= t_ && walk.next()) ++steps_;
+      t_end_ = std::min(t_end_, walk.t_end());
+      rate_ += walk.rate();
+      control_ += walk.control();
+    }
+    return true;
+  }
+
+  double t() const { return t_; }
+  double t_end() const { return t_end_; }
+  float rate() const { return rate_; }
+  Rgb control() const { return control_; }
+  std::uint64_t steps() const { return steps_; }
+  bool capped() const {
+    for (std::size_t i = 0; i < count_; ++i)
+      if (walks_[i].capped()) return true;
+    return false;
+  }
+
+  LocalOptics optics_at(double t, bool with_emission) {
+    LocalOptics sum;
+    for (std::size_t i = 0; i < count_; ++i) {
+      if (walks_[i].rate() == 0) continue;
+      const LocalOptics one = walks_[i].optics_at(t, with_emission);
+      sum.sigma_a += one.sigma_a;
+      sum.sigma_s += one.sigma_s;
+      sum.emission += one.emission;
+    }
+    return sum;
+  }
+  Rgb excess_at(double t) {
+    Rgb sum;
+    for (std::size_t i = 0; i < count_; ++i)
+      if (walks_[i].rate() > 0) sum += walks_[i].excess_at(t);
+    return sum;
+  }
+  void add_phase(PhaseMix& phase) const {
+    for (std::size_t i = 0; i < count_; ++i)
+      if (walks_[i].rate() > 0) walks_[i].add_phase(phase);
+  }
+
+ private:
+  static constexpr std::size_t kInline = 4;
+  static_assert(std::is_trivially_destructible_v<MediumWalk<mode>>);
+
+  std::size_t count_;
+  MediumWalk<mode>* walks_;
+  double t_, t_end_, limit_;
+  float rate_ = 0;
+  Rgb control_;
+  std::uint64_t steps_ = 0;
+  std::unique_ptr<std::byte[]> heap_;
+  alignas(MediumWalk<mode>) std::byte inline_[kInline * sizeof(MediumWalk<mode>)];
+};
+
+/// Call body(walk) with the walk that suits `media`, which must not be empty.
+template <WalkMode mode, typename Body>
+decltype(auto) with_walk(std::span<const ParticipatingMedium* const> media, const Ray& ray, double t0, double t1, const Body& body) {
+  if (media.size() == 1) {
+    MediumWalk<mode> walk(media[0]->data(), ray, t0, t1);
+    return body(walk);
+  }
+  MergedWalk<mode> walk(media, ray, t0, t1);
+  return body(walk);
+}
+
+}  // namespace tyndall

@@ -1,0 +1,78 @@
+#include "volume/phase_mix.h"
+
+#include <algorithm>
+
+namespace tyndall {
+namespace {
+
+/// Channel by channel; 0 where nothing scatters.
+Rgb share(Rgb part, Rgb total) {
+  return {total.r > 0 ? part.r / total.r : 0, total.g > 0 ? part.g / total.g : 0, total.b > 0 ? part.b / total.b : 0};
+}
+
+}  // namespace
+
+void PhaseMix::add(Rgb sigma_s, float g) {
+  if (is_black(sigma_s)) return;
+  total_ += sigma_s;
+  for (Lobe& lobe : lobes_)
+    if (lobe.g == g) {
+      lobe.sigma_s += sigma_s;
+      return;
+    }
+  lobes_.push_back({sigma_s, g});
+}
+
+float PhaseMix::lobe_mass(const Lobe& lobe, Rgb beta) const {
+  const Rgb s = share(lobe.sigma_s, total_);
+  return std::abs(beta.r) * s.r + std::abs(beta.g) * s.g + std::abs(beta.b) * s.b;
+}
+
+Rgb PhaseMix::eval(Vec3 wo, Vec3 wi) const {
+  Rgb sum;
+  for (const Lobe& lobe : lobes_) sum += share(lobe.sigma_s, total_) * HenyeyGreenstein{lobe.g}.pdf(wo, wi);
+  return sum;
+}
+
+float PhaseMix::pdf(Vec3 wo, Vec3 wi, Rgb beta) const {
+  if (lobes_.size() == 1) return HenyeyGreenstein{lobes_[0].g}.pdf(wo, wi);
+  float sum = 0, mass = 0;
+  for (const Lobe& lobe : lobes_) {
+    const float m = lobe_mass(lobe, beta);
+    mass += m;
+    sum += m * HenyeyGreenstein{lobe.g}.pdf(wo, wi);
+  }
+  return mass > 0 ? sum / mass : 0;
+}
+
+std::optional<PhaseMix::MixSample> PhaseMix::sample(Vec3 wo, Rgb beta, float uc, Vec2 u) const {
+  if (lobes_.empty()) return std::nullopt;
+  if (lobes_.size() == 1) {
+    const PhaseSample s = HenyeyGreenstein{lobes_[0].g}.sample(wo, u);
+    return MixSample{s.wi, share(total_, total_), s.pdf};
+  }
+  float mass = 0;
+  for (const Lobe& lobe : lobes_) mass += lobe_mass(lobe, beta);
+  if (!(mass > 0)) return std::nullopt;
+
+  float rest = uc * mass;
+  const Lobe* chosen = nullptr;
+  for (const Lobe& lobe : lobes_) {
+    const float m = lobe_mass(lobe, beta);
+    if (m == 0) continue;
+    chosen = &lobe;
+    if (rest < m) break;
+    rest -= m;
+  }
+  const Vec3 wi = HenyeyGreenstein{chosen->g}.sample(wo, u).wi;
+  const float density = pdf(wo, wi, beta);
+  return MixSample{wi, eval(wo, wi) / density, density};
+}
+
+float PhaseMix::mean_cosine() const {
+  float sum = 0;
+  for (const Lobe& lobe : lobes_) sum += lobe.g * mean(share(lobe.sigma_s, total_));
+  return sum;
+}
+
+}  // namespace tyndall

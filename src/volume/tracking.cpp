@@ -1,0 +1,164 @@
+#include "volume/tracking.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "volume/homogeneous.h"
+#include "volume/merged_walk.h"
+#include "volume/tracking_kernel.h"
+
+namespace tyndall {
+
+TrackingStats& TrackingStats::operator+=(const TrackingStats& other) {
+  lookups += other.lookups;
+  segments += other.segments;
+  majorant_violations += other.majorant_violations;
+  caps_hit += other.caps_hit;
+  return *this;
+}
+
+namespace {
+
+using namespace kernel;
+
+/// Throughput relative to the largest channel at the start, so that products neither under- nor overflow.
+Rgb normalised(Rgb beta) {
+  const float top = std::max({std::abs(beta.r), std::abs(beta.g), std::abs(beta.b)});
+  return top > 0 ? beta * (1 / top) : Rgb{};
+}
+
+bool any_emissive(MediaView media) {
+  return std::any_of(media.begin(), media.end(), [](const ParticipatingMedium* m) { return m->emissive(); });
+}
+
+/// State of a flight between its tentative collisions.
+struct FlightState {
+  Rgb beta;            // normalised
+  bool emissive;
+  float depth;         // optical depth of the majorant still to go
+  Flight flight;
+};
+
+/// A tentative collision at t. True when the flight ends there.
+///
+/// Real and null are chosen with probabilities proportional to sum_c |b_c| sigma_t,c and sum_c |b_c| |M - sigma_t,c|,
+/// b the throughput with all weights of this walk so far: the balance heuristic over channels, so that the sum of |b|
+/// never grows. Written with absolute values and the true total it stays unbiased where sigma_t exceeds M.
+template <typename Walk>
+bool collide(Walk& walk, double t, FlightState& state, Rng& rng, TrackingStats& stats) {
+  Flight& flight = state.flight;
+  const float rate = walk.rate();
+  const LocalOptics at = walk.optics_at(t, state.emissive);
+  const Rgb sigma_t = at.sigma_a + at.sigma_s;
+  count_lookup(max_component(sigma_t), rate, stats);
+  flight.emission += flight.weight * at.emission * (1 / rate);
+
+  // Where nothing scatters a collision would only end the path: weigh instead, until too little is left.
+  if (is_black(at.sigma_s)) {
+    flight.weight *= Rgb{1.0f} - sigma_t * (1 / rate);
+    const float left = max_abs(state.beta * flight.weight);
+    if (left >= kRouletteBelow) return false;
+    if (rng.uniform() * kRouletteBelow < left) {
+      flight.weight *= kRouletteBelow / left;
+      return false;
+    }
+    flight.weight = {};
+    flight.collided = true;
+    flight.t = static_cast<float>(t);
+    return true;
+  }
+
+  const Rgb null{rate - sigma_t.r, rate - sigma_t.g, rate - sigma_t.b};
+  const Rgb b = absolute(state.beta * flight.weight);
+  const float real_mass = sum(b * sigma_t), null_mass = sum(b * absolute(null));
+  const float total = real_mass + null_mass;
+  if (rng.uniform() * total < real_mass) {
+    flight.weight *= at.sigma_s * (total / (rate * real_mass));
+    flight.collided = true;
+    flight.t = static_cast<float>(t);
+    walk.add_phase(flight.phase);
+    return true;
+  }
+  flight.weight *= null * (total / (rate * null_mass));
+  return false;
+}
+
+/// Weighted delta tracking with survival biasing over pieces of constant majorant.
+template <typename Walk>
+void fly(Walk& walk, FlightState& state, Rng& rng, TrackingStats& stats) {
+  LoopGuard guard;
+  while (walk.next()) {
+    const float rate = walk.rate();
+    if (!(rate > 0)) continue;
+    double t = walk.t();
+    for (;;) {
+      const double step = static_cast<double>(state.depth) / rate;
+      if (t + step >= walk.t_end()) {
+        state.depth = std::max(0.0f, state.depth - static_cast<float>(rate * (walk.t_end() - t)));
+        break;
+      }
+      t += step;
+      if (collide(walk, t, state, rng, stats)) return;
+      state.depth = exponential(rng);
+      if (guard.spent(stats)) {
+        state.flight.weight = {};
+        state.flight.collided = true;
+        state.flight.t = static_cast<float>(t);
+        return;
+      }
+    }
+  }
+}
+
+/// Sum of emission and product of (1 - sigma_t / M) over tentative collisions: ratio tracking [Novak et al. 2014].
+template <typename Walk>
+void gather(Walk& walk, bool emissive, EmissionTransmittance& result, Rng& rng, TrackingStats& stats) {
+  for_each_collision(walk, rng, stats, [&](double t, float rate) {
+    const LocalOptics at = walk.optics_at(t, emissive);
+    const Rgb sigma_t = at.sigma_a + at.sigma_s;
+    count_lookup(max_component(sigma_t), rate, stats);
+    result.emitted += result.transmittance * at.emission * (1 / rate);
+    result.transmittance *= Rgb{1.0f} - sigma_t * (1 / rate);
+    return roulette(result.transmittance, rng);
+  });
+}
+
+}  // namespace
+
+Flight free_flight(MediaView media, const Ray& ray, float t0, float t1, Rgb beta, float u_first, Rng& rng, TrackingStats& stats) {
+  FlightState state{normalised(beta), false, 0, {}};
+  state.flight.t = t1;
+  if (media.empty() || !(t0 < t1) || is_black(state.beta)) return state.flight;
+  if (all_homogeneous(media)) {
+    ++stats.segments;
+    return homogeneous_flight(media, t0, t1, beta, u_first, rng);
+  }
+  // A channel without throughput stays without: its weights mean nothing and must not overflow.
+  state.flight.weight = {state.beta.r == 0 ? 0.0f : 1.0f, state.beta.g == 0 ? 0.0f : 1.0f, state.beta.b == 0 ? 0.0f : 1.0f};
+  state.emissive = any_emissive(media);
+  state.depth = static_cast<float>(-std::log1p(-double{u_first}));
+  with_walk<WalkMode::majorant>(media, ray, t0, t1, [&](auto& walk) {
+    fly(walk, state, rng, stats);
+    finish(walk, stats);
+  });
+  return state.flight;
+}
+
+EmissionTransmittance emission_and_transmittance(MediaView media, const Ray& ray, float t0, float t1, Rng& rng,
+                                                 TrackingStats& stats) {
+  EmissionTransmittance result{{}, Rgb{1.0f}};
+  if (media.empty() || !(t0 < t1)) return result;
+  if (all_homogeneous(media)) {
+    ++stats.segments;
+    const UniformOptics m = sum_of(media);
+    const double length = double{t1} - t0;
+    return {m.emitted(length), m.transmittance(length)};
+  }
+  with_walk<WalkMode::majorant>(media, ray, t0, t1, [&](auto& walk) {
+    gather(walk, any_emissive(media), result, rng, stats);
+    finish(walk, stats);
+  });
+  return result;
+}
+
+}  // namespace tyndall

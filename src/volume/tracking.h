@@ -1,0 +1,56 @@
+/// Random walks through media along a ray: where a path collides, and how much light gets through.
+///
+/// All estimators are unbiased. Coefficients of overlapping media add. Colour channels share one majorant (that of
+/// the largest channel); their differences go into weights that stay bounded.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "math/rng.h"
+#include "tyndall/settings.h"
+#include "volume/medium.h"
+#include "volume/phase_mix.h"
+
+namespace tyndall {
+
+/// The media that overlap on one interval of a ray; none is null.
+using MediaView = std::span<const ParticipatingMedium* const>;
+
+/// Counters of one thread; add them up at the end.
+struct TrackingStats {
+  std::uint64_t lookups = 0;              ///< coefficients read at a point
+  std::uint64_t segments = 0;             ///< pieces of constant majorant visited
+  std::uint64_t majorant_violations = 0;  ///< lookups above the majorant: 0 unless there is a defect
+  std::uint64_t caps_hit = 0;             ///< loops ended by their safety limit
+  TrackingStats& operator+=(const TrackingStats& other);
+};
+
+/// How a path fares along one interval.
+struct Flight {
+  bool collided = false;
+  float t = 0;           ///< of the collision; the end of the interval if there was none
+  Rgb weight{1.0f};      ///< multiplies the throughput. All zero after a collision: absorbed, the path ends
+  Rgb emission;          ///< add throughput (from before the interval) * this to the path's radiance
+  PhaseMix phase;        ///< when collided and not absorbed
+};
+
+/// Sample the next collision in [t0, t1], t1 may be infinite. Survival biasing: a collision always scatters and
+/// carries the albedo in its weight. `beta` is the throughput at t0; it steers the choices between channels and
+/// nothing else. `u_first` is the random number of the first exponential step, [0, 1).
+Flight free_flight(MediaView media, const Ray& ray, float t0, float t1, Rgb beta, float u_first, Rng& rng,
+                   TrackingStats& stats);
+
+/// Estimate exp(-integral of sigma_t over [t0, t1]); exact when all media are homogeneous.
+Rgb transmittance(TransmittanceStrategy strategy, MediaView media, const Ray& ray, float t0, float t1, Rng& rng,
+                  TrackingStats& stats);
+
+/// Light emitted along an interval that reaches t0, and the transmittance of the whole interval.
+struct EmissionTransmittance {
+  Rgb emitted, transmittance;
+};
+/// For a segment after which the path does not scatter: no collision, so no light from behind is lost to chance.
+EmissionTransmittance emission_and_transmittance(MediaView media, const Ray& ray, float t0, float t1, Rng& rng,
+                                                 TrackingStats& stats);
+
+}  // namespace tyndall

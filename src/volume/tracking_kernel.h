@@ -1,0 +1,84 @@
+/// What the tracking loops share.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "math/rng.h"
+#include "volume/tracking.h"
+
+namespace tyndall::kernel {
+
+/// Weights below this are left to Russian roulette.
+inline constexpr float kRouletteBelow = 0.01f;
+/// Look-ups of one walk after which it is given up and counted. A path through an optical depth of 1e7 needs fewer.
+inline constexpr std::uint64_t kMaxLookups = std::uint64_t{1} << 26;
+
+inline Rgb absolute(Rgb c) { return {std::abs(c.r), std::abs(c.g), std::abs(c.b)}; }
+inline float sum(Rgb c) { return c.r + c.g + c.b; }
+inline float max_abs(Rgb c) { return max_component(absolute(c)); }
+
+/// Exponential variate of rate 1.
+inline float exponential(Rng& rng) { return -std::log(1 - rng.uniform()); }
+
+/// Slack of the rounding of sums over media.
+inline void count_lookup(float value, float bound, TrackingStats& stats) {
+  ++stats.lookups;
+  if (value > bound * (1 + 1e-6f)) ++stats.majorant_violations;
+}
+
+/// Counts the look-ups of one walk.
+class LoopGuard {
+ public:
+  bool spent(TrackingStats& stats) {
+    if (++count_ < kMaxLookups) return false;
+    ++stats.caps_hit;
+    return true;
+  }
+
+ private:
+  std::uint64_t count_ = 0;
+};
+
+/// False: T is done with (and black). Keeps the mean of T.
+inline bool roulette(Rgb& T, Rng& rng) {
+  const float left = max_abs(T);
+  if (left >= kRouletteBelow) return true;
+  if (rng.uniform() * kRouletteBelow >= left) {
+    T = {};
+    return false;
+  }
+  T *= kRouletteBelow / left;
+  return true;
+}
+
+/// Poisson points of density rate() along the walk: body(t, rate) for each, until it returns false.
+template <typename Walk, typename Body>
+void for_each_collision(Walk& walk, Rng& rng, TrackingStats& stats, const Body& body) {
+  LoopGuard guard;
+  float depth = exponential(rng);
+  while (walk.next()) {
+    const float rate = walk.rate();
+    if (!(rate > 0)) continue;
+    double t = walk.t();
+    for (;;) {
+      const double step = static_cast<double>(depth) / rate;
+      if (t + step >= walk.t_end()) {
+        depth = std::max(0.0f, depth - static_cast<float>(rate * (walk.t_end() - t)));
+        break;
+      }
+      t += step;
+      if (!body(t, rate) || guard.spent(stats)) return;
+      depth = exponential(rng);
+    }
+  }
+}
+
+template <typename Walk>
+void finish(const Walk& walk, TrackingStats& stats) {
+  stats.segments += walk.steps();
+  if (walk.capped()) ++stats.caps_hit;
+}
+
+}  // namespace tyndall::kernel

@@ -1,0 +1,113 @@
+/// The estimators of transmittance; all share the walk over pieces and differ in what a collision does.
+#include <cmath>
+
+#include "volume/homogeneous.h"
+#include "volume/merged_walk.h"
+#include "volume/tracking_kernel.h"
+
+namespace tyndall {
+namespace {
+
+using namespace kernel;
+
+/// T = E[prod (1 - sigma_t / M)] [Novak et al. 2014].
+template <typename Walk>
+Rgb ratio_tracking(Walk& walk, Rng& rng, TrackingStats& stats) {
+  Rgb T{1.0f};
+  for_each_collision(walk, rng, stats, [&](double t, float rate) {
+    const LocalOptics at = walk.optics_at(t, false);
+    const Rgb sigma_t = at.sigma_a + at.sigma_s;
+    count_lookup(max_component(sigma_t), rate, stats);
+    T *= Rgb{1.0f} - sigma_t * (1 / rate);
+    return roulette(T, rng);
+  });
+  return T;
+}
+
+/// A real collision gives 0. Channels share the choice, as in free_flight.
+template <typename Walk>
+Rgb delta_tracking(Walk& walk, Rng& rng, TrackingStats& stats) {
+  Rgb T{1.0f};
+  for_each_collision(walk, rng, stats, [&](double t, float rate) {
+    const LocalOptics at = walk.optics_at(t, false);
+    const Rgb sigma_t = at.sigma_a + at.sigma_s;
+    count_lookup(max_component(sigma_t), rate, stats);
+    const Rgb null = Rgb{rate} - sigma_t;
+    const float real_mass = sum(absolute(T) * sigma_t), null_mass = sum(absolute(T * null));
+    const float total = real_mass + null_mass;
+    if (rng.uniform() * total < real_mass || null_mass == 0) {
+      T = {};
+      return false;
+    }
+    T *= null * (total / (rate * null_mass));
+    return true;
+  });
+  return T;
+}
+
+/// exp(-control) of one piece in the exponent; an empty piece may be infinitely long.
+float control_depth(float control, double length) { return control > 0 ? static_cast<float>(control * length) : 0.0f; }
+
+/// T = exp(-int c) E[prod (1 - (sigma_t - c) / M_r)], c the mean of the piece and M_r >= |sigma_t - c|: residual
+/// ratio tracking [Novak et al. 2014] with a control for each piece.
+template <typename Walk>
+Rgb residual_ratio_tracking(Walk& walk, Rng& rng, TrackingStats& stats) {
+  LoopGuard guard;
+  Rgb T{1.0f}, depth;
+  float next = exponential(rng);
+  while (walk.next()) {
+    const float rate = walk.rate();
+    const double length = walk.t_end() - walk.t();
+    const Rgb c = walk.control();
+    depth += Rgb{control_depth(c.r, length), control_depth(c.g, length), control_depth(c.b, length)};
+    if (!(rate > 0)) continue;
+
+    double t = walk.t();
+    for (;;) {
+      const double step = static_cast<double>(next) / rate;
+      if (t + step >= walk.t_end()) {
+        next = std::max(0.0f, next - static_cast<float>(rate * (walk.t_end() - t)));
+        break;
+      }
+      t += step;
+      const Rgb excess = walk.excess_at(t);
+      count_lookup(max_abs(excess), rate, stats);
+      T *= Rgb{1.0f} - excess * (1 / rate);
+      if (guard.spent(stats)) return {};
+      next = exponential(rng);
+    }
+
+    // Roulette on what is left after this piece; T alone may be large where the control took most.
+    Rgb left = T * exp(depth * -1.0f);
+    const float before = max_abs(left);
+    if (before >= kRouletteBelow) continue;
+    if (!roulette(left, rng)) return {};
+    T *= kRouletteBelow / before;
+  }
+  return T * exp(depth * -1.0f);
+}
+
+}  // namespace
+
+Rgb transmittance(TransmittanceStrategy strategy, MediaView media, const Ray& ray, float t0, float t1, Rng& rng,
+                  TrackingStats& stats) {
+  if (media.empty() || !(t0 < t1)) return Rgb{1.0f};
+  if (all_homogeneous(media)) {
+    ++stats.segments;
+    return sum_of(media).transmittance(double{t1} - t0);
+  }
+  if (strategy == TransmittanceStrategy::residual) {
+    return with_walk<WalkMode::residual>(media, ray, t0, t1, [&](auto& walk) {
+      const Rgb T = residual_ratio_tracking(walk, rng, stats);
+      finish(walk, stats);
+      return T;
+    });
+  }
+  return with_walk<WalkMode::majorant>(media, ray, t0, t1, [&](auto& walk) {
+    const Rgb T = strategy == TransmittanceStrategy::ratio ? ratio_tracking(walk, rng, stats) : delta_tracking(walk, rng, stats);
+    finish(walk, stats);
+    return T;
+  });
+}
+
+}  // namespace tyndall

@@ -1,0 +1,184 @@
+#include "volume/vdb_medium.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+
+#include "tyndall/error.h"
+#include "volume/brick_builder.h"
+#include "volume/vdb_file.h"
+
+namespace tyndall {
+namespace {
+
+using Names = std::vector<std::string>;
+
+const Names kDensityAliases{"density", "smoke", "fog"};
+const Names kTemperatureAliases{"temperature", "heat"};
+const Names kFlameAliases{"flame", "flames", "fire", "burn"};
+
+/// Another name of the same thing may stand in for an expected one, never for a particular one that was asked for.
+Names stand_ins(const std::string& name, bool given, const Names& aliases) {
+  return !given || std::find(aliases.begin(), aliases.end(), name) != aliases.end() ? aliases : Names{};
+}
+
+std::string quoted(const std::string& name) { return "\"" + name + "\""; }
+
+/// Finds, checks and converts the grids of one file.
+class GridLoader {
+ public:
+  GridLoader(const Medium& medium, const std::string& path, const MediumBuildOptions& options, std::vector<std::string>& notes)
+      : medium_(medium), path_(path), options_(options), notes_(notes), file_(open()) {}
+
+  /// Index of the grid called `name`, else of the first alias there is. "density[1]" is the second of that name.
+  std::optional<std::size_t> find(const std::string& name, const Names& aliases) {
+    if (std::optional<std::size_t> exact = find_name(name)) return exact;
+    for (const std::string& alias : aliases)
+      if (std::optional<std::size_t> other = find_name(alias)) return other;
+    return std::nullopt;
+  }
+
+  /// The only grid that can be a density, whatever its name.
+  std::optional<std::size_t> only_fog() const {
+    std::optional<std::size_t> found;
+    for (std::size_t i = 0; i < file_->grids().size(); ++i) {
+      const VolumeGridEntry& grid = file_->grids()[i];
+      if (grid.values != VolumeGridEntry::Values::scalar || grid.level_set) continue;
+      if (found) return std::nullopt;
+      found = i;
+    }
+    return found;
+  }
+
+  const VolumeGridEntry& entry(std::size_t grid) const { return file_->grids()[grid]; }
+
+  struct Use {
+    std::string role;
+    bool vectors = false;    ///< a vec3 grid will do
+    bool level_set = false;  ///< so will a level set
+    bool negative_to_zero = true;
+  };
+  PlacedGrid load(std::size_t index, const Use& use, Transform* to_world = nullptr) {
+    refuse_unfit(entry(index), use);
+    const VolumeGrid grid = file_->load(index);
+    const VoxelRules rules{use.negative_to_zero, options_.sanitize, grid.clip};
+    report(entry(index), inspect(*grid.source, rules), rules);
+    const Transform index_to_world = medium_.to_world * grid.index_to_world;
+    if (to_world) *to_world = index_to_world;
+    PlacedGrid placed;
+    placed.grid = build_brick_grid(*grid.source, {rules, options_.float_bricks});
+    if (placed.grid.empty()) note(use.role + " grid " + quoted(entry(index).name) + " is empty");
+    const Index3& origin = placed.grid.origin();
+    placed.to_local = Affine::of(index_to_world.inverse())
+                          .minus({{static_cast<double>(origin[0]), static_cast<double>(origin[1]), static_cast<double>(origin[2])}});
+    return placed;
+  }
+
+  [[noreturn]] void fail(const std::string& what) const { throw Error(medium_.where, path_ + ": " + what); }
+  void note(const std::string& what) { notes_.push_back(std::filesystem::path(path_).filename().string() + ": " + what); }
+  std::string listing() const {
+    std::string names;
+    for (const VolumeGridEntry& grid : file_->grids()) names += (names.empty() ? "" : ", ") + quoted(grid.name) + " (" + grid.type + ")";
+    return names.empty() ? "no grids" : names;
+  }
+
+ private:
+  std::unique_ptr<VolumeFile> open() const {
+    try {
+      return open_volume(path_);
+    } catch (const Error& e) {
+      throw Error(medium_.where, e.what());
+    }
+  }
+
+  std::optional<std::size_t> find_name(const std::string& name) {
+    const std::vector<std::size_t> exact = all_called(name);
+    if (!exact.empty()) {
+      if (exact.size() > 1)
+        note(std::to_string(exact.size()) + " grids are called " + quoted(name) + "; the first is used, write " +
+             quoted(name + "[1]") + " for the second");
+      return exact.front();
+    }
+    const std::size_t bracket = name.rfind('[');
+    if (bracket == std::string::npos || name.back() != ']') return std::nullopt;
+    const std::string digits = name.substr(bracket + 1, name.size() - bracket - 2);
+    if (digits.empty() || digits.size() > 6 || digits.find_first_not_of("0123456789") != std::string::npos) return std::nullopt;
+    const std::vector<std::size_t> same = all_called(name.substr(0, bracket));
+    const auto which = static_cast<std::size_t>(std::stoul(digits));
+    return which < same.size() ? std::optional(same[which]) : std::nullopt;
+  }
+  std::vector<std::size_t> all_called(const std::string& name) const {
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < file_->grids().size(); ++i)
+      if (file_->grids()[i].name == name) found.push_back(i);
+    return found;
+  }
+
+  void refuse_unfit(const VolumeGridEntry& grid, const Use& use) const {
+    const std::string who = use.role + " grid " + quoted(grid.name);
+    if (grid.values == VolumeGridEntry::Values::other)
+      fail(who + " is of type " + grid.type + ", which holds no density; name a float or vec3 grid of: " + listing());
+    if (grid.values == VolumeGridEntry::Values::vector && !use.vectors)
+      fail(who + " is of type " + grid.type + "; it must hold one number a voxel");
+    if (grid.level_set && !use.level_set)
+      fail(who + " is a level set, a surface; convert it to a fog volume (OpenVDB's sdfToFogVolume, Houdini's VDB Convert) or mesh it");
+    if (!grid.linear) fail(who + " has a frustum transform; resample it to a linear one");
+  }
+
+  void report(const VolumeGridEntry& grid, const VoxelReport& found, const VoxelRules& rules) {
+    if (found.non_finite > 0) {
+      const Index3& i = found.first_non_finite;
+      const std::string what = "grid " + quoted(grid.name) + ": " + std::to_string(found.non_finite) +
+                               " voxels are NaN or infinite, the first at index (" + std::to_string(i[0]) + ", " +
+                               std::to_string(i[1]) + ", " + std::to_string(i[2]) + ")";
+      if (!rules.sanitize) fail(what + "; --sanitize sets them to 0");
+      note(what + "; they were set to 0");
+    }
+    if (found.negative > 0 && rules.negative_to_zero)
+      note("warning: grid " + quoted(grid.name) + ": " + std::to_string(found.negative) + " negative voxels (lowest " +
+           std::to_string(found.lowest) + ") were set to 0");
+  }
+
+  const Medium& medium_;
+  const std::string& path_;
+  const MediumBuildOptions& options_;
+  std::vector<std::string>& notes_;
+  std::unique_ptr<VolumeFile> file_;
+};
+
+std::size_t density_index(GridLoader& loader, const VdbMedium& vdb) {
+  if (const auto found = loader.find(vdb.density_grid, stand_ins(vdb.density_grid, vdb.density_grid_given, kDensityAliases))) return *found;
+  if (vdb.density_grid_given) loader.fail("has no grid " + quoted(vdb.density_grid) + "; it holds " + loader.listing());
+  if (const auto only = loader.only_fog()) return *only;
+  loader.fail("has no grid called density, smoke or fog; name one with \"string gridname\" of: " + loader.listing());
+}
+
+}  // namespace
+
+VdbGrids load_vdb_grids(const Medium& medium, const VdbMedium& vdb, const MediumBuildOptions& options, std::vector<std::string>& notes) {
+  GridLoader loader(medium, vdb.path, options, notes);
+  VdbGrids grids;
+  const std::size_t density = density_index(loader, vdb);
+  std::string chosen = "density grid " + quoted(loader.entry(density).name);
+  grids.density = loader.load(density, {.role = "density", .vectors = true}, &grids.density_to_world);
+
+  const auto temperature =
+      loader.find(vdb.temperature_grid, stand_ins(vdb.temperature_grid, vdb.temperature_grid_given, kTemperatureAliases));
+  if (!temperature && vdb.temperature_grid_given)
+    loader.fail("has no grid " + quoted(vdb.temperature_grid) + "; it holds " + loader.listing());
+  // One that was not asked for by name is passed over when it cannot be read as numbers.
+  if (temperature && (vdb.temperature_grid_given || loader.entry(*temperature).values == VolumeGridEntry::Values::scalar)) {
+    chosen += ", temperature grid " + quoted(loader.entry(*temperature).name);
+    grids.temperature = loader.load(*temperature, {.role = "temperature", .level_set = true, .negative_to_zero = false});
+  }
+  if (!vdb.flame_grid.empty()) {
+    const auto flame = loader.find(vdb.flame_grid, stand_ins(vdb.flame_grid, true, kFlameAliases));
+    if (!flame) loader.fail("has no grid " + quoted(vdb.flame_grid) + "; it holds " + loader.listing());
+    chosen += ", flame grid " + quoted(loader.entry(*flame).name);
+    grids.flame = loader.load(*flame, {.role = "flame"});
+  }
+  loader.note(chosen);
+  return grids;
+}
+
+}  // namespace tyndall

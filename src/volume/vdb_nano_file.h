@@ -1,0 +1,31 @@
+/// The container of .nvdb files: headers checked, grids decompressed. Values are looked at in vdb_nanovdb.cpp.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <nanovdb/NanoVDB.h>
+#include <nanovdb/util/HostBuffer.h>
+
+namespace tyndall {
+
+/// A grid as it lies in the file, in memory aligned for NanoVDB; its head is checked, its tree is not.
+struct NanoBlob {
+  nanovdb::HostBuffer bytes;
+  std::string codec;
+
+  const nanovdb::GridData& head() const { return *reinterpret_cast<const nanovdb::GridData*>(bytes.data()); }
+};
+
+struct NanoFile {
+  std::string version;
+  std::vector<NanoBlob> grids;
+};
+
+/// Throws Error (scene) when the file is not wholly what its headers say.
+NanoFile read_nano_file(const std::string& path);
+
+std::string nano_version(std::uint32_t packed);  ///< "32.4.2"
+
+}  // namespace tyndall

@@ -1,0 +1,74 @@
+/// Voxels on their way into a BrickGrid, whatever library or array they come from.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace tyndall {
+
+/// Integer index coordinates; 64 bits, so that differences of 32-bit ones are safe.
+using Index3 = std::array<std::int64_t, 3>;
+
+/// Voxels lo..hi, both included.
+struct VoxelBox {
+  Index3 lo{0, 0, 0}, hi{-1, -1, -1};
+  bool empty() const { return lo[0] > hi[0] || lo[1] > hi[1] || lo[2] > hi[2]; }
+  bool contains(const VoxelBox& b) const;
+  VoxelBox intersect(const VoxelBox& b) const;
+  void expand(const VoxelBox& b);
+  bool operator==(const VoxelBox&) const = default;
+};
+
+/// Some voxels of a source: a leaf of 8x8x8 at a multiple of 8, or a box of one value.
+struct VoxelBlock {
+  static constexpr std::uint32_t kConstant = std::numeric_limits<std::uint32_t>::max();
+  VoxelBox box;
+  std::uint32_t leaf = kConstant;   ///< what read_leaf() is asked for
+  std::array<float, 6> value{};     ///< of a constant box, one a channel
+};
+
+/// Where voxels come from. Those in no block are 0; where blocks overlap, the later one in the list counts.
+class VoxelSource {
+ public:
+  static constexpr int kLeafSide = 8, kLeafVoxels = 512;
+
+  virtual ~VoxelSource() = default;
+  virtual int channels() const = 0;  ///< 1, 3 or 6
+  virtual const std::vector<VoxelBlock>& blocks() const = 0;
+  /// 512 values for each channel, channel by channel, x fastest.
+  virtual void read_leaf(std::uint32_t leaf, float* out) const = 0;
+};
+
+/// nx*ny*nz voxels at indices 0.. with x fastest, one plain array a channel.
+class DenseSource : public VoxelSource {
+ public:
+  DenseSource(std::array<int, 3> size, std::vector<std::vector<float>> planes);
+  int channels() const override { return static_cast<int>(planes_.size()); }
+  const std::vector<VoxelBlock>& blocks() const override { return blocks_; }
+  void read_leaf(std::uint32_t leaf, float* out) const override;
+
+ private:
+  std::array<int, 3> size_;
+  std::vector<std::vector<float>> planes_;
+  std::vector<VoxelBlock> blocks_;
+};
+
+/// What to do with voxels that are no valid amount.
+struct VoxelRules {
+  bool negative_to_zero = true;   ///< densities; temperatures keep their sign
+  bool sanitize = false;          ///< NaN and infinity to 0
+  std::optional<VoxelBox> clip;   ///< voxels outside read 0
+};
+
+/// What is wrong with the voxels of a source, within the clip box.
+struct VoxelReport {
+  std::int64_t negative = 0, non_finite = 0;
+  float lowest = 0;                 ///< most negative value
+  Index3 first_non_finite{};        ///< in block order
+};
+VoxelReport inspect(const VoxelSource& source, const VoxelRules& rules);
+
+}  // namespace tyndall

@@ -1,0 +1,193 @@
+#include "volume/brick_grid.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "unit/volume/voxel_oracle.h"
+#include "volume/brick_builder.h"
+
+using namespace tyndall;
+using test::OracleSource;
+
+namespace {
+
+const Index3 kCorners[] = {{0, 0, 0}, {-40, -8, -160}, {4096 - 16, -4096 - 24, 128 - 8}, {-2147483640, 2147483600, 1000000}};
+
+Vec3d index_point(const BrickGrid& grid, const Vec3d& local) {
+  Vec3d p;
+  for (int i = 0; i < 3; ++i) p[i] = local[i] + static_cast<double>(grid.origin()[static_cast<std::size_t>(i)]);
+  return p;
+}
+
+Vec3d random_local(const BrickGrid& grid, Rng& rng, double margin = 2) {
+  Vec3d p;
+  for (int i = 0; i < 3; ++i) {
+    const double lo = grid.support().lo[i] - margin, hi = grid.support().hi[i] + margin;
+    p[i] = lo + (hi - lo) * rng.uniform_wide();
+    // A quarter of the points on voxel planes, where bricks meet.
+    if (rng.uniform() < 0.25f) p[i] = std::round(p[i]);
+  }
+  return p;
+}
+
+/// Largest possible error of a look-up: half a step of a brick's range, 2^-17 of the largest range.
+double bound(double range) { return range * 0x1p-17 * 1.01 + range * 1e-6; }
+
+}  // namespace
+
+TEST_CASE("look-ups agree with the dense oracle, anywhere in index space, for one, three and six channels") {
+  Rng rng(1);
+  for (const int channels : {1, 3, 6})
+    for (const Index3& corner : kCorners) {
+      const OracleSource source = test::random_voxels(7 + static_cast<std::uint64_t>(channels), corner, channels);
+      const BrickGrid grid = build_brick_grid(source, {});
+      double worst = 0;
+      for (int i = 0; i < 20000; ++i) {
+        const Vec3d p = random_local(grid, rng);
+        float values[BrickGrid::kMaxChannels];
+        grid.lookup(p, values);
+        for (int c = 0; c < channels; ++c)
+          worst = std::max(worst, std::abs(values[c] - source.lookup(index_point(grid, p), c)) / bound(10.0 * (c + 1)));
+      }
+      CHECK(worst < 1);
+    }
+}
+
+TEST_CASE("float bricks hold voxels exactly") {
+  const OracleSource source = test::random_voxels(3, {-16, 8, 64});
+  const BrickGrid grid = build_brick_grid(source, {.rules = {}, .float_bricks = true});
+  Rng rng(2);
+  for (int i = 0; i < 20000; ++i) {
+    Vec3d p = random_local(grid, rng, 0);
+    for (double& x : p.v) x = std::round(x);
+    CHECK(grid.lookup(p) == static_cast<float>(source.voxel({static_cast<std::int64_t>(index_point(grid, p)[0]),
+                                                             static_cast<std::int64_t>(index_point(grid, p)[1]),
+                                                             static_cast<std::int64_t>(index_point(grid, p)[2])})));
+  }
+}
+
+TEST_CASE("16-bit steps err by less than 2^-16 of a brick's range, and zero is exactly zero") {
+  Rng rng(5);
+  for (const bool negative : {false, true})
+    for (const float scale : {1e-30f, 1e-3f, 1.0f, 1e30f}) {
+      OracleSource source;
+      source.add_leaf({0, 0, 0}, [&](std::int64_t, std::int64_t, std::int64_t) {
+        return rng.uniform() < 0.2f ? 0.0f : scale * (negative ? rng.uniform() * 1.7f - 0.9f : rng.uniform());
+      });
+      VoxelRules rules;
+      rules.negative_to_zero = false;
+      const BrickGrid grid = build_brick_grid(source, {rules, false});
+      double lowest = 0, highest = 0, worst = 0;
+      for (std::int64_t i = 0; i < 512; ++i) {
+        const Index3 at{i & 7, i >> 3 & 7, i >> 6};
+        const double exact = source.voxel(at);
+        lowest = std::min(lowest, exact);
+        highest = std::max(highest, exact);
+        const float got = grid.lookup(Vec3d{{double(at[0]) - double(grid.origin()[0]), double(at[1]) - double(grid.origin()[1]),
+                                             double(at[2]) - double(grid.origin()[2])}});
+        if (exact == 0) CHECK(got == 0);
+        worst = std::max(worst, std::abs(got - exact));
+      }
+      CHECK(worst < (highest - lowest) * 0x1p-16);
+    }
+}
+
+TEST_CASE("a voxel decodes alike in the bricks that share it, but for 2^-16 of their range") {
+  const OracleSource source = test::random_voxels(11, {0, 0, 0});
+  const BrickGrid grid = build_brick_grid(source, {});
+  const ValueRange all = grid.range();
+  Rng rng(3);
+  for (int i = 0; i < 20000; ++i) {
+    Vec3d p = random_local(grid, rng, -1);
+    const int axis = static_cast<int>(rng.uniform() * 3);
+    p[axis] = std::round(p[axis] / 8) * 8;
+    Vec3d below = p;
+    below[axis] = std::nextafter(p[axis], -1e9);
+    CHECK(std::abs(grid.lookup(p) - grid.lookup(below)) <= all.max * 0x1p-16f);
+  }
+}
+
+TEST_CASE("ranges of every node bound what interpolation gives, and its mean is the mean") {
+  for (const Index3& corner : kCorners) {
+    const OracleSource source = test::random_voxels(23, corner);
+    const BrickGrid grid = build_brick_grid(source, {});
+    Rng rng(9);
+    int violations = 0;
+    for (int i = 0; i < 200000; ++i) {
+      const Vec3d p = random_local(grid, rng, -0.01);
+      const Index3 cell{static_cast<std::int64_t>(p[0]), static_cast<std::int64_t>(p[1]), static_cast<std::int64_t>(p[2])};
+      const float value = grid.lookup(p);
+      std::uint32_t node = grid.root();
+      for (int level = grid.root_level(); node != BrickGrid::kNone; --level) {
+        const ValueRange r = grid.ranges(node)[0];
+        violations += value < r.min || value > r.max ? 1 : 0;
+        if (grid.node(node).mask == 0) break;
+        node = grid.child(node, level, cell);
+      }
+    }
+    CHECK(violations == 0);
+  }
+
+  OracleSource ramp;
+  for (std::int64_t x = 0; x < 16; x += 8)
+    ramp.add_leaf({x, 0, 0}, [](std::int64_t vx, std::int64_t, std::int64_t) { return static_cast<float>(vx); });
+  const BrickGrid grid = build_brick_grid(ramp, {});
+  double sum = 0;
+  int count = 0;
+  const double size = static_cast<double>(BrickGrid::extent(grid.root_level()));
+  for (double z = 0.5; z < size; ++z)
+    for (double y = 0.5; y < size; ++y)
+      for (double x = 0.5; x < size; ++x, ++count) sum += grid.lookup(Vec3d{{x, y, z}});
+  CHECK(grid.range().mean == doctest::Approx(sum / count).epsilon(1e-4));
+}
+
+TEST_CASE("boxes of one value cost no voxels, however large") {
+  OracleSource source;
+  source.add_tile({-4096, 0, 0}, {4095, 4095, 4095}, 2.5f);
+  const BrickGrid grid = build_brick_grid(source, {});
+  CHECK(grid.memory_bytes() < 600u << 20);
+  Rng rng(4);
+  for (int i = 0; i < 1000; ++i) {
+    const Vec3d p = random_local(grid, rng);
+    CHECK(grid.lookup(p) == doctest::Approx(source.lookup(index_point(grid, p))));
+  }
+}
+
+TEST_CASE("rules: negative, not finite, outside the clip box") {
+  OracleSource source;
+  const float bad[] = {-2, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), 3};
+  source.add_leaf({0, 0, 0}, [&](std::int64_t x, std::int64_t, std::int64_t) { return bad[x & 3]; });
+  VoxelRules rules;
+  const VoxelReport report = inspect(source, rules);
+  CHECK(report.negative == 128);
+  CHECK(report.lowest == -2);
+  CHECK(report.non_finite == 256);
+  CHECK(report.first_non_finite == Index3{1, 0, 0});
+  BrickGrid grid = build_brick_grid(source, {rules, false});
+  CHECK(grid.range().min == 0);
+  CHECK(grid.range().max == doctest::Approx(3));
+
+  rules.clip = VoxelBox{{3, 0, 0}, {3, 7, 3}};
+  CHECK(inspect(source, rules).non_finite == 0);
+  grid = build_brick_grid(source, {rules, false});
+  const auto at = [&](double x, double y, double z) {
+    return grid.lookup(Vec3d{{x - double(grid.origin()[0]), y - double(grid.origin()[1]), z - double(grid.origin()[2])}});
+  };
+  CHECK(at(3, 0, 0) == 3);
+  CHECK(at(3, 0, 3) == 3);
+  CHECK(at(3, 0, 4) == 0);
+  CHECK(at(7, 0, 0) == 0);
+}
+
+TEST_CASE("a grid without any value other than zero is empty") {
+  OracleSource source;
+  CHECK(build_brick_grid(source, {}).empty());
+  source.add_tile({0, 0, 0}, {63, 63, 63}, 0);
+  source.add_leaf({64, 0, 0}, [](std::int64_t, std::int64_t, std::int64_t) { return 0.0f; });
+  const BrickGrid grid = build_brick_grid(source, {});
+  CHECK(grid.empty());
+  CHECK(grid.lookup(Vec3d{{1, 1, 1}}) == 0);
+  CHECK(grid.range().max == 0);
+}
