@@ -1,0 +1,183 @@
+// From the scene's descriptions to Lights: places every light, loads its images, and sets up the choice among them.
+#include <map>
+
+#include "light/lights_parts.h"
+#include "tyndall/error.h"
+
+namespace tyndall {
+namespace {
+
+using Kind = Lights::Parts::Kind;
+
+class Builder {
+ public:
+  explicit Builder(const LightBuildOptions& options) : parts_(std::make_unique<Lights::Parts>()), options_(options) {
+    parts_->maps.textures = options.textures;
+  }
+
+  void add(const Light& light);
+  void add(const EmitterShape& placed);
+  Lights finish(const Bounds3& scene_bounds);
+
+ private:
+  static void require_finite(Rgb value, const Location& where);
+  void refer(Kind kind, std::size_t index, std::uint32_t primitive = 0);
+  Emission emission(const Shape& shape);
+  std::uint32_t image(const AreaLight& light, const Location& where);
+  SelectionInput selection_input() const;
+  void count(const SelectionInput& input);
+
+  std::unique_ptr<Lights::Parts> parts_;
+  LightBuildOptions options_;
+  std::map<std::pair<std::string, std::array<float, 9>>, std::uint32_t> images_;
+};
+
+void Builder::require_finite(Rgb value, const Location& where) {
+  if (!is_finite(value)) throw Error(where, "the light's strength is not finite; replace its NaN or infinite values");
+}
+
+void Builder::refer(Kind kind, std::size_t index, std::uint32_t primitive) {
+  if (parts_->lights.size() >= 0x3fffffff)
+    throw Error(Failure::scene, "the scene has more than 2^30 lights; merge some of its emissive primitives");
+  Lights::Parts::Reference& reference = parts_->lights.emplace_back();
+  reference.kind = kind;
+  reference.index = static_cast<std::uint32_t>(index) & 0x1fffffff;
+  reference.primitive = primitive;
+}
+
+void Builder::add(const Light& light) {
+  if (const auto* l = std::get_if<PointLight>(&light.kind)) {
+    require_finite(l->I, light.where);
+    refer(Kind::point, parts_->points.size());
+    parts_->points.emplace_back(*l);
+  } else if (const auto* s = std::get_if<SpotLight>(&light.kind)) {
+    require_finite(s->I, light.where);
+    refer(Kind::spot, parts_->spots.size());
+    parts_->spots.emplace_back(*s);
+  } else if (const auto* d = std::get_if<DistantLight>(&light.kind)) {
+    require_finite(d->E, light.where);
+    refer(Kind::distant, parts_->distants.size());
+    parts_->distants.emplace_back(*d);
+  } else {
+    const auto& infinite = std::get<InfiniteLight>(light.kind);
+    require_finite(infinite.L, light.where);
+    parts_->infinite.push_back(static_cast<LightId>(parts_->lights.size()));
+    refer(Kind::environment, parts_->environments.size());
+    parts_->environments.emplace_back(infinite, light.where);
+  }
+}
+
+std::uint32_t Builder::image(const AreaLight& light, const Location& where) {
+  const auto [entry, added] = images_.try_emplace({light.path, light.to_rec709},
+                                                  static_cast<std::uint32_t>(parts_->maps.images.size()));
+  if (added) {
+    try {
+      parts_->maps.images.push_back(TexelImage::load(light.path, "", light.to_rec709));
+    } catch (const Error& error) {
+      throw Error(where, error.what());
+    }
+  }
+  return entry->second;
+}
+
+Emission Builder::emission(const Shape& shape) {
+  const AreaLight& light = *shape.emission;
+  require_finite(light.L, shape.where);
+  Emission e;
+  e.L = e.mean = light.L;
+  e.power = light.power;
+  e.two_sided = light.two_sided;
+  if (!light.path.empty()) {
+    e.image = image(light, shape.where);
+    const Rgb average = parts_->maps.images[*e.image].average();
+    e.mean = light.L * average;
+    e.power_per_radiosity = luminance(average);
+  }
+  if (shape.alpha && options_.textures) {
+    const auto constant = options_.textures->constant(*shape.alpha);
+    e.invisible = constant && mean(*constant) <= 0;
+    if (!e.invisible && !(constant && mean(*constant) >= 1)) e.alpha = shape.alpha;
+  }
+  return e;
+}
+
+void Builder::add(const EmitterShape& placed) {
+  const Shape& shape = *placed.shape;
+  const Emission e = emission(shape);
+  const auto surface = [&]() -> Emitter::Surface {
+    const bool with_uvs = e.image || e.alpha;
+    if (const auto* mesh = std::get_if<TriangleMesh>(&shape.kind))
+      return TriangleEmitter(*mesh, placed.to_world, shape.reverse_orientation, with_uvs);
+    if (const auto* mesh = std::get_if<BilinearMesh>(&shape.kind))
+      return PatchEmitter(*mesh, placed.to_world, shape.reverse_orientation, with_uvs);
+    return QuadricEmitter(shape, placed.to_world, !e.alpha && !e.invisible);
+  };
+  parts_->first_light.push_back(static_cast<LightId>(parts_->lights.size()));
+  const Emitter& emitter = parts_->emitters.emplace_back(surface(), e);
+  for (std::uint32_t i = 0; i < emitter.size(); ++i) refer(Kind::emitter, parts_->emitters.size() - 1, i);
+}
+
+SelectionInput Builder::selection_input() const {
+  const Lights::Parts& p = *parts_;
+  SelectionInput input;
+  input.power.reserve(p.lights.size());
+  const bool tree = options_.strategy == LightStrategy::tree_binary;
+  if (tree) input.near.reserve(p.lights.size());
+  const auto add_near = [&](LightBounds bounds, LightId id) { input.near.push_back({bounds, id}); };
+  for (LightId id = 0; id < p.lights.size(); ++id) {
+    const auto r = p.lights[id];
+    const double power = p.power(id);
+    input.power.push_back(std::isfinite(power) ? power : 0);
+    if (!tree || !(input.power.back() > 0)) continue;
+    if (r.kind == Kind::emitter) add_near(p.emitters[r.index].bounds(r.primitive), id);
+    if (r.kind == Kind::environment) input.far.push_back({p.environments[r.index].cones(), id});
+    if (r.kind == Kind::distant) {
+      const DeltaArrival a = p.distants[r.index].arrival();
+      const auto E = static_cast<float>(strength(a.L));
+      input.far.push_back({{{DirectionCone::around(a.wi), a.wi, E, E}}, id});
+    }
+    if (r.kind == Kind::point || r.kind == Kind::spot) {
+      LightBounds bounds = r.kind == Kind::point ? p.points[r.index].bounds() : p.spots[r.index].bounds();
+      const Rgb I = r.kind == Kind::point ? p.points[r.index].intensity() : p.spots[r.index].intensity();
+      bounds.intensity = static_cast<float>(strength(I));
+      add_near(bounds, id);
+    }
+  }
+  return input;
+}
+
+void Builder::count(const SelectionInput& input) {
+  LightStats& stats = parts_->stats;
+  stats.lights = parts_->lights.size();
+  stats.infinite = parts_->infinite.size();
+  for (const Emitter& e : parts_->emitters) stats.emitters += e.size();
+  for (const double power : input.power) {
+    stats.power += power;
+    if (!(power > 0)) ++stats.dark;
+  }
+}
+
+Lights Builder::finish(const Bounds3& scene_bounds) {
+  if (!scene_bounds.empty()) {
+    const double radius = 0.5 * length(scene_bounds.extent());
+    if (radius > 0 && std::isfinite(radius)) parts_->scene_radius = radius;
+  }
+  SelectionInput input = selection_input();
+  count(input);
+  parts_->selection = Selection(options_.strategy, std::move(input));
+  parts_->stats.tree_nodes = parts_->selection.tree().nodes().size();
+  parts_->stats.tree_depth = parts_->selection.tree().depth();
+  return Lights(std::move(parts_));
+}
+
+}  // namespace
+
+Lights build_lights(const Scene& scene, std::span<const EmitterShape> shapes, const Bounds3& scene_bounds,
+                    const LightBuildOptions& options) {
+  Builder builder(options);
+  for (const Light& light : scene.lights) builder.add(light);
+  for (const EmitterShape& shape : shapes) builder.add(shape);
+  return builder.finish(scene_bounds);
+}
+
+}  // namespace tyndall

@@ -1,0 +1,36 @@
+/// What sampling an emissive surface from a point gives.
+#pragma once
+
+#include <optional>
+
+#include "light/cone.h"
+#include "math/vec3d.h"
+#include "tyndall/math.h"
+
+namespace tyndall {
+
+struct EmitterSample {
+  Vec3 wi;         ///< unit, toward the emitter
+  float distance;  ///< of the point on the emitter
+  Vec3 ng;         ///< unit normal there; one-sided light leaves on its side
+  Vec2 uv;         ///< texture coordinates there
+  float pdf;       ///< 1/sr
+};
+
+/// Bounds of an emitter's surface and of its normals.
+struct EmitterExtent {
+  Bounds3 box;
+  DirectionCone normals;
+};
+
+/// Density per solid angle of a point at `to_point` from the observer, on a surface with normal `n` (any length),
+/// sampled with density `pdf_area`; nothing where the surface is seen edge-on or the point coincides.
+inline std::optional<float> solid_angle_density(double pdf_area, Vec3d to_point, Vec3d n) {
+  const double d2 = dot(to_point, to_point);
+  const double projected = std::abs(dot(n, to_point)) / length(n);  // d cos
+  const double pdf = pdf_area * d2 * std::sqrt(d2) / projected;
+  if (!(d2 > 0) || !(projected > 0) || !(pdf > 0) || !(pdf < std::numeric_limits<float>::max())) return std::nullopt;
+  return static_cast<float>(pdf);
+}
+
+}  // namespace tyndall

@@ -1,0 +1,71 @@
+/// Light from infinitely far away in all directions: constant, or by a map.
+///
+/// Maps are looked up by the nearest texel, as pbrt does, so that the sampled density follows the radiance exactly.
+/// In light space: square maps are pbrt's equal-area octahedral ones; in latitude-longitude maps (twice as wide as
+/// high) +z is the top row, and the columns run once around from +x through +y.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "light/far_lights.h"
+#include "math/distribution.h"
+#include "texture/texel_image.h"
+#include "tyndall/scene.h"
+
+namespace tyndall {
+
+class Environment {
+ public:
+  /// Throws Error at `where` when the map cannot be read or has neither shape.
+  Environment(const InfiniteLight& light, const Location& where);
+
+  Rgb radiance(Vec3 w) const;  ///< arriving from unit direction `w`
+
+  struct Sample {
+    Vec3 wi;
+    float pdf;  ///< 1/sr
+    Rgb L;
+  };
+  /// In proportion to luminance. With an MIS partner in proportion to what exceeds the mean luminance
+  /// [Karlik et al. 2019]: nothing for a constant environment.
+  std::optional<Sample> sample(Vec2 u, bool mis_partner) const;
+  float pdf(Vec3 w, bool mis_partner) const;  ///< 1/sr
+
+  Rgb mean_radiance() const { return mean_; }  ///< over all directions
+  std::vector<FarCone> cones() const;          ///< one an octant
+  std::size_t memory_bytes() const;
+
+ private:
+  enum class Layout { constant, equal_area, latitude_longitude };
+  struct Texel {
+    std::uint32_t x, y;
+  };
+
+  void load(const InfiniteLight& light, const Location& where);
+  void build_distributions();
+  float weight(std::uint32_t x, std::uint32_t y) const;  ///< luminance of a texel
+  double texel_solid_angle(std::uint32_t y) const;
+  double cos_row(std::uint32_t y) const;  ///< cosine at the upper edge of a latitude-longitude row
+  Vec3 direction(Vec2 st) const;          ///< in light space; st.y linear in the cosine within a row
+  Vec2 square(Vec3 w) const;              ///< st of a direction in light space, up to where it lies within its texel
+  Texel texel_of(Vec2 st) const;
+  Vec3 to_light(Vec3 w) const;     ///< not normalised
+  Vec3 to_world(Vec3 w) const;
+  float stretch(Vec3 w) const;     ///< solid angle in light space per that in the world
+
+  Layout layout_ = Layout::constant;
+  Transform to_world_;
+  std::array<Vec3, 3> rows_;  ///< of the world-to-light map
+  float determinant_ = 1;     ///< of that, absolute
+  bool rotation_ = true;      ///< that map keeps angles and lengths
+  Rgb L_;                     ///< factor of the texels
+  Rgb mean_;
+  TexelImage image_;
+  PiecewiseConstant2D full_, compensated_;
+  float mean_weight_ = 0;
+  bool has_excess_ = false;  ///< something exceeds the mean
+};
+
+}  // namespace tyndall

@@ -1,0 +1,73 @@
+/// A binary tree over light bounds that chooses lights in proportion to what they may contribute to a point
+/// [Conty Estevez and Kulla, "Importance Sampling of Many Lights with Adaptive Tree Splitting", HPG 2018].
+///
+/// The tree knows bounds only, no light types. Built by the surface area orientation heuristic down to single lights;
+/// memory grows with the number of lights and nothing depends on its depth.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "light/importance.h"
+
+namespace tyndall {
+
+/// A light as the tree is built from it.
+struct TreeLight {
+  LightBounds bounds;  ///< intensity > 0
+  LightId light;
+};
+
+class LightTree {
+ public:
+  static constexpr std::uint32_t kNoParent = 0x7fffffff;
+
+  /// In preorder: the first child of node i is node i + 1.
+  struct Node {
+    ClusterBounds bounds;  ///< intensity relative to that of all lights
+    std::uint32_t leaf : 1 = 0;
+    std::uint32_t second_or_light : 31 = 0;  ///< index of the second child, or of a leaf's light
+    std::uint32_t two_sided : 1 = 0;
+    std::uint32_t parent : 31 = kNoParent;
+  };
+
+  LightTree() = default;
+  /// `lights` is reordered on the way and empty afterwards. Equal input gives an equal tree.
+  explicit LightTree(std::vector<TreeLight> lights);
+
+  struct Choice {
+    LightId light;
+    double pmf;
+  };
+  /// Descends by one number u in [0, 1), rescaled after every decision. Nothing: u fell on a branch whose lights all
+  /// have importance 0.
+  std::optional<Choice> select(const PointQuery& query, double u) const;
+  /// Probability of select() giving the light whose leaf is `leaf`: the same decisions from the leaf upward.
+  double pmf(const PointQuery& query, std::uint32_t leaf) const;
+  /// Importance of all lights together, in W/sr / length^2.
+  double importance(const PointQuery& query) const;
+
+  bool empty() const { return nodes_.empty(); }
+  std::span<const Node> nodes() const { return nodes_; }
+  int depth() const { return depth_; }  ///< decisions on the way to the deepest leaf
+  std::size_t memory_bytes() const { return nodes_.capacity() * sizeof(Node); }
+
+  /// Probability of descending into the first child of an inner node; nothing when neither child has importance.
+  std::optional<double> child_probability(std::uint32_t node, const PointQuery& query) const;
+
+ private:
+  double node_importance(std::uint32_t node, const PointQuery& query) const {
+    return tyndall::importance(nodes_[node].bounds, nodes_[node].two_sided, query);
+  }
+
+  std::vector<Node> nodes_;
+  double intensity_ = 0;  ///< of all lights, W/sr
+  int depth_ = 0;
+};
+
+static_assert(sizeof(LightTree::Node) == 56);
+
+}  // namespace tyndall

@@ -1,0 +1,107 @@
+#include "light/lights.h"
+
+#include "light/lights_parts.h"
+
+namespace tyndall {
+namespace {
+
+using Kind = Lights::Parts::Kind;
+
+LightSample delta_sample(const DeltaArrival& a) { return {a.wi, a.distance, a.L, 1, true}; }
+
+}  // namespace
+
+double Lights::Parts::power(LightId light) const {
+  const Reference r = lights[light];
+  const double disk = kPi * scene_radius * scene_radius;
+  switch (r.kind) {
+    case Kind::point: return strength(points[r.index].power());
+    case Kind::spot: return strength(spots[r.index].power());
+    case Kind::distant: return strength(distants[r.index].irradiance()) * disk;
+    case Kind::environment: return strength(environments[r.index].mean_radiance()) * 4 * kPi * disk;
+    case Kind::emitter: return emitters[r.index].power(r.primitive);
+  }
+  return 0;
+}
+
+Lights::Lights() : Lights(std::make_unique<Parts>()) {}
+Lights::Lights(std::unique_ptr<const Parts> parts) : parts_(std::move(parts)) {}
+Lights::~Lights() = default;
+Lights::Lights(Lights&&) noexcept = default;
+Lights& Lights::operator=(Lights&&) noexcept = default;
+
+std::size_t Lights::size() const { return parts_->lights.size(); }
+bool Lights::exhaustive() const { return strategy() == LightStrategy::exhaustive; }
+LightStrategy Lights::strategy() const { return parts_->selection.strategy(); }
+const LightStats& Lights::stats() const { return parts_->stats; }
+double Lights::power(LightId light) const { return parts_->power(light); }
+std::span<const LightId> Lights::infinite() const { return parts_->infinite; }
+LightId Lights::first_light(std::size_t emitter_shape) const { return parts_->first_light[emitter_shape]; }
+
+std::optional<SelectedLight> Lights::select(const PointQuery& query, double u) const {
+  return parts_->selection.select(query, u);
+}
+
+float Lights::pmf(const PointQuery& query, LightId light) const {
+  return exhaustive() ? 1.0f : parts_->selection.pmf(query, light);
+}
+
+std::optional<LightSample> Lights::sample(LightId light, Vec3 p, Vec2 u, bool mis_partner) const {
+  const Parts::Reference r = parts_->lights[light];
+  switch (r.kind) {
+    case Kind::point:
+      if (const auto a = parts_->points[r.index].arrival(p)) return delta_sample(*a);
+      return std::nullopt;
+    case Kind::spot:
+      if (const auto a = parts_->spots[r.index].arrival(p)) return delta_sample(*a);
+      return std::nullopt;
+    case Kind::distant: return delta_sample(parts_->distants[r.index].arrival());
+    case Kind::environment: {
+      const auto s = parts_->environments[r.index].sample(u, mis_partner);
+      if (!s) return std::nullopt;
+      return LightSample{s->wi, kInfinity, s->L, s->pdf, false};
+    }
+    case Kind::emitter: {
+      const Emitter& emitter = parts_->emitters[r.index];
+      const auto s = emitter.sample(parts_->maps, r.primitive, p, u);
+      if (!s) return std::nullopt;
+      if (emitter.delta()) return LightSample{s->point.wi, s->point.distance, s->L * (1 / s->point.pdf), 1, true};
+      return LightSample{s->point.wi, s->point.distance, s->L, s->point.pdf, false};
+    }
+  }
+  return std::nullopt;
+}
+
+float Lights::pdf(LightId light, Vec3 p, const EmitterHit& hit) const {
+  const Parts::Reference r = parts_->lights[light];
+  if (r.kind != Kind::emitter || parts_->emitters[r.index].delta()) return 0;
+  return parts_->emitters[r.index].pdf(r.primitive, p, hit.p);
+}
+
+Rgb Lights::emitted(LightId light, const EmitterHit& hit, Vec3 wo) const {
+  const Parts::Reference r = parts_->lights[light];
+  if (r.kind != Kind::emitter) return {};
+  return parts_->emitters[r.index].radiance(parts_->maps, r.primitive, hit.uv, hit.ng, wo);
+}
+
+Rgb Lights::environment(LightId light, Vec3 w) const {
+  return parts_->environments[parts_->lights[light].index].radiance(w);
+}
+
+float Lights::environment_pdf(LightId light, Vec3 w, bool mis_partner) const {
+  return parts_->environments[parts_->lights[light].index].pdf(w, mis_partner);
+}
+
+std::size_t Lights::memory_bytes() const {
+  const Parts& p = *parts_;
+  std::size_t bytes = p.lights.capacity() * sizeof(Parts::Reference) + p.points.capacity() * sizeof(PointEmitter) +
+                      p.spots.capacity() * sizeof(SpotEmitter) + p.distants.capacity() * sizeof(DistantEmitter) +
+                      p.selection.memory_bytes();
+  for (const Environment& e : p.environments) bytes += e.memory_bytes();
+  for (const Emitter& e : p.emitters) bytes += e.memory_bytes();
+  for (const TexelImage& i : p.maps.images)
+    bytes += static_cast<std::size_t>(i.width()) * static_cast<std::size_t>(i.height()) * sizeof(Rgb);
+  return bytes;
+}
+
+}  // namespace tyndall

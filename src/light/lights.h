@@ -1,0 +1,109 @@
+/// Every light of a scene: choose one for a point, sample a direction toward it, and evaluate the densities of both.
+///
+/// The three steps of next-event estimation are `select` (pmf), `sample` (pdf, 1/sr) and the caller's shadow ray.
+/// For a scattered ray that finds a light by itself, `pmf` and `pdf` (or `environment_pdf`) give the probabilities
+/// with which the first two steps would have found the same.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "light/query.h"
+#include "tyndall/math.h"
+#include "tyndall/scene.h"
+#include "tyndall/settings.h"
+
+namespace tyndall {
+
+class Textures;
+
+struct LightSample {
+  Vec3 wi;         ///< unit, toward the light
+  float distance;  ///< infinity for distant and infinite lights
+  Rgb L;           ///< radiance that arrives when nothing is in between; delta lights: irradiance facing them
+  float pdf;       ///< 1/sr; 1 for delta lights
+  bool delta;      ///< no scattered ray can find it
+};
+
+/// What the render side knows of an emissive primitive that its ray hit.
+struct EmitterHit {
+  Vec3 p;
+  Vec3 ng;  ///< unit, as the geometry orients it; one-sided lights emit on its side
+  Vec2 uv;
+  float distance;  ///< from the query point
+};
+
+/// An emissive shape as placed in the world. `to_world` is the whole transform, an instance's included.
+struct EmitterShape {
+  const Shape* shape;
+  Transform to_world;
+};
+
+struct LightBuildOptions {
+  LightStrategy strategy = LightStrategy::tree_binary;
+  const Textures* textures = nullptr;  ///< read for the alpha of emissive shapes; null: opaque. Must outlive the lights
+};
+
+/// For the summary of a build.
+struct LightStats {
+  std::size_t lights = 0, emitters = 0, infinite = 0;  ///< all; primitives of emissive shapes; environments
+  std::size_t dark = 0;                                ///< lights without power, which are never chosen
+  std::size_t tree_nodes = 0;
+  int tree_depth = 0;
+  double power = 0;  ///< W, mean of the channels, all lights
+};
+
+/// Immutable after build_lights; every query may be made from any number of threads.
+class Lights {
+ public:
+  struct Parts;
+  Lights();  ///< no lights
+  explicit Lights(std::unique_ptr<const Parts> parts);
+  ~Lights();
+  Lights(Lights&&) noexcept;
+  Lights& operator=(Lights&&) noexcept;
+
+  std::size_t size() const;
+  bool empty() const { return size() == 0; }
+  /// Callers loop over all lights, each with pmf 1, in place of select().
+  bool exhaustive() const;
+  LightStrategy strategy() const;
+
+  /// One light for the point, by one number of 52 or more random bits in [0, 1). Nothing: no light is known to
+  /// contribute. Exhaustive: chooses uniformly.
+  std::optional<SelectedLight> select(const PointQuery& query, double u) const;
+  /// Probability that select() gives `light`; exhaustive: 1.
+  float pmf(const PointQuery& query, LightId light) const;
+
+  /// A direction from `p` toward the light. Nothing when it cannot contribute there.
+  /// `mis_partner`: scattered rays, weighted by MIS, find environments too; they are then sampled by what exceeds
+  /// their mean [Karlik et al. 2019], which leaves the rest to the partner. Without one use false.
+  std::optional<LightSample> sample(LightId light, Vec3 p, Vec2 u, bool mis_partner) const;
+  /// 1/sr: density with which sample() at `p` gives the direction of `hit`. 0 for lights without a surface.
+  float pdf(LightId light, Vec3 p, const EmitterHit& hit) const;
+  /// Radiance that leaves the emitter at `hit` along `wo`. Opacity is not in it: a hit has passed that test.
+  Rgb emitted(LightId light, const EmitterHit& hit, Vec3 wo) const;
+
+  std::span<const LightId> infinite() const;  ///< lights that rays leaving the scene see
+  Rgb environment(LightId light, Vec3 w) const;  ///< radiance arriving from direction `w`
+  float environment_pdf(LightId light, Vec3 w, bool mis_partner) const;  ///< 1/sr, of sample() giving `w`
+
+  /// The light that is primitive 0 of the emitter shape (in the order given to build_lights); primitive i follows at +i.
+  LightId first_light(std::size_t emitter_shape) const;
+  double power(LightId light) const;  ///< W, mean of the channels
+  const LightStats& stats() const;
+  std::size_t memory_bytes() const;
+
+ private:
+  std::unique_ptr<const Parts> parts_;
+};
+
+/// `shapes` are the placed shapes that have `emission`, `scene_bounds` encloses everything that can be hit.
+/// Copies what it needs of the scene. Throws Error (scene) when an image cannot be read or used.
+Lights build_lights(const Scene& scene, std::span<const EmitterShape> shapes, const Bounds3& scene_bounds,
+                    const LightBuildOptions& options = {});
+
+}  // namespace tyndall

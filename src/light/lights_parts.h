@@ -1,0 +1,40 @@
+/// What Lights is made of. Only src/light sees it.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "light/delta_lights.h"
+#include "light/emitter.h"
+#include "light/environment.h"
+#include "light/lights.h"
+#include "light/selection.h"
+
+namespace tyndall {
+
+struct Lights::Parts {
+  enum class Kind : std::uint32_t { point, spot, distant, environment, emitter };
+  /// Where a light is to be found: eight bytes, since there may be millions.
+  struct Reference {
+    Kind kind : 3;
+    std::uint32_t index : 29;  ///< into the vector of its kind
+    std::uint32_t primitive = 0;
+  };
+
+  double power(LightId light) const;  ///< W, mean of the channels; 0: it can never contribute
+
+  std::vector<Reference> lights;
+  std::vector<PointEmitter> points;
+  std::vector<SpotEmitter> spots;
+  std::vector<DistantEmitter> distants;
+  std::vector<Environment> environments;
+  std::vector<Emitter> emitters;  ///< by emitter shape
+  std::vector<LightId> first_light;  ///< of each emitter shape
+  std::vector<LightId> infinite;
+  EmissionMaps maps;
+  double scene_radius = 1;
+  Selection selection;
+  LightStats stats;
+};
+
+}  // namespace tyndall

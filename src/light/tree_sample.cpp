@@ -1,0 +1,57 @@
+#include "light/light_tree.h"
+
+namespace tyndall {
+namespace {
+
+constexpr double kBelowOne = 0x1.fffffffffffffp-1;
+
+/// A child with any importance keeps at least this chance, so that no light becomes unreachable by rounding.
+constexpr double kLeastChance = 1e-9;
+
+}  // namespace
+
+std::optional<double> LightTree::child_probability(std::uint32_t node, const PointQuery& query) const {
+  const double first = node_importance(node + 1, query);
+  const double second = node_importance(nodes_[node].second_or_light, query);
+  if (!(first + second > 0)) return std::nullopt;
+  if (first == 0 || second == 0) return first > 0 ? 1.0 : 0.0;
+  return std::clamp(first / (first + second), kLeastChance, 1 - kLeastChance);
+}
+
+std::optional<LightTree::Choice> LightTree::select(const PointQuery& query, double u) const {
+  if (nodes_.empty() || !(node_importance(0, query) > 0)) return std::nullopt;
+  std::uint32_t node = 0;
+  double pmf = 1;
+  while (!nodes_[node].leaf) {
+    const auto p = child_probability(node, query);
+    if (!p) return std::nullopt;
+    if (u < *p) {
+      u = std::min(u / *p, kBelowOne);
+      pmf *= *p;
+      node = node + 1;
+    } else {
+      u = std::min((u - *p) / (1 - *p), kBelowOne);
+      pmf *= 1 - *p;
+      node = nodes_[node].second_or_light;
+    }
+  }
+  return Choice{nodes_[node].second_or_light, pmf};
+}
+
+double LightTree::pmf(const PointQuery& query, std::uint32_t leaf) const {
+  if (!(node_importance(0, query) > 0)) return 0;
+  double pmf = 1;
+  for (std::uint32_t node = leaf; nodes_[node].parent != kNoParent && pmf > 0; node = nodes_[node].parent) {
+    const std::uint32_t parent = nodes_[node].parent;
+    const auto p = child_probability(parent, query);
+    if (!p) return 0;
+    pmf *= node == parent + 1 ? *p : 1 - *p;
+  }
+  return pmf;
+}
+
+double LightTree::importance(const PointQuery& query) const {
+  return nodes_.empty() ? 0 : node_importance(0, query) * intensity_;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,101 @@
+#include "light/triangle_emitter.h"
+
+#include "math/spherical.h"
+
+namespace tyndall {
+namespace {
+
+/// Solid angles that directions are drawn from; beyond them double precision runs out, or the observer is in the
+/// triangle's plane.
+constexpr double kSmallest = 1e-9, kLargest = 6.2831;
+
+bool by_solid_angle(double solid_angle) { return solid_angle > kSmallest && solid_angle < kLargest; }
+
+}  // namespace
+
+TriangleEmitter::TriangleEmitter(const TriangleMesh& mesh, const Transform& to_world, bool reverse_orientation,
+                                 bool with_uvs) {
+  const bool flip = reverse_orientation != to_world.swaps_handedness();
+  const std::size_t count = mesh.indices.size() / 3;
+  positions_.reserve(3 * count);
+  for (std::size_t i = 0; i < 3 * count; ++i) positions_.push_back(to_world.point(mesh.positions[mesh.indices[i]]));
+  if (with_uvs && !mesh.uvs.empty())
+    for (std::size_t i = 0; i < 3 * count; ++i) uvs_.push_back(mesh.uvs[mesh.indices[i]]);
+
+  // Vertex normals, where there are any, decide which side is the outer one.
+  flipped_.assign(count, flip);
+  if (mesh.normals.empty()) return;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto n = [&](std::size_t k) { return to_world.normal(mesh.normals[mesh.indices[3 * i + k]]); };
+    const Vec3 shading = (n(0) + n(1) + n(2)) * (reverse_orientation ? -1.0f : 1.0f);
+    flipped_[i] = false;
+    flipped_[i] = dot(normal(static_cast<std::uint32_t>(i)), shading) < 0;
+  }
+}
+
+Vec3 TriangleEmitter::normal(std::uint32_t i) const {
+  const Vec3d a = vertex(i, 0);
+  const Vec3d n = normalize(cross(vertex(i, 1) - a, vertex(i, 2) - a));
+  return to_vec3(flipped_[i] ? -n : n);
+}
+
+double TriangleEmitter::area(std::uint32_t i) const {
+  const Vec3d a = vertex(i, 0);
+  return 0.5 * length(cross(vertex(i, 1) - a, vertex(i, 2) - a));
+}
+
+EmitterExtent TriangleEmitter::extent(std::uint32_t i) const {
+  EmitterExtent extent;
+  for (std::size_t k = 0; k < 3; ++k) extent.box.expand(positions_[3 * std::size_t(i) + k]);
+  extent.normals = DirectionCone::around(normal(i));
+  return extent;
+}
+
+Vec2 TriangleEmitter::uv(std::uint32_t i, double b1, double b2) const {
+  const auto x = static_cast<float>(b1), y = static_cast<float>(b2);
+  if (uvs_.empty()) return {x + y, y};
+  const Vec2* uv = &uvs_[3 * std::size_t(i)];
+  return uv[0] * (1 - x - y) + uv[1] * x + uv[2] * y;
+}
+
+std::optional<EmitterSample> TriangleEmitter::sample(std::uint32_t i, Vec3 p, Vec2 u) const {
+  const Vec3d a = vertex(i, 0) - Vec3d(p), b = vertex(i, 1) - Vec3d(p), c = vertex(i, 2) - Vec3d(p);
+  const Vec3d e1 = b - a, e2 = c - a, n = cross(e1, e2);
+  const double n2 = dot(n, n);
+  if (!(n2 > 0)) return std::nullopt;
+  const SphericalTriangle triangle(a, b, c);
+
+  if (by_solid_angle(triangle.solid_angle())) {
+    // The point under the direction; seen at a grazing angle rounding could place it outside the triangle.
+    const Vec3d w = triangle.sample(u);
+    const Vec3d h = w * (dot(a, n) / dot(w, n)) - a;
+    const double b1 = std::clamp(dot(cross(h, e2), n) / n2, 0.0, 1.0);
+    const double b2 = std::clamp(dot(cross(e1, h), n) / n2, 0.0, 1.0 - b1);
+    const double distance = length(a + e1 * b1 + e2 * b2);
+    if (!std::isfinite(distance)) return std::nullopt;
+    return EmitterSample{to_vec3(w), static_cast<float>(distance), normal(i), uv(i, b1, b2),
+                         static_cast<float>(1 / triangle.solid_angle())};
+  }
+
+  const double root = std::sqrt(static_cast<double>(u.x));
+  const double b1 = root * (1 - u.y), b2 = root * u.y;
+  const Vec3d x = a + e1 * b1 + e2 * b2;
+  const auto pdf = solid_angle_density(2 / std::sqrt(n2), x, n);
+  if (!pdf) return std::nullopt;
+  return EmitterSample{to_vec3(normalize(x)), static_cast<float>(length(x)), normal(i), uv(i, b1, b2), *pdf};
+}
+
+float TriangleEmitter::pdf(std::uint32_t i, Vec3 p, Vec3 hit) const {
+  const Vec3d a = vertex(i, 0) - Vec3d(p), b = vertex(i, 1) - Vec3d(p), c = vertex(i, 2) - Vec3d(p);
+  const SphericalTriangle triangle(a, b, c);
+  if (by_solid_angle(triangle.solid_angle())) return static_cast<float>(1 / triangle.solid_angle());
+  const Vec3d n = cross(b - a, c - a);
+  if (!(dot(n, n) > 0)) return 0;
+  return solid_angle_density(2 / length(n), Vec3d(hit) - Vec3d(p), n).value_or(0.0f);
+}
+
+std::size_t TriangleEmitter::memory_bytes() const {
+  return positions_.capacity() * sizeof(Vec3) + uvs_.capacity() * sizeof(Vec2) + flipped_.capacity() / 8;
+}
+
+}  // namespace tyndall
