@@ -1,0 +1,12 @@
+/// The subcommands: each adds itself to the parser and leaves its exit code in `exit_code` when it has run.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace tyndall::cli {
+
+void add_render(CLI::App& app, int& exit_code);
+void add_info(CLI::App& app, int& exit_code);
+void add_check(CLI::App& app, int& exit_code);
+
+}  // namespace tyndall::cli

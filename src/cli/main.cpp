@@ -1,0 +1,54 @@
+#include <fmt/core.h>
+
+#include <csignal>
+#include <exception>
+#include <new>
+
+#include "cli/command.h"
+#include "tyndall/error.h"
+#include "tyndall/render.h"
+
+namespace {
+
+constexpr const char* kExitCodes =
+    "Exit codes: 0 done, 1 run-time failure, 2 usage, 3 scene or asset, 4 output, 5 differs, 7 incomplete,\n"
+    "130/143 interrupted (the image so far is written).";
+
+int run(int argc, char** argv) {
+  CLI::App app("Tyndall renders smoke, cloud and fire lit by many lights.", "tyndall");
+  app.set_version_flag("--version", "tyndall " + std::string(tyndall::version()));
+  app.require_subcommand(1);
+  app.footer(kExitCodes);
+  int exit_code = 0;
+  tyndall::cli::add_render(app, exit_code);
+  tyndall::cli::add_info(app, exit_code);
+  tyndall::cli::add_check(app, exit_code);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
+    fmt::print(stderr, "tyndall: {}; see tyndall --help\n", e.what());
+    return static_cast<int>(tyndall::Failure::usage);
+  }
+  return exit_code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::signal(SIGPIPE, SIG_IGN);  // a write that cannot be done returns an error and gets a message
+#ifdef SIGXFSZ
+  std::signal(SIGXFSZ, SIG_IGN);
+#endif
+  try {
+    return run(argc, argv);
+  } catch (const tyndall::Error& e) {
+    fmt::print(stderr, "tyndall: {}\n", e.what());
+    return static_cast<int>(e.failure());
+  } catch (const std::bad_alloc&) {
+    fmt::print(stderr, "tyndall: out of memory; give the scene a smaller resolution, fewer lights or smaller volumes\n");
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "tyndall: {}\n", e.what());
+  }
+  return static_cast<int>(tyndall::Failure::run_time);
+}

@@ -1,0 +1,49 @@
+#include "cli/progress_display.h"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tyndall::cli {
+namespace {
+
+constexpr double kLineSeconds = 5;
+constexpr int kBarWidth = 40;
+
+std::string duration(double seconds) {
+  const auto s = static_cast<long long>(std::lround(std::min(seconds, 1e9)));
+  if (s < 60) return fmt::format("{}s", s);
+  if (s < 3600) return fmt::format("{}m{:02}s", s / 60, s % 60);
+  return fmt::format("{}h{:02}m", s / 3600, s / 60 % 60);
+}
+
+}  // namespace
+
+ProgressDisplay::ProgressDisplay(const std::string& kind) : kind_(kind) {
+  if (kind_ == "auto") kind_ = isatty(STDERR_FILENO) ? "bar" : "line";
+}
+
+void ProgressDisplay::show(const Progress& p) {
+  if (kind_ == "json") {
+    fmt::print(stderr, "{{\"samples\":{},\"fraction\":{:.4f},\"seconds\":{:.2f},\"remaining\":{:.2f}}}\n", p.samples_done,
+               p.fraction, p.seconds, p.remaining);
+  } else if (kind_ == "bar") {
+    const int full = static_cast<int>(std::lround(p.fraction * kBarWidth));
+    fmt::print(stderr, "\r[{:=<{}}{: <{}}] {:3.0f}%  {} spp  {} left   ", "", full, "", kBarWidth - full,
+               100 * p.fraction, p.samples_done, duration(p.remaining));
+    drawn_ = true;
+  } else if (kind_ == "line" && p.seconds - last_line_ >= kLineSeconds) {
+    last_line_ = p.seconds;
+    fmt::print(stderr, "{:.0f}%, {} spp, {} done, {} left\n", 100 * p.fraction, p.samples_done, duration(p.seconds),
+               duration(p.remaining));
+  }
+}
+
+void ProgressDisplay::finish() {
+  if (drawn_) fmt::print(stderr, "\r{: <{}}\r", "", kBarWidth + 40);
+  drawn_ = false;
+}
+
+}  // namespace tyndall::cli

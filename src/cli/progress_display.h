@@ -1,0 +1,24 @@
+/// Shows how far a render is, on stderr.
+#pragma once
+
+#include <string>
+
+#include "tyndall/render.h"
+
+namespace tyndall::cli {
+
+/// kind: "bar" redraws one line, "line" prints a line every few seconds, "json" one object a report, "none" nothing;
+/// "auto" is bar on a terminal and line elsewhere.
+class ProgressDisplay {
+ public:
+  explicit ProgressDisplay(const std::string& kind);
+  void show(const Progress& progress);
+  void finish();  ///< leaves the cursor on a fresh line
+
+ private:
+  std::string kind_;
+  double last_line_ = 0;
+  bool drawn_ = false;
+};
+
+}  // namespace tyndall::cli

@@ -1,0 +1,136 @@
+#include "cli/render_options.h"
+
+#include <filesystem>
+#include <limits>
+#include <sstream>
+
+namespace tyndall::cli {
+namespace {
+
+std::string join(const std::vector<std::string_view>& names, const char* separator) {
+  std::string text;
+  for (const auto name : names) text += (text.empty() ? "" : separator) + std::string(name);
+  return text;
+}
+
+[[noreturn]] void bad(const std::string& option, const std::string& value, const std::string& wanted) {
+  throw Error(Failure::usage, option + " " + value + " is not understood; give " + wanted);
+}
+
+/// Integers separated by `separator`, all of the text.
+std::vector<int> integers(const std::string& text, char separator) {
+  std::vector<int> values;
+  std::istringstream stream(text);
+  for (std::string part; std::getline(stream, part, separator);) {
+    std::size_t used = 0;
+    try {
+      values.push_back(std::stoi(part, &used));
+    } catch (const std::exception&) {
+      return {};
+    }
+    if (used != part.size()) return {};
+  }
+  return values;
+}
+
+std::vector<std::string> names_in(const std::string& list) {
+  std::vector<std::string> names;
+  std::istringstream stream(list);
+  for (std::string name; std::getline(stream, name, ',');) {
+    if (!name.empty()) names.push_back(name);
+  }
+  return names;
+}
+
+/// The crop keeps its share of the frame.
+void set_resolution(const std::string& text, Film& film) {
+  const auto size = integers(text, 'x');
+  if (size.size() != 2 || size[0] < 1 || size[1] < 1 || size[0] > 65536 || size[1] > 65536) {
+    bad("--resolution", text, "WxH in pixels, such as 960x540");
+  }
+  const auto scale = [](int v, int from, int to) { return static_cast<int>(static_cast<std::int64_t>(v) * to / from); };
+  film.crop = {scale(film.crop.x0, film.width, size[0]), scale(film.crop.y0, film.height, size[1]),
+               scale(film.crop.x1, film.width, size[0]), scale(film.crop.y1, film.height, size[1])};
+  film.width = size[0];
+  film.height = size[1];
+}
+
+void set_samples(const RenderOptions& options, RenderSettings& settings) {
+  if (options.spp) {
+    settings.spp = *options.spp;
+    settings.time.reset();
+  }
+  if (options.time) settings.time = *options.time;
+  // A time limit alone leaves the number of samples open.
+  if (settings.time && !options.spp) settings.spp = std::numeric_limits<int>::max();
+}
+
+}  // namespace
+
+void declare(CLI::App& command, RenderOptions& o) {
+  command.add_option("scene", o.scene, "scene file, .pbrt or .pbrt.gz")->required();
+  command.add_option("-o,--output", o.output, "image to write, .exr or .png [the Film's name, else SCENE.exr]; -o plume.exr");
+  command.add_option("--spp", o.spp, "samples a pixel [the Sampler's, else 64]; --spp 256")->check(CLI::Range(1, 1 << 30));
+  command.add_option("--time", o.time, "seconds to render for, at most; alone it sets the samples too [none]; --time 60")
+      ->check(CLI::PositiveNumber);
+  command.add_option("--threads", o.threads, "threads [0: one a core]; --threads 2")->check(CLI::Range(0, 4096));
+  command.add_option("--seed", o.seed, "of the random numbers [0]; --seed 7");
+  command.add_option("--crop", o.crop, "pixels x0,x1,y0,y1 to render, ends excluded [the Film's]; --crop 0,480,0,270");
+  command.add_option("--resolution", o.resolution, "frame size in pixels [the Film's]; --resolution 960x540");
+  command.add_option("--max-depth", o.max_depth, "scattering events a path, at most [the Integrator's, else 5]; --max-depth 16")
+      ->check(CLI::Range(0, 1 << 20));
+  command.add_option("--lights", o.lights,
+                     "how a light is chosen: " + join(light_strategy_names(), ", ") + " [tree-binary]; --lights power");
+  command.add_option("--transmittance", o.transmittance,
+                     "estimator along shadow rays: " + join(transmittance_strategy_names(), ", ") +
+                         " [residual]; --transmittance ratio");
+  command.add_option("--aov", o.aovs, "extra channels, comma-separated: " + join(aov_names(), ", ") + " [none]; --aov Albedo,N");
+  command.add_flag("--sanitize", o.sanitize, "NaN and infinite voxels become 0 instead of an error");
+  command.add_flag("--reproducible", o.reproducible, "leave dates and times out of the image header");
+  command.add_option("--progress", o.progress, "bar, line, json or none, on stderr [bar on a terminal, else line]; --progress json")
+      ->check(CLI::IsMember({"auto", "bar", "line", "json", "none"}));
+  command.add_flag("--quiet", o.quiet, "no progress, notes or summary; errors only");
+  command.add_flag("--json", o.json, "summary as JSON on stdout");
+}
+
+void apply(const RenderOptions& o, Scene& scene) {
+  RenderSettings& s = scene.settings;
+  set_samples(o, s);
+  if (o.max_depth) s.max_depth = *o.max_depth;
+  if (o.threads) s.threads = *o.threads;
+  if (o.seed) s.seed = *o.seed;
+  s.reproducible = s.reproducible || o.reproducible;
+  if (!o.lights.empty()) {
+    const auto strategy = parse_light_strategy(o.lights);
+    if (!strategy) bad("--lights", o.lights, join(light_strategy_names(), ", "));
+    s.lights = *strategy;
+  }
+  if (!o.transmittance.empty()) {
+    const auto strategy = parse_transmittance_strategy(o.transmittance);
+    if (!strategy) bad("--transmittance", o.transmittance, join(transmittance_strategy_names(), ", "));
+    s.transmittance = *strategy;
+  }
+  if (!o.aovs.empty()) s.aovs = names_in(o.aovs);
+  if (!o.resolution.empty()) set_resolution(o.resolution, scene.film);
+  if (!o.crop.empty()) {
+    const auto c = integers(o.crop, ',');
+    if (c.size() != 4 || c[0] >= c[1] || c[2] >= c[3]) bad("--crop", o.crop, "x0,x1,y0,y1 with x0 < x1 and y0 < y1");
+    s.crop = PixelBounds{c[0], c[2], c[1], c[3]};
+  }
+}
+
+std::string output_path(const RenderOptions& options, const Scene& scene) {
+  namespace fs = std::filesystem;
+  std::string path = options.output;
+  if (path.empty() && !scene.film.filename.empty()) path = fs::path(scene.film.filename).filename();
+  if (path.empty()) {
+    fs::path name = fs::path(options.scene).filename();
+    while (name.extension() == ".gz" || name.extension() == ".pbrt") name = name.stem();
+    path = name.string() + ".exr";
+  }
+  const std::string ending = fs::path(path).extension();
+  if (ending != ".exr" && ending != ".png") bad("output", path, "a name that ends in .exr or .png");
+  return path;
+}
+
+}  // namespace tyndall::cli

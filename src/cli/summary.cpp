@@ -1,0 +1,77 @@
+#include "cli/summary.h"
+
+#include <fmt/core.h>
+#include <sys/resource.h>
+
+#include <nlohmann/json.hpp>
+
+namespace tyndall::cli {
+namespace {
+
+std::string mebibytes(std::size_t bytes) { return fmt::format("{:.1f} MiB", static_cast<double>(bytes) / (1 << 20)); }
+
+std::string bad_samples(const RenderReport& r) {
+  std::string text;
+  for (const BadSample& b : r.bad_samples) text += fmt::format("  not finite: pixel {},{} sample {}\n", b.x, b.y, b.sample);
+  return text;
+}
+
+}  // namespace
+
+std::size_t peak_memory() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
+}
+
+std::string as_text(const Summary& s) {
+  const RenderReport& r = s.render;
+  const double rays = static_cast<double>(r.rays + r.shadow_rays);
+  std::string text;
+  text += fmt::format("{}: {}x{}, {} spp{}\n", s.output, s.width, s.height, r.samples, r.stopped ? ", stopped early" : "");
+  text += fmt::format("  time    read {:.2f}s, build {:.2f}s (geometry {:.2f}, volumes {:.2f}, lights {:.2f}), render {:.2f}s, write {:.2f}s\n",
+                      s.read_seconds, s.build_seconds, s.build.geometry_seconds, s.build.volume_seconds,
+                      s.build.light_seconds, r.seconds, s.write_seconds);
+  text += fmt::format("  scene   {} triangles, {} lights, {} media\n", s.build.triangles, s.build.lights, s.build.media);
+  text += fmt::format("  work    {} paths, {} rays, {} shadow rays ({:.2f} M rays/s), {} density lookups\n", r.paths, r.rays,
+                      r.shadow_rays, rays / std::max(r.seconds, 1e-9) * 1e-6, r.density_lookups);
+  text += fmt::format("  memory  peak {}, geometry {}, volumes {}, lights {}\n", mebibytes(peak_memory()),
+                      mebibytes(s.build.geometry_bytes), mebibytes(s.build.volume_bytes), mebibytes(s.build.light_bytes));
+  text += fmt::format("  health  {} non-finite samples, {} majorant violations, {} caps hit, {} boundary parity errors\n",
+                      r.non_finite, r.majorant_violations, r.caps_hit, r.parity_errors);
+  return text + bad_samples(r);
+}
+
+std::string as_json(const Summary& s) {
+  const RenderReport& r = s.render;
+  nlohmann::ordered_json j;
+  j["version"] = version();
+  j["output"] = s.output;
+  j["width"] = s.width;
+  j["height"] = s.height;
+  j["samples"] = r.samples;
+  j["stopped"] = r.stopped;
+  j["seconds"] = {{"read", s.read_seconds},         {"build", s.build_seconds},
+                  {"geometry", s.build.geometry_seconds}, {"volumes", s.build.volume_seconds},
+                  {"lights", s.build.light_seconds}, {"render", r.seconds},
+                  {"write", s.write_seconds}};
+  j["scene"] = {{"triangles", s.build.triangles}, {"lights", s.build.lights}, {"media", s.build.media}};
+  j["paths"] = r.paths;
+  j["rays"] = r.rays;
+  j["shadow_rays"] = r.shadow_rays;
+  j["density_lookups"] = r.density_lookups;
+  j["memory"] = {{"peak", peak_memory()},
+                 {"geometry", s.build.geometry_bytes},
+                 {"volumes", s.build.volume_bytes},
+                 {"lights", s.build.light_bytes}};
+  j["non_finite"] = r.non_finite;
+  j["majorant_violations"] = r.majorant_violations;
+  j["caps_hit"] = r.caps_hit;
+  j["parity_errors"] = r.parity_errors;
+  j["bad_samples"] = nlohmann::json::array();
+  for (const BadSample& b : r.bad_samples) j["bad_samples"].push_back({{"x", b.x}, {"y", b.y}, {"sample", b.sample}});
+  j["notes"] = s.build.notes;
+  return j.dump(2);
+}
+
+}  // namespace tyndall::cli

@@ -1,0 +1,35 @@
+/// From film positions to rays.
+#pragma once
+
+#include "tyndall/scene.h"
+
+namespace tyndall {
+
+/// The scene's camera with its projection worked out. Semantics of pbrt's PerspectiveCamera and OrthographicCamera.
+class CameraRays {
+ public:
+  CameraRays(const Camera& camera, const Film& film);
+
+  /// World ray through film position `p` (pixels of the full frame) and `lens` in [0,1)^2.
+  Ray ray(Vec2 p, Vec2 lens) const;
+  /// World position all rays of a pinhole share; the middle of the lens or of the screen otherwise.
+  Vec3 center() const { return to_world_.point({0, 0, 0}); }
+  /// Whether every ray starts at center().
+  bool is_pinhole() const { return !orthographic_ && lens_radius_ == 0; }
+  /// Distance of world point `p` along the viewing axis.
+  float depth(Vec3 p) const { return dot(p - center(), axis_); }
+  const Transform& to_world() const { return to_world_; }
+  /// Camera space to normalised screen, row-major, for the image header.
+  std::array<float, 16> world_to_ndc() const;
+  std::array<float, 16> world_to_camera() const;
+
+ private:
+  Transform to_world_;
+  bool orthographic_;
+  float x0_, x1_, y0_, y1_;  ///< screen window, times tan(fov/2) in perspective
+  float width_, height_;
+  float lens_radius_, focal_distance_;
+  Vec3 axis_;
+};
+
+}  // namespace tyndall

@@ -1,0 +1,35 @@
+/// Next-event estimation at a vertex.
+#pragma once
+
+#include "render/counters.h"
+#include "render/sampler.h"
+#include "render/vertex.h"
+#include "render/world_parts.h"
+
+namespace tyndall {
+
+/// What light estimation needs of the render at large.
+struct LightContext {
+  const World::Parts& world;
+  TransmittanceStrategy transmittance;
+  Sampler& sampler;
+  Counters& counters;
+};
+
+/// Share of the technique with density `a` when one with density `b` could have found the same: the power heuristic
+/// with exponent 2 [Veach 1997], safe for zero, huge and infinite densities.
+inline float mis_weight(float a, float b) {
+  if (!(b > 0)) return 1;
+  if (!(a > 0)) return 0;
+  const float ratio = b / a;  // may round to 0 or infinity; both give the right limit
+  return 1 / (1 + ratio * ratio);
+}
+
+/// Fraction of light that gets from `origin` to `target` through media and past surfaces.
+Rgb visibility(const LightContext& context, const MediaState& media, Vec3 origin, Vec3 wi, float distance);
+
+/// Unbiased estimate of the light scattered at `vertex` toward the path, weighted by MIS against scattered rays that
+/// hit emitters. Multiply by the throughput `beta`, which is passed for the densities only.
+Rgb direct_light(const LightContext& context, const Vertex& vertex, Rgb beta);
+
+}  // namespace tyndall

@@ -1,0 +1,55 @@
+/// Sums of samples a pixel, and the image made of them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "render/path_record.h"
+#include "tyndall/image.h"
+#include "tyndall/scene.h"
+
+namespace tyndall {
+
+enum class Aov {
+  albedo, n, p, z, z_volume, variance, sample_count, transmittance,
+  surface_direct, surface_indirect, volume_direct, volume_indirect, emission,
+};
+
+/// AOVs by name, once each, in the order of aov_names(). Throws Error (usage) that lists the names for an unknown one.
+std::vector<Aov> parse_aovs(const std::vector<std::string>& names);
+
+/// Double sums over the pixels of a crop. A pixel is written by one thread at a time, its samples in order, so that
+/// the sums do not depend on threads or on how samples are grouped into passes.
+class FilmBuffer {
+ public:
+  /// The film rectangle `crop` and the AOVs to gather.
+  FilmBuffer(const Film& film, PixelBounds crop, std::vector<Aov> aovs);
+
+  bool wants(Aov aov) const;
+  const PixelBounds& crop() const { return crop_; }
+
+  /// Add sample number `sample` of pixel (x, y) of the full frame, weighted by the pixel filter.
+  void add(int x, int y, int sample, const PathRecord& record, float weight);
+
+  /// Means of the `samples` samples that every pixel has received, in the film's colour space.
+  Image image(int samples) const;
+
+ private:
+  double* pixel(int x, int y);
+  const double* pixel(std::size_t index) const { return sums_.data() + index * stride_; }
+  void add_aov(Aov aov, double* sum, const PathRecord& record, float weight) const;
+  void store_color(Image& image, const std::string& prefix, std::size_t offset, int samples) const;
+  void store_aov(Image& image, Aov aov, std::size_t offset, int samples) const;
+  void store_variance(Image& image, int samples) const;
+  Rgb to_film_space(Rgb c) const;
+
+  Film film_;
+  PixelBounds crop_;
+  std::vector<Aov> aovs_;
+  std::vector<std::size_t> offsets_;  ///< of each AOV within a pixel's sums
+  std::size_t stride_;
+  std::vector<double> sums_;
+};
+
+}  // namespace tyndall

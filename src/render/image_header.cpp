@@ -1,0 +1,42 @@
+#include "render/image_header.h"
+
+#include <ctime>
+
+#include "tyndall/version.h"
+
+namespace tyndall {
+namespace {
+
+std::string options_text(const RenderSettings& settings) {
+  return "--max-depth " + std::to_string(settings.max_depth) + " --lights " + std::string(name_of(settings.lights)) +
+         " --transmittance " + std::string(name_of(settings.transmittance));
+}
+
+std::string utc_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text;
+}
+
+}  // namespace
+
+std::string_view version() { return kVersion; }
+
+void write_header(Image& image, const World::Parts& world, const RenderSettings& settings, const RenderReport& report) {
+  auto& a = image.attributes;
+  a["worldToCamera"] = world.camera.world_to_camera();
+  a["worldToNDC"] = world.camera.world_to_ndc();
+  a["software"] = "Tyndall " + std::string(kVersion);
+  a["tyndall/scene"] = world.scene.source;
+  a["tyndall/samples"] = report.samples;
+  a["tyndall/seed"] = std::to_string(settings.seed);  // 64 bits do not fit an EXR integer
+  a["tyndall/options"] = options_text(settings);
+  if (settings.reproducible) return;
+  a["tyndall/renderTime"] = report.seconds;
+  a["tyndall/date"] = utc_now();
+}
+
+}  // namespace tyndall

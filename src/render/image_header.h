@@ -1,0 +1,11 @@
+/// What a rendered image says about itself.
+#pragma once
+
+#include "render/world_parts.h"
+
+namespace tyndall {
+
+/// Add camera matrices, samples, seed, options, version and (unless reproducible) date and time taken.
+void write_header(Image& image, const World::Parts& world, const RenderSettings& settings, const RenderReport& report);
+
+}  // namespace tyndall

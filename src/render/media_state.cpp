@@ -1,0 +1,44 @@
+#include "render/media_state.h"
+
+namespace tyndall {
+
+bool MediaState::cross(std::uint32_t group, int sign) {
+  for (std::size_t i = 0; i < inside_.size(); ++i) {
+    if (inside_[i].group != group) continue;
+    inside_[i].count += sign;
+    if (inside_[i].count == 0) inside_.erase(i);
+    return true;
+  }
+  if (sign < 0) return false;
+  inside_.push_back({group, sign});
+  return true;
+}
+
+ActiveMedia MediaState::active(const std::vector<BoundaryGroup>& groups,
+                               const std::vector<ParticipatingMedium>& media) const {
+  ActiveMedia result;
+  if (unbounded_) result.push_back(&media[*unbounded_]);
+  for (const Membership& m : inside_) {
+    if (const auto inside = groups[m.group].inside) result.push_back(&media[*inside]);
+  }
+  // Removals come last, so that the order in which groups were entered does not matter.
+  for (const Membership& m : inside_) {
+    const auto outside = groups[m.group].outside;
+    if (!outside) continue;
+    for (std::size_t i = 0; i < result.size(); ++i) {
+      if (result[i] != &media[*outside]) continue;
+      result.erase(i);
+      break;
+    }
+  }
+  return result;
+}
+
+bool MediaState::brings(MediumId medium, const std::vector<BoundaryGroup>& groups) const {
+  for (const Membership& m : inside_) {
+    if (groups[m.group].inside == medium) return true;
+  }
+  return false;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,47 @@
+/// Which boundary groups hold a point, and so which media are there.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "math/small_vector.h"
+#include "surface/geometry.h"
+#include "volume/tracking.h"
+
+namespace tyndall {
+
+/// Media that overlap somewhere; a medium that two groups bring counts twice.
+using ActiveMedia = SmallVector<const ParticipatingMedium*, 4>;
+
+/// The path's place among the media, carried from vertex to vertex. DESIGN 4 "Membership": per group the signed
+/// crossings are summed, and the point is inside while the sum is positive.
+class MediaState {
+ public:
+  MediaState() = default;
+  /// `unbounded`: a medium that fills all space (the camera's fog).
+  explicit MediaState(std::optional<MediumId> unbounded) : unbounded_(unbounded) {}
+
+  /// Pass one boundary: sign +1 enters the group, -1 leaves it. Leaving a group that does not hold the point changes
+  /// nothing and returns false: the crossing and its partner did not pair up.
+  bool cross(std::uint32_t group, int sign);
+
+  /// Media here: each group's inside medium less its outside medium, never below zero.
+  ActiveMedia active(const std::vector<BoundaryGroup>& groups, const std::vector<ParticipatingMedium>& media) const;
+
+  bool in_any_group() const { return !inside_.empty(); }
+  std::optional<MediumId> unbounded() const { return unbounded_; }
+  void set_unbounded(std::optional<MediumId> medium) { unbounded_ = medium; }
+  /// Whether some group that holds the point has `medium` as its inside.
+  bool brings(MediumId medium, const std::vector<BoundaryGroup>& groups) const;
+
+ private:
+  struct Membership {
+    std::uint32_t group;
+    std::int32_t count;  ///< > 0
+  };
+  std::optional<MediumId> unbounded_;
+  SmallVector<Membership, 4> inside_;
+};
+
+}  // namespace tyndall

@@ -1,0 +1,209 @@
+#include "render/path.h"
+
+#include <bit>
+#include <cmath>
+
+#include "math/hash.h"
+
+namespace tyndall {
+namespace {
+
+/// A uniform number that depends on where a surface is seen and from where, and on nothing else: makes the choices of
+/// mix materials and of coated materials' walks repeatable, as in pbrt.
+float hash_to_unit(Vec3 p, Vec3 w) {
+  const auto bits = [](float f) { return static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(f)); };
+  const std::uint64_t h = hash(bits(p.x), bits(p.y), bits(p.z), bits(w.x), bits(w.y), bits(w.z));
+  return static_cast<float>(h >> 40) * 0x1p-24f;
+}
+
+}  // namespace
+
+Path::Path(const LightContext& context, const Limits& limits, const Ray& camera_ray)
+    : context_(context), limits_(limits), ray_(camera_ray), media_(context.world.camera_media) {
+  const World::Parts& world = context.world;
+  if (world.camera.is_pinhole() || world.geometry.groups().empty()) return;
+  // Membership is known at the center of the lens; what lies between it and this ray's origin is passed on the way.
+  const Vec3 step = ray_.o - world.camera.center();
+  for (const Crossing& c : world.geometry.trace_all({world.camera.center(), step}, 0, 1)) media_.cross(c.group, c.sign);
+}
+
+PathRecord Path::run() {
+  ++context_.counters.paths;
+  while (const auto vertex = next_vertex()) {
+    if (depth_++ >= limits_.max_depth) break;
+    if (depth_ == 1) first_event_in_medium_ = !vertex->on_surface();
+    if (!scatter(*vertex)) break;
+  }
+  return record_;
+}
+
+/// Next-event estimation, then the direction of the next ray. False ends the path.
+bool Path::scatter(const Vertex& vertex) {
+  add(beta_ * direct_light(context_, vertex, beta_), depth_);
+
+  const float uc = context_.sampler.next_1d();
+  const auto s = vertex.sample(beta_, uc, context_.sampler.next_2d());
+  if (!s) return false;
+  light_sampled_ = !s->specular && vertex.has_smooth();
+  pdf_ = s->pdf;
+  query_ = vertex.light_query();
+  media_ = vertex.media_toward(context_.world.geometry, s->wi);
+  ray_ = {vertex.origin(context_.world.geometry, s->wi), s->wi};
+  beta_ *= s->weight;
+  eta_scale_ *= s->eta * s->eta;
+  return !is_black(beta_) && survive_roulette();
+}
+
+bool Path::survive_roulette() {
+  const float survival = max_component(beta_) * eta_scale_;
+  if (depth_ <= 1 || survival >= 1) return true;
+  if (context_.sampler.next_1d() >= survival) return false;
+  beta_ *= 1 / survival;
+  return true;
+}
+
+/// Trace the ray to where it scatters next, adding the light it meets. Nothing: it left the scene or was absorbed.
+std::optional<Vertex> Path::next_vertex() {
+  ++context_.counters.rays;
+  const Trace trace = context_.world.geometry.trace(ray_, 0, kInfinity);
+  const float t_end = trace.hit ? trace.hit->t : kInfinity;
+  if (depth_ == 0) record_camera_ray(trace, t_end);
+  if (context_.world.has_media()) {
+    if (auto collision = fly(trace, t_end)) return collision;
+  }
+  if (is_black(beta_)) return std::nullopt;
+  if (!trace.hit) {
+    add_environment();
+    return std::nullopt;
+  }
+  add_surface_emission(*trace.hit);
+  Vertex vertex = surface_vertex(*trace.hit);
+  if (depth_ == 0) record_first_event(limits_.want_albedo ? vertex.albedo() : Rgb());
+  return vertex;
+}
+
+/// Go through the media before t_end. A vertex: the path collides there; else it arrives with its weight in beta_.
+std::optional<Vertex> Path::fly(const Trace& trace, float t_end) {
+  // After the last event only what the ray meets at its end counts: no collision need be drawn.
+  if (depth_ >= limits_.max_depth) {
+    dim_through_media(trace, t_end);
+    return std::nullopt;
+  }
+  return fly_through_media(trace, t_end);
+}
+
+std::optional<Vertex> Path::fly_through_media(const Trace& trace, float t_end) {
+  Rng rng = context_.sampler.stream();
+  float u = context_.sampler.next_1d();
+  SpanWalk walk(context_.world.media_context(), media_, trace.crossings, t_end);
+  while (const auto interval = walk.next()) {
+    const MediaView view(interval->media.data(), interval->media.size());
+    const Flight flight =
+        free_flight(view, ray_, interval->t0, interval->t1, beta_, u, rng, context_.counters.tracking);
+    add(beta_ * flight.emission, depth_);
+    beta_ *= flight.weight;
+    if (is_black(beta_)) return std::nullopt;
+    if (flight.collided) {
+      if (depth_ == 0) record_collision(flight.t, flight.weight);
+      context_.counters.parity_errors += walk.parity_errors();
+      return Vertex(Vertex::InMedium{ray_.at(flight.t), flight.phase}, -ray_.d, walk.state());
+    }
+    u = rng.uniform();
+  }
+  media_ = walk.state();
+  context_.counters.parity_errors += walk.parity_errors() + (t_end == kInfinity && media_.in_any_group() ? 1 : 0);
+  return std::nullopt;
+}
+
+void Path::dim_through_media(const Trace& trace, float t_end) {
+  Rng rng = context_.sampler.stream();
+  SpanWalk walk(context_.world.media_context(), media_, trace.crossings, t_end);
+  while (const auto interval = walk.next()) {
+    const MediaView view(interval->media.data(), interval->media.size());
+    beta_ *= transmittance(context_.transmittance, view, ray_, interval->t0, interval->t1, rng,
+                           context_.counters.tracking);
+    if (is_black(beta_)) return;
+  }
+  media_ = walk.state();
+}
+
+Vertex Path::surface_vertex(const SurfaceHit& hit) {
+  const Vec3 wo = -ray_.d;
+  const SurfaceQuery query{
+      .p = hit.p, .uv = hit.uv, .shading = Frame::around(hit.ns, hit.dpdu), .wo = wo, .random = hash_to_unit(hit.p, wo)};
+  const Bsdf bsdf = context_.world.materials.bsdf(context_.world.material_of(hit), query);
+  return Vertex(Vertex::Surface{hit, bsdf}, wo, media_);
+}
+
+void Path::add_environment() {
+  const Lights& lights = context_.world.lights;
+  for (const LightId id : lights.infinite()) {
+    const Rgb L = lights.environment(id, ray_.d);
+    if (is_black(L)) continue;
+    float weight = 1;
+    if (light_sampled_) {
+      const float pmf = lights.exhaustive() ? 1.0f : lights.pmf(query_, id);
+      weight = mis_weight(pdf_, pmf * lights.environment_pdf(id, ray_.d, true));
+    }
+    add(beta_ * L * weight, depth_);
+  }
+}
+
+void Path::add_surface_emission(const SurfaceHit& hit) {
+  const auto id = context_.world.light_of(hit);
+  if (!id) return;
+  const Lights& lights = context_.world.lights;
+  const EmitterHit emitter{.p = hit.p, .ng = hit.ng, .uv = hit.uv, .distance = hit.t};
+  const Rgb L = lights.emitted(*id, emitter, -ray_.d);
+  if (is_black(L)) return;
+  float weight = 1;
+  if (light_sampled_) {
+    const float pmf = lights.exhaustive() ? 1.0f : lights.pmf(query_, *id);
+    weight = mis_weight(pdf_, pmf * lights.pdf(*id, query_.p, emitter));
+  }
+  add(beta_ * L * weight, depth_);
+}
+
+/// Light that reached the camera after `events` scattering events.
+void Path::add(Rgb contribution, int events) {
+  if (events == 0) {
+    record_.emission += contribution;
+  } else if (first_event_in_medium_) {
+    (events == 1 ? record_.volume_direct : record_.volume_indirect) += contribution;
+  } else {
+    (events == 1 ? record_.surface_direct : record_.surface_indirect) += contribution;
+  }
+}
+
+void Path::record_camera_ray(const Trace& trace, float t_end) {
+  if (trace.hit) {
+    record_.hit_surface = true;
+    record_.p = trace.hit->p;
+    record_.n = trace.hit->ns;
+    record_.z = context_.world.camera.depth(trace.hit->p);
+  }
+  if (limits_.want_transmittance && context_.world.has_media()) record_transmittance(trace, t_end);
+}
+
+void Path::record_first_event(Rgb albedo) {
+  record_.alpha = 1;
+  record_.albedo = albedo;
+}
+
+void Path::record_collision(float t, Rgb albedo) {
+  record_first_event(albedo);
+  record_.hit_volume = true;
+  record_.z_volume = context_.world.camera.depth(ray_.at(t));
+}
+
+void Path::record_transmittance(const Trace& trace, float t_end) {
+  Rng rng = context_.sampler.stream();
+  SpanWalk walk(context_.world.media_context(), media_, trace.crossings, t_end);
+  while (const auto interval = walk.next()) {
+    const MediaView view(interval->media.data(), interval->media.size());
+    record_.transmittance *= transmittance(context_.transmittance, view, ray_, interval->t0, interval->t1, rng,
+                                           context_.counters.tracking);
+  }
+}
+
+}  // namespace tyndall

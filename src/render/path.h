@@ -1,0 +1,56 @@
+/// One path from the camera: the transport that makes the picture.
+#pragma once
+
+#include "render/direct_light.h"
+#include "render/path_record.h"
+
+namespace tyndall {
+
+/// Path tracing with next-event estimation and MIS through surfaces and media [Kajiya 1986; Veach 1997].
+/// A value for one sample: make it, run() it, drop it.
+class Path {
+ public:
+  /// What a path may do.
+  struct Limits {
+    int max_depth;  ///< scattering events, counted as pbrt's volpath does
+    bool want_transmittance = false;  ///< record the camera ray's transmittance
+    bool want_albedo = false;         ///< and the first event's albedo
+  };
+
+  Path(const LightContext& context, const Limits& limits, const Ray& camera_ray);
+
+  PathRecord run();
+
+ private:
+  std::optional<Vertex> next_vertex();
+  std::optional<Vertex> fly(const Trace& trace, float t_end);
+  std::optional<Vertex> fly_through_media(const Trace& trace, float t_end);
+  void dim_through_media(const Trace& trace, float t_end);
+  Vertex surface_vertex(const SurfaceHit& hit);
+  void add_environment();
+  void add_surface_emission(const SurfaceHit& hit);
+  void add(Rgb contribution, int events);
+  void record_camera_ray(const Trace& trace, float t_end);
+  void record_first_event(Rgb albedo);
+  void record_collision(float t, Rgb albedo);
+  void record_transmittance(const Trace& trace, float t_end);
+  bool scatter(const Vertex& vertex);
+  bool survive_roulette();
+
+  LightContext context_;
+  Limits limits_;
+  Ray ray_;
+  MediaState media_;
+  Rgb beta_{1.0f};
+  int depth_ = 0;         ///< scattering events so far
+  float eta_scale_ = 1;   ///< undoes the 1/eta^2 of transmissions in Russian roulette
+  PathRecord record_;
+  bool first_event_in_medium_ = false;
+
+  // The last scattering event, for the MIS weight of emitters that its ray hits.
+  bool light_sampled_ = false;  ///< next-event estimation could have found what this ray finds
+  float pdf_ = 0;
+  PointQuery query_;
+};
+
+}  // namespace tyndall

@@ -1,0 +1,41 @@
+/// The reconstruction filter, by importance sampling: a pixel owns its samples.
+#pragma once
+
+#include <vector>
+
+#include "math/distribution.h"
+#include "tyndall/scene.h"
+
+namespace tyndall {
+
+/// Value of the filter at offset (x, y) from the pixel's centre, not normalised. pbrt's formulas, all separable.
+float filter_value(const PixelFilter& filter, Vec2 offset);
+
+/// Draws offsets in proportion to |filter| and gives the weight that makes the mean of weight * value the filtered
+/// pixel: 1 for filters that are nowhere negative, else +-W with W = (integral of |f|) / (integral of f)
+/// [Ernst et al. 2006].
+class FilterSampler {
+ public:
+  struct Offset {
+    Vec2 p;  ///< pixels from the centre
+    float weight;
+  };
+
+  explicit FilterSampler(const PixelFilter& filter);
+
+  Offset sample(Vec2 u) const;
+
+ private:
+  /// One dimension, tabulated: f is taken as constant within each of many equal bins.
+  struct Axis {
+    float radius;
+    PiecewiseConstant1D distribution;  ///< of |f|
+    std::vector<float> weights;        ///< +-W by bin
+
+    Axis(const PixelFilter& filter, int axis);
+    Offset sample(float u) const;  ///< p.x only
+  };
+  Axis x_, y_;
+};
+
+}  // namespace tyndall

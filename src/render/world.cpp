@@ -1,0 +1,110 @@
+#include <chrono>
+#include <utility>
+
+#include "render/camera_media.h"
+#include "render/world_parts.h"
+
+namespace tyndall {
+namespace {
+
+/// Seconds since it was made.
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+};
+
+std::vector<ParticipatingMedium> build_media(const Scene& scene, const BuildSettings& settings, BuildSummary& summary) {
+  const Stopwatch watch;
+  std::vector<ParticipatingMedium> media;
+  media.reserve(scene.media.size());
+  for (const Medium& medium : scene.media) {
+    media.push_back(build_medium(medium, {.sanitize = settings.sanitize}, summary.notes));
+    summary.volume_bytes += media.back().memory_bytes();
+  }
+  summary.media = media.size();
+  summary.volume_seconds = watch.seconds();
+  return media;
+}
+
+Geometry build_geometry(const Scene& scene, const Textures& textures, int threads, BuildSummary& summary) {
+  const Stopwatch watch;
+  Geometry geometry(scene, &textures, threads);
+  summary.triangles = geometry.triangle_count();
+  summary.geometry_bytes = geometry.memory_bytes();
+  summary.geometry_seconds = watch.seconds();
+  return geometry;
+}
+
+/// The emissive shapes as placed, in order, and which placed shape each is.
+struct Emitters {
+  std::vector<EmitterShape> shapes;
+  std::vector<std::size_t> placed;
+};
+
+Emitters find_emitters(const Scene& scene, const Geometry& geometry, BuildSummary& summary) {
+  Emitters emitters;
+  std::size_t without_surface = 0;
+  for (std::size_t i = 0; i < geometry.placed().size(); ++i) {
+    const PlacedShape& placed = geometry.placed()[i];
+    if (!placed.shape->emission) continue;
+    if (std::holds_alternative<InterfaceMaterial>(scene.materials[placed.shape->material].kind)) {
+      ++without_surface;
+      continue;
+    }
+    emitters.shapes.push_back({placed.shape, placed.to_world});
+    emitters.placed.push_back(i);
+  }
+  if (without_surface > 0) {
+    summary.notes.push_back(std::to_string(without_surface) +
+                            " area light(s) on shapes of interface material were left out; give them a material");
+  }
+  return emitters;
+}
+
+/// Boxes of everything a light can shine on: shapes, and media beyond them.
+Bounds3 scene_bounds(const Geometry& geometry, const std::vector<ParticipatingMedium>& media) {
+  Bounds3 bounds = geometry.bounds();
+  for (const ParticipatingMedium& medium : media) {
+    if (!medium.homogeneous() && !medium.bounds().empty()) bounds.expand(medium.bounds());
+  }
+  return bounds;
+}
+
+}  // namespace
+
+World::World(std::unique_ptr<const Parts> parts) : parts_(std::move(parts)) {}
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+World::~World() = default;
+
+const BuildSummary& World::summary() const { return parts_->summary; }
+
+World build(Scene scene, const BuildSettings& settings) {
+  return World(std::make_unique<const World::Parts>(std::move(scene), settings));
+}
+
+World::Parts::Parts(Scene scene_in, const BuildSettings& settings)
+    : scene(std::move(scene_in)),
+      textures(build_textures(scene.textures)),
+      materials(scene, textures),
+      geometry(build_geometry(scene, textures, settings.threads, summary)),
+      media(build_media(scene, settings, summary)),
+      camera(scene.camera, scene.film),
+      filter(scene.filter) {
+  const Stopwatch watch;
+  const Emitters emitters = find_emitters(scene, geometry, summary);
+  lights = build_lights(scene, emitters.shapes, scene_bounds(geometry, media),
+                        {.strategy = settings.lights, .textures = &textures});
+  first_light.assign(geometry.placed().size(), kNone);
+  for (std::size_t i = 0; i < emitters.placed.size(); ++i) first_light[emitters.placed[i]] = lights.first_light(i);
+  summary.lights = lights.size();
+  summary.light_bytes = lights.memory_bytes();
+  summary.light_seconds = watch.seconds();
+  camera_media = find_camera_media(scene.camera.medium, camera.center(), geometry);
+}
+
+}  // namespace tyndall

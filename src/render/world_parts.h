@@ -1,0 +1,47 @@
+/// What a World is made of. Only src/render sees it.
+#pragma once
+
+#include <vector>
+
+#include "light/lights.h"
+#include "render/camera_ray.h"
+#include "render/media_state.h"
+#include "render/pixel_filter.h"
+#include "render/span_walk.h"
+#include "surface/geometry.h"
+#include "surface/material.h"
+#include "texture/textures.h"
+#include "tyndall/render.h"
+#include "volume/medium.h"
+
+namespace tyndall {
+
+struct World::Parts {
+  Parts(Scene scene, const BuildSettings& settings);
+  Parts(const Parts&) = delete;  // its members refer to each other
+
+  BuildSummary summary;  ///< first: the others fill it while they are built
+  Scene scene;
+  Textures textures;
+  Materials materials;
+  Geometry geometry;
+  std::vector<ParticipatingMedium> media;
+  Lights lights;
+  std::vector<LightId> first_light;  ///< by placed shape; kNone where it does not emit
+  CameraRays camera;
+  FilterSampler filter;
+  MediaState camera_media;  ///< what holds the camera's center
+
+  SpanWalk::Context media_context() const { return {geometry.groups(), media}; }
+  /// No medium anywhere: nothing of src/volume needs to run.
+  bool has_media() const { return !media.empty(); }
+  MaterialId material_of(const SurfaceHit& hit) const { return geometry.placed()[hit.shape].shape->material; }
+  /// The light that the hit primitive is, if it emits.
+  std::optional<LightId> light_of(const SurfaceHit& hit) const {
+    const LightId first = first_light[hit.shape];
+    if (first == kNone) return std::nullopt;
+    return first + hit.primitive;
+  }
+};
+
+}  // namespace tyndall

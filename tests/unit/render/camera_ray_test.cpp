@@ -1,0 +1,66 @@
+#include "render/camera_ray.h"
+
+#include <doctest/doctest.h>
+
+using namespace tyndall;
+
+namespace {
+
+Film film(int width, int height) {
+  Film f;
+  f.width = width;
+  f.height = height;
+  return f;
+}
+
+}  // namespace
+
+TEST_CASE("field of view spans the shorter side, y runs downward") {
+  Camera camera;
+  camera.fov_degrees = 90;
+  const CameraRays wide(camera, film(200, 100));
+  CHECK(wide.ray({100, 50}, {0.5f, 0.5f}).d.z == doctest::Approx(1));
+  const Vec3 top = wide.ray({100, 0}, {0.5f, 0.5f}).d;
+  CHECK(top.y / top.z == doctest::Approx(1));
+  const Vec3 right = wide.ray({200, 50}, {0.5f, 0.5f}).d;
+  CHECK(right.x / right.z == doctest::Approx(2));
+  const CameraRays tall(camera, film(100, 200));
+  const Vec3 left = tall.ray({0, 100}, {0.5f, 0.5f}).d;
+  CHECK(left.x / left.z == doctest::Approx(-1));
+}
+
+TEST_CASE("an orthographic camera has parallel rays from the screen") {
+  Camera camera;
+  camera.kind = Camera::Kind::orthographic;
+  camera.screen_window = {{-2, 2, -1, 1}};
+  camera.to_world = Transform::translate(0, 0, 5);
+  const CameraRays rays(camera, film(4, 2));
+  const Ray ray = rays.ray({4, 0}, {0, 0});
+  CHECK(ray.o.x == doctest::Approx(2));
+  CHECK(ray.o.y == doctest::Approx(1));
+  CHECK(ray.o.z == doctest::Approx(5));
+  CHECK(ray.d.z == doctest::Approx(1));
+  CHECK_FALSE(rays.is_pinhole());
+}
+
+TEST_CASE("rays through any point of the lens meet in the plane of focus") {
+  Camera camera;
+  camera.lens_radius = 0.3f;
+  camera.focal_distance = 4;
+  const CameraRays rays(camera, film(10, 10));
+  const Ray a = rays.ray({3, 7}, {0.1f, 0.2f}), b = rays.ray({3, 7}, {0.9f, 0.6f});
+  CHECK(length(a.o - b.o) > 0.05f);
+  CHECK(length(a.at(4 / a.d.z) + Vec3{0, 0, -a.o.z} - b.at(4 / b.d.z)) < 1e-5f);
+}
+
+TEST_CASE("worldToNDC takes a point to its place on the film") {
+  Camera camera;
+  camera.fov_degrees = 50;
+  camera.to_world = Transform::look_at({1, 2, -3}, {0, 0.5f, 1}, {0, 1, 0}).inverse();
+  const CameraRays rays(camera, film(320, 180));
+  const Vec3 p = rays.ray({80, 135}, {0, 0}).at(2.5f);
+  const auto m = rays.world_to_ndc();
+  const auto row = [&](int r) { return m[4 * r] * p.x + m[4 * r + 1] * p.y + m[4 * r + 2] * p.z + m[4 * r + 3]; };
+  CHECK(row(0) / row(3) == doctest::Approx(0.25));
+  CHECK(row(1) / row(3) == doctest::Approx(0.75));
+}

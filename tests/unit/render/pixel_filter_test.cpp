@@ -1,0 +1,57 @@
+#include "render/pixel_filter.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+using namespace tyndall;
+
+namespace {
+
+PixelFilter make(PixelFilter::Kind kind, float radius) {
+  PixelFilter filter;
+  filter.kind = kind;
+  filter.radius = {radius, radius * 0.75f};
+  return filter;
+}
+
+/// Integral of filter * cos(x + 2y) over its support divided by the integral of the filter, by the midpoint rule.
+double filtered(const PixelFilter& filter, int n = 400) {
+  double sum = 0, norm = 0;
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      const float x = filter.radius.x * (2 * (i + 0.5f) / n - 1), y = filter.radius.y * (2 * (j + 0.5f) / n - 1);
+      const double f = filter_value(filter, {x, y});
+      sum += f * std::cos(x + 2 * y);
+      norm += f;
+    }
+  }
+  return sum / norm;
+}
+
+}  // namespace
+
+TEST_CASE("weighted samples give the filtered value, negative lobes included") {
+  using Kind = PixelFilter::Kind;
+  for (const auto& filter : {make(Kind::box, 0.5f), make(Kind::triangle, 2), make(Kind::gaussian, 1.5f),
+                             make(Kind::mitchell, 2), make(Kind::sinc, 4)}) {
+    const FilterSampler sampler(filter);
+    double sum = 0, weights = 0;
+    const int n = 512;
+    for (int i = 0; i < n; ++i) {
+      for (int j = 0; j < n; ++j) {
+        const auto s = sampler.sample({(i + 0.5f) / n, (j + 0.5f) / n});
+        CHECK_MESSAGE(std::abs(s.p.x) <= filter.radius.x, "offset inside the support");
+        sum += s.weight * std::cos(s.p.x + 2 * s.p.y);
+        weights += s.weight;
+      }
+    }
+    CHECK(weights / (n * n) == doctest::Approx(1).epsilon(2e-3));
+    CHECK(sum / (n * n) == doctest::Approx(filtered(filter)).epsilon(4e-3));
+  }
+}
+
+TEST_CASE("filters that are nowhere negative have weight 1") {
+  const FilterSampler sampler(make(PixelFilter::Kind::gaussian, 1.5f));
+  for (float u : {0.0f, 0.3f, 0.999f}) CHECK(sampler.sample({u, 1 - u - 1e-4f}).weight == doctest::Approx(1));
+}
