@@ -8,8 +8,9 @@ namespace {
 
 // Index of a variant's alternative to its name in the scene language.
 constexpr const char* kTextureKinds[] = {"constant", "scale", "mix", "imagemap", "checkerboard"};
-constexpr const char* kMaterialKinds[] = {"diffuse",        "conductor",       "dielectric", "thindielectric", "diffusetransmission",
-                                          "coateddiffuse", "coatedconductor", "mix",        "interface"};
+constexpr const char* kMaterialKinds[] = {
+    "diffuse",       "conductor",       "dielectric", "thindielectric", "diffusetransmission",
+    "coateddiffuse", "coatedconductor", "mix",        "interface"};
 constexpr const char* kMediumKinds[] = {"homogeneous", "uniformgrid", "rgbgrid", "cloud", "vdb"};
 constexpr const char* kLightKinds[] = {"point", "spot", "distant", "infinite"};
 constexpr const char* kShapeKinds[] = {"trianglemesh", "bilinearmesh", "sphere", "disk", "cylinder"};

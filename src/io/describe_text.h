@@ -8,7 +8,7 @@
 
 namespace tyndall {
 
-std::string number_text(double value);  ///< as short as 6 significant digits allow
+std::string number_text(double value);           ///< as short as 6 significant digits allow
 std::string bounds_text(const Bounds3& bounds);  ///< "(x y z) to (x y z)", or "empty"
 
 /// What a .pbrt file holds, from read_scene: camera, film, settings, counts, bounds, media, lights.

@@ -21,11 +21,11 @@
 namespace tyndall {
 namespace {
 
-constexpr int kMaxSide = 1 << 17;                    // pixels
-constexpr std::uint64_t kMaxBytes = 1ull << 34;      // decoded
-constexpr std::uint64_t kMaxDeflateRatio = 1100;     // zlib cannot exceed 1032
-constexpr std::uint64_t kMaxChunkRows = 256;         // of the compression with the tallest chunks (DWAB)
-constexpr std::size_t kMaxReason = 200;              // characters of the library's words that are passed on
+constexpr int kMaxSide = 1 << 17;                 // pixels
+constexpr std::uint64_t kMaxBytes = 1ull << 34;   // decoded
+constexpr std::uint64_t kMaxDeflateRatio = 1100;  // zlib cannot exceed 1032
+constexpr std::uint64_t kMaxChunkRows = 256;      // of the compression with the tallest chunks (DWAB)
+constexpr std::size_t kMaxReason = 200;           // characters of the library's words that are passed on
 
 [[noreturn]] void fail(const std::string& path, const std::string& reason) {
   throw Error(Failure::scene, path + ": " + reason);
@@ -39,9 +39,7 @@ std::string tidy(std::string text) {
   return text;
 }
 
-std::string name_of(Imf::PixelType type) {
-  return type == Imf::HALF ? "half" : (type == Imf::FLOAT ? "float" : "uint");
-}
+std::string name_of(Imf::PixelType type) { return type == Imf::HALF ? "half" : (type == Imf::FLOAT ? "float" : "uint"); }
 
 std::string name_of(Imf::Compression compression) {
   constexpr const char* names[] = {"none", "rle", "zips", "zip", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab"};
@@ -72,8 +70,8 @@ void require_plausible(const std::string& path, const Imf::Header& header) {
   }
   if (count == 0) fail(path, "has no channels");
   if (width > kMaxSide || height > kMaxSide || count > kMaxBytes / sizeof(float) / (width * height))
-    fail(path, "declares " + std::to_string(width) + " x " + std::to_string(height) + " pixels of " +
-                   std::to_string(count) + " channels, more than the " + std::to_string(kMaxBytes >> 30) + " GiB that are read");
+    fail(path, "declares " + std::to_string(width) + " x " + std::to_string(height) + " pixels of " + std::to_string(count) +
+                   " channels, more than the " + std::to_string(kMaxBytes >> 30) + " GiB that are read");
   const std::uint64_t bytes = stored * width * height, size = std::filesystem::file_size(path);
   const Imf::Compression compression = header.compression();
   const bool deflated = compression == Imf::ZIP_COMPRESSION || compression == Imf::ZIPS_COMPRESSION ||
@@ -90,8 +88,8 @@ PixelBounds to_bounds(const Imath::Box2i& box) { return {box.min.x, box.min.y, b
 
 void read_attributes(const Imf::Header& header, Image& image) {
   const auto built_in = [](const std::string& name) {
-    return name == "pixelAspectRatio" || name == "screenWindowWidth" || name == "type" || name == "name" ||
-           name == "version" || name == "chunkCount" || name == "maxSamplesPerPixel";
+    return name == "pixelAspectRatio" || name == "screenWindowWidth" || name == "type" || name == "name" || name == "version" ||
+           name == "chunkCount" || name == "maxSamplesPerPixel";
   };
   for (auto a = header.begin(); a != header.end(); ++a) {
     const std::string name = a.name();
@@ -109,8 +107,8 @@ void read_attributes(const Imf::Header& header, Image& image) {
   }
   if (!Imf::hasChromaticities(header)) return;
   const Imf::Chromaticities& c = Imf::chromaticities(header);
-  image.chromaticities = Chromaticities{
-      {c.red.x, c.red.y}, {c.green.x, c.green.y}, {c.blue.x, c.blue.y}, {c.white.x, c.white.y}};
+  image.chromaticities =
+      Chromaticities{{c.red.x, c.red.y}, {c.green.x, c.green.y}, {c.blue.x, c.blue.y}, {c.white.x, c.white.y}};
 }
 
 /// Decodes rows [y0, y1) of the file's own coordinates into `planes`, each (y1 - y0) * width floats.
@@ -154,8 +152,7 @@ bool holds(const std::string& path, const Image& image) {
   const Imf::ChannelList& channels = file.header().channels();
   std::size_t count = 0;
   for (auto c = channels.begin(); c != channels.end(); ++c) ++count;
-  if (!file.isComplete() || to_bounds(file.header().dataWindow()) != image.data || count != image.channels.size())
-    return false;
+  if (!file.isComplete() || to_bounds(file.header().dataWindow()) != image.data || count != image.channels.size()) return false;
   for (const Channel& c : image.channels)
     if (!channels.findChannel(c.name)) return false;
   const auto width = static_cast<std::size_t>(image.width());

@@ -10,9 +10,12 @@ namespace tyndall {
 
 float Encoding::decode(float stored) const {
   switch (kind) {
-    case Kind::linear: return stored;
-    case Kind::gamma: return std::pow(stored, gamma);
-    case Kind::srgb: break;
+    case Kind::linear:
+      return stored;
+    case Kind::gamma:
+      return std::pow(stored, gamma);
+    case Kind::srgb:
+      break;
   }
   // IEC 61966-2-1
   return stored <= 0.04045f ? stored / 12.92f : std::pow((stored + 0.055f) / 1.055f, 2.4f);

@@ -52,7 +52,8 @@ int read_bytes(void* user, char* out, int count) {
 void skip_bytes(void* user, int count) {
   auto& source = *static_cast<Source*>(user);
   const auto target = static_cast<std::int64_t>(source.position) + count;
-  source.position = static_cast<std::size_t>(std::clamp<std::int64_t>(target, 0, static_cast<std::int64_t>(source.bytes.size())));
+  source.position =
+      static_cast<std::size_t>(std::clamp<std::int64_t>(target, 0, static_cast<std::int64_t>(source.bytes.size())));
 }
 
 int at_end(void* user) {

@@ -1,6 +1,7 @@
 /// Reads scene files directive by directive; at the first error it stops, or goes on with the next directive.
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <utility>
 
 #include "io/file_text.h"
@@ -18,16 +19,23 @@ constexpr std::size_t kMaxFiles = 100'000;  // Include lines followed; files tha
 
 enum class OnError { stop, go_on };
 
+/// One spelling for a file, to see that two names mean the same.
+std::string canonical(const std::string& path) {
+  std::error_code ignored;
+  return std::filesystem::weakly_canonical(path, ignored).string();
+}
+
 class Reading {
  public:
   Reading(std::string folder, OnError on_error) : state_(initial_state(std::move(folder))), on_error_(on_error) {}
 
   void read(Tokenizer& top) {
+    open_files_.push_back(canonical(top.name()));
     try {
       read_directives(top);
       attempt([&] { require_closed(state_, 1); });
       attempt([&] {
-        if (!state_.in_world) throw Error(Location{top.name()}, "has no WorldBegin; add it after the camera and the film");
+        if (!state_.in_world) throw top.error(top.peek().at, "the file ends without WorldBegin; add it after the camera and the film");
       });
     } catch (TooManyErrors) {
       errors_.push_back("more errors are not shown; mend these first");
@@ -80,13 +88,17 @@ class Reading {
     return true;
   }
 
-  /// To where reading can be taken up again after an error.
+  /// To where reading can be taken up again after an error: a directive, or what looks like a misspelled one.
   static void skip_to_directive(Tokenizer& in) {
+    int line = std::numeric_limits<int>::max();
     while (true) {
       try {
         const Token& token = in.peek();
-        if (token.is(Token::Kind::end) || (token.is(Token::Kind::word) && find_directive(token.text))) return;
-        in.next();
+        if (token.is(Token::Kind::end)) return;
+        const bool first_in_line = token.at.line > line;
+        const bool capital = token.text[0] >= 'A' && token.text[0] <= 'Z';
+        if (token.is(Token::Kind::word) && (find_directive(token.text) || (first_in_line && capital))) return;
+        line = in.next().at.line;
       } catch (const Error&) {
         // A broken string: the tokenizer stands behind it.
       }
@@ -96,7 +108,8 @@ class Reading {
   void include(Tokenizer& in) {
     const Token name = in.expect_string("a file name");
     const std::string path = resolve_asset(state_, in.location(name.at), std::string(name.text));
-    if (open_files_.size() >= kMaxDepth || std::find(open_files_.begin(), open_files_.end(), path) != open_files_.end())
+    const bool open = std::find(open_files_.begin(), open_files_.end(), canonical(path)) != open_files_.end();
+    if (open || open_files_.size() > kMaxDepth)
       throw in.error(name.at, "file \"" + printable(name.text) + "\" includes itself or is nested deeper than " +
                                   std::to_string(kMaxDepth) + "; break the circle");
     if (++files_ > kMaxFiles) throw in.error(name.at, "more than " + std::to_string(kMaxFiles) + " files are included; merge some");
@@ -107,7 +120,7 @@ class Reading {
       throw in.error(name.at, e.what());
     }
     Tokenizer included(std::move(text), path);
-    open_files_.push_back(path);
+    open_files_.push_back(canonical(path));
     read_directives(included);
     open_files_.pop_back();
   }
@@ -132,7 +145,7 @@ class Reading {
   State state_;
   OnError on_error_;
   std::vector<std::string> errors_;
-  std::vector<std::string> open_files_;
+  std::vector<std::string> open_files_;  ///< canonical, the top one first
   std::size_t files_ = 0;
 };
 

@@ -41,7 +41,8 @@ std::vector<std::string> nearest_names(std::string_view name, const std::vector<
   for (const std::string& candidate : known) {
     if (candidate.size() > kLongest) continue;
     const std::size_t distance = edit_distance(name, candidate);
-    if (distance <= 1 + std::min(name.size(), candidate.size()) / 3) ranked.emplace_back(distance, candidate);
+    const bool part = name.size() > 2 && candidate.find(name) != std::string::npos;
+    if (part || distance <= 1 + std::min(name.size(), candidate.size()) / 3) ranked.emplace_back(distance, candidate);
   }
   std::sort(ranked.begin(), ranked.end());
   ranked.erase(std::unique(ranked.begin(), ranked.end()), ranked.end());

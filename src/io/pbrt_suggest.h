@@ -7,7 +7,7 @@
 
 namespace tyndall::pbrt {
 
-/// Up to three of `known` that are spelled most like `name`, best first; empty when none is near.
+/// Up to three of `known` that contain `name` or are spelled much like it, best first; empty when none is near.
 std::vector<std::string> nearest_names(std::string_view name, const std::vector<std::string>& known);
 
 /// "did you mean "radius" or "phimax"?"; when nothing is near, "known are "a", "b" ..." (at most twelve).

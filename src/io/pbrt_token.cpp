@@ -149,7 +149,7 @@ template <typename T>
 T Tokenizer::parse(const Token& token) const {
   if (token.is(Token::Kind::word)) return parse<T>(token.text, token.at);
   const std::string got = token.is(Token::Kind::end) ? "the file ends" : "found " + shown(token);
-  throw error(token.at, "expected a number but " + got + "; give the missing value");
+  throw error(token.at, std::string("expected ") + (std::is_integral_v<T> ? "an integer" : "a number") + " but " + got + "; give the missing value");
 }
 
 double Tokenizer::number() { return parse<double>(next()); }

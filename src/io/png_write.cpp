@@ -44,7 +44,8 @@ bool encode(png_structp png, png_infop info, std::FILE* stream, const Image& ima
                PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
   png_write_info(png, info);
-  for (int y = 0; y < image.height(); ++y) png_write_row(png, pixels + 3 * static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width()));
+  for (int y = 0; y < image.height(); ++y)
+    png_write_row(png, pixels + 3 * static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width()));
   png_write_end(png, info);
   return true;
 }

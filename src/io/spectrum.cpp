@@ -14,7 +14,7 @@ std::optional<Spectrum> metal(std::string_view name) {
     if (table.name != name) continue;
     Spectrum result;
     for (std::size_t i = 0; i < table.value.size(); ++i) {
-      const double energy = 4.15 - 0.05 * static_cast<double>(i);               // eV
+      const double energy = 4.15 - 0.05 * static_cast<double>(i);          // eV
       result.lambda.push_back(static_cast<float>(1239.8417571 / energy));  // h c / e in nm eV
       result.value.push_back(table.value[i]);
     }
@@ -58,8 +58,8 @@ Spectrum daylight(float m1, float m2) {
 Spectrum illuminant_a() {
   Spectrum result;
   for (int lambda = 300; lambda <= 830; lambda += 5) {
-    const double value = 100 * std::pow(560.0 / lambda, 5) * std::expm1(1.435e7 / (2848 * 560.0)) /
-                         std::expm1(1.435e7 / (2848.0 * lambda));
+    const double value =
+        100 * std::pow(560.0 / lambda, 5) * std::expm1(1.435e7 / (2848 * 560.0)) / std::expm1(1.435e7 / (2848.0 * lambda));
     result.lambda.push_back(static_cast<float>(lambda));
     result.value.push_back(static_cast<float>(value));
   }

@@ -12,8 +12,8 @@ using Sides = LobeMode::Sides;
 
 /// Everything seen from wo's side: wo in the upper hemisphere, `eta` = n beyond / n here.
 struct View {
-  View(Vec3 wo_any, float eta_below) : sign(wo_any.z < 0 ? -1.0f : 1.0f), wo(turn(wo_any)),
-                                       eta(sign > 0 ? eta_below : 1 / eta_below) {}
+  View(Vec3 wo_any, float eta_below)
+      : sign(wo_any.z < 0 ? -1.0f : 1.0f), wo(turn(wo_any)), eta(sign > 0 ? eta_below : 1 / eta_below) {}
   Vec3 turn(Vec3 w) const { return {w.x, w.y, sign * w.z}; }
 
   float sign;
@@ -55,9 +55,7 @@ struct Split {
 };
 
 /// Radiance is compressed on entering the denser side; importance is not.
-float transport_scale(float eta, Transport transport) {
-  return transport == Transport::radiance ? 1 / (eta * eta) : 1.0f;
-}
+float transport_scale(float eta, Transport transport) { return transport == Transport::radiance ? 1 / (eta * eta) : 1.0f; }
 
 }  // namespace
 

@@ -17,9 +17,7 @@ Vec3 cosine_direction(Vec3 wo, Vec2 u, bool other_side) {
 
 }  // namespace
 
-Rgb DiffuseLobe::eval(Vec3 wo, Vec3 wi) const {
-  return same_side(wo, wi) ? reflectance * cosine_pdf(wi) : Rgb{};
-}
+Rgb DiffuseLobe::eval(Vec3 wo, Vec3 wi) const { return same_side(wo, wi) ? reflectance * cosine_pdf(wi) : Rgb{}; }
 
 float DiffuseLobe::pdf(Vec3 wo, Vec3 wi) const { return same_side(wo, wi) ? cosine_pdf(wi) : 0.0f; }
 

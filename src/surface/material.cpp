@@ -101,8 +101,6 @@ Bsdf Materials::bsdf(MaterialId id, const SurfaceQuery& query) const {
   return {query.shading, std::visit(build, materials_[id].kind)};
 }
 
-bool Materials::is_interface(MaterialId id) const {
-  return std::holds_alternative<InterfaceMaterial>(materials_[id].kind);
-}
+bool Materials::is_interface(MaterialId id) const { return std::holds_alternative<InterfaceMaterial>(materials_[id].kind); }
 
 }  // namespace tyndall

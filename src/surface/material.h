@@ -11,7 +11,7 @@ namespace tyndall {
 
 /// One point of a surface, seen from one direction.
 struct SurfaceQuery {
-  Vec3 p;         ///< world space
+  Vec3 p;  ///< world space
   Vec2 uv;
   Frame shading;  ///< z = shading normal (pbrt's orientation), x along dp/du
   Vec3 wo;        ///< unit, leaves the surface

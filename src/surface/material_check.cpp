@@ -64,8 +64,7 @@ class Checker {
     texture(c.albedo);
   }
   void index(float eta) const {
-    if (!(eta > 0) || std::isinf(eta))
-      fail("has eta " + std::to_string(eta) + "; give an index of refraction above 0");
+    if (!(eta > 0) || std::isinf(eta)) fail("has eta " + std::to_string(eta) + "; give an index of refraction above 0");
   }
 
   const Material& material_;

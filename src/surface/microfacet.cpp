@@ -4,8 +4,7 @@
 
 namespace tyndall {
 
-Ggx::Ggx(float alpha_x, float alpha_y)
-    : ax_(alpha_x), ay_(alpha_y), mirror_(!(std::max(alpha_x, alpha_y) >= 1e-3f)) {
+Ggx::Ggx(float alpha_x, float alpha_y) : ax_(alpha_x), ay_(alpha_y), mirror_(!(std::max(alpha_x, alpha_y) >= 1e-3f)) {
   // Rough along one axis only: the other keeps a width that floats can resolve.
   if (!mirror_) {
     ax_ = std::max(ax_, 1e-4f);
@@ -43,9 +42,7 @@ Vec3 Ggx::sample_visible(Vec3 w, Vec2 u) const {
   return normalize(Vec3{ax_ * n.x, ay_ * n.y, std::max(1e-6f, n.z)});
 }
 
-float Ggx::visible_pdf(Vec3 w, Vec3 m) const {
-  return 2 * D(m) * std::max(0.0f, dot(w, m)) / (stretched(w) + w.z);
-}
+float Ggx::visible_pdf(Vec3 w, Vec3 m) const { return 2 * D(m) * std::max(0.0f, dot(w, m)) / (stretched(w) + w.z); }
 
 float Ggx::reflected_pdf(Vec3 wo, Vec3 m) const { return dot(wo, m) > 0 ? 0.5f * D(m) / (stretched(wo) + wo.z) : 0.0f; }
 

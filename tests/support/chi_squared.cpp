@@ -40,10 +40,10 @@ struct Cell {
 };
 
 // Gauss-Lobatto nodes and weights on [-1, 1]: the ends are among them, so that a jump next to an edge is noticed.
-constexpr std::array<double, 6> kNodes{-1, -0.765055323929464693, -0.285231516480645096,
-                                       0.285231516480645096, 0.765055323929464693, 1};
-constexpr std::array<double, 6> kWeights{1 / 15.0, 0.378474956297846980, 0.554858377035486353,
-                                         0.554858377035486353, 0.378474956297846980, 1 / 15.0};
+constexpr std::array<double, 6> kNodes{
+    -1, -0.765055323929464693, -0.285231516480645096, 0.285231516480645096, 0.765055323929464693, 1};
+constexpr std::array<double, 6> kWeights{
+    1 / 15.0, 0.378474956297846980, 0.554858377035486353, 0.554858377035486353, 0.378474956297846980, 1 / 15.0};
 
 class CellIntegrator {
  public:
@@ -70,8 +70,7 @@ class CellIntegrator {
 
   double refine(const Cell& c, double whole, int depth) const {
     const double tm = (c.t0 + c.t1) / 2, pm = (c.p0 + c.p1) / 2;
-    const std::array<Cell, 4> parts{
-        {{c.t0, tm, c.p0, pm}, {c.t0, tm, pm, c.p1}, {tm, c.t1, c.p0, pm}, {tm, c.t1, pm, c.p1}}};
+    const std::array<Cell, 4> parts{{{c.t0, tm, c.p0, pm}, {c.t0, tm, pm, c.p1}, {tm, c.t1, c.p0, pm}, {tm, c.t1, pm, c.p1}}};
     std::array<double, 4> sums;
     for (std::size_t i = 0; i < 4; ++i) sums[i] = rule(parts[i]);
     const double fine = std::accumulate(sums.begin(), sums.end(), 0.0);
@@ -86,12 +85,9 @@ class CellIntegrator {
   double tolerance_;
 };
 
-double theta_edge(const ChiSquaredOptions& o, int i) {
-  return kTau / 2 * std::pow(double(i) / o.theta_bins, o.theta_power);
-}
+double theta_edge(const ChiSquaredOptions& o, int i) { return kTau / 2 * std::pow(double(i) / o.theta_bins, o.theta_power); }
 
-std::vector<double> bin_probabilities(const DirectionDensity& pdf, const PolarFrame& frame,
-                                      const ChiSquaredOptions& o) {
+std::vector<double> bin_probabilities(const DirectionDensity& pdf, const PolarFrame& frame, const ChiSquaredOptions& o) {
   // A bin may be wrong by a hundredth of a sample: far below the noise of the bins that are kept (>= 5 samples).
   const CellIntegrator integrate(pdf, frame, 0.01 / double(o.samples));
   std::vector<double> p;
@@ -168,8 +164,8 @@ ChiSquaredResult chi_squared_test(const DirectionSampler& sample, const Directio
   result.degrees_of_freedom = pooled.bins - 1;
   if (result.degrees_of_freedom < 1) return result;  // one bin proves nothing: failed, with 0 degrees of freedom
   result.p_value = chi_squared_tail(result.statistic, result.degrees_of_freedom);
-  result.detectable_deviation = std::sqrt(detectable_noncentrality(result.degrees_of_freedom, options.alpha, 0.99) /
-                                          double(options.samples));
+  result.detectable_deviation =
+      std::sqrt(detectable_noncentrality(result.degrees_of_freedom, options.alpha, 0.99) / double(options.samples));
   result.passed = result.p_value >= options.alpha && result.impossible == 0 && result.density_integral < 1 + 1e-3;
   return result;
 }
@@ -191,9 +187,7 @@ std::string ChiSquaredResult::summary() const {
 
 double sidak(double family_alpha, int tests) { return -std::expm1(std::log1p(-family_alpha) / tests); }
 
-double chi_squared_tail(double x, double degrees_of_freedom) {
-  return x <= 0 ? 1 : upper_gamma(degrees_of_freedom / 2, x / 2);
-}
+double chi_squared_tail(double x, double degrees_of_freedom) { return x <= 0 ? 1 : upper_gamma(degrees_of_freedom / 2, x / 2); }
 
 namespace {
 

@@ -45,9 +45,9 @@ struct ChiSquaredResult {
   double statistic = 0;
   int degrees_of_freedom = 0;
   double alpha = 0;
-  double density_integral = 0;       ///< of the density over the sphere
-  double sampled_fraction = 0;       ///< draws that gave a direction
-  std::size_t impossible = 0;        ///< samples whose own density is not positive; one fails the test
+  double density_integral = 0;  ///< of the density over the sphere
+  double sampled_fraction = 0;  ///< draws that gave a direction
+  std::size_t impossible = 0;   ///< samples whose own density is not positive; one fails the test
   /// Probability-weighted rms of the bins' relative deviations that is found with power 0.99.
   double detectable_deviation = 0;
 

@@ -37,9 +37,7 @@ Vec2 chromaticity(const Spectrum& s) {
   return {x / (x + y + z), y / (x + y + z)};
 }
 
-double normal_reflectance(double eta, double k) {
-  return ((eta - 1) * (eta - 1) + k * k) / ((eta + 1) * (eta + 1) + k * k);
-}
+double normal_reflectance(double eta, double k) { return ((eta - 1) * (eta - 1) + k * k) / ((eta + 1) * (eta + 1) + k * k); }
 
 }  // namespace
 
@@ -47,7 +45,8 @@ TEST_CASE("every name of pbrt-v4 is known, ascending and as long as its waveleng
   std::vector<std::string> names{"stdillum-A", "stdillum-D50", "stdillum-D65", "illum-acesD60"};
   for (const char* metal : {"Ag", "Al", "Au", "Cu", "CuZn", "MgO", "TiO2"})
     for (const char* part : {"-eta", "-k"}) names.push_back(std::string("metal-") + metal + part);
-  for (const char* glass : {"BK7", "BAF10", "FK51A", "LASF9", "F5", "F10", "F11"}) names.push_back(std::string("glass-") + glass);
+  for (const char* glass : {"BK7", "BAF10", "FK51A", "LASF9", "F5", "F10", "F11"})
+    names.push_back(std::string("glass-") + glass);
   for (int f = 1; f <= 12; ++f) names.push_back("stdillum-F" + std::to_string(f));
   for (const std::string& name : names) {
     CAPTURE(name);
@@ -68,14 +67,12 @@ TEST_CASE("the illuminants have the chromaticities that the CIE publishes") {
   const struct {
     const char* name;
     Vec2 xy;
-  } cases[] = {{"stdillum-A", {0.44757f, 0.40745f}},   {"stdillum-D50", {0.34567f, 0.35850f}},
-               {"stdillum-D65", {0.31272f, 0.32903f}}, {"illum-acesD60", {0.32168f, 0.33767f}},
-               {"stdillum-F1", {0.31310f, 0.33727f}},  {"stdillum-F2", {0.37208f, 0.37529f}},
-               {"stdillum-F3", {0.40910f, 0.39430f}},  {"stdillum-F4", {0.44018f, 0.40329f}},
-               {"stdillum-F5", {0.31379f, 0.34531f}},  {"stdillum-F6", {0.37790f, 0.38835f}},
-               {"stdillum-F7", {0.31292f, 0.32933f}},  {"stdillum-F8", {0.34588f, 0.35875f}},
-               {"stdillum-F9", {0.37417f, 0.37281f}},  {"stdillum-F11", {0.38052f, 0.37713f}},
-               {"stdillum-F12", {0.43695f, 0.40441f}}};
+  } cases[] = {
+      {"stdillum-A", {0.44757f, 0.40745f}},    {"stdillum-D50", {0.34567f, 0.35850f}}, {"stdillum-D65", {0.31272f, 0.32903f}},
+      {"illum-acesD60", {0.32168f, 0.33767f}}, {"stdillum-F1", {0.31310f, 0.33727f}},  {"stdillum-F2", {0.37208f, 0.37529f}},
+      {"stdillum-F3", {0.40910f, 0.39430f}},   {"stdillum-F4", {0.44018f, 0.40329f}},  {"stdillum-F5", {0.31379f, 0.34531f}},
+      {"stdillum-F6", {0.37790f, 0.38835f}},   {"stdillum-F7", {0.31292f, 0.32933f}},  {"stdillum-F8", {0.34588f, 0.35875f}},
+      {"stdillum-F9", {0.37417f, 0.37281f}},   {"stdillum-F11", {0.38052f, 0.37713f}}, {"stdillum-F12", {0.43695f, 0.40441f}}};
   for (const auto& c : cases) {
     CAPTURE(c.name);
     const Vec2 xy = chromaticity(*named_spectrum(c.name));
@@ -158,14 +155,15 @@ TEST_CASE("metals: each channel's normal reflectance is the colour of the spectr
   const struct {
     const char* name;
     Rgb reflectance;
-  } cases[] = {{"Cu", {0.955f, 0.638f, 0.538f}}, {"Au", {1.0f, 0.782f, 0.344f}}, {"Ag", {0.972f, 0.960f, 0.915f}},
+  } cases[] = {{"Cu", {0.955f, 0.638f, 0.538f}},
+               {"Au", {1.0f, 0.782f, 0.344f}},
+               {"Ag", {0.972f, 0.960f, 0.915f}},
                {"Al", {0.913f, 0.922f, 0.924f}}};
   for (const auto& c : cases) {
     CAPTURE(c.name);
     const std::string metal = std::string("metal-") + c.name;
     const ConductorRgb rgb = conductor_rgb(*named_spectrum(metal + "-eta"), *named_spectrum(metal + "-k"));
-    for (int i = 0; i < 3; ++i)
-      CHECK(std::abs(normal_reflectance(rgb.eta[i], rgb.k[i]) - c.reflectance[i]) < 1e-3);
+    for (int i = 0; i < 3; ++i) CHECK(std::abs(normal_reflectance(rgb.eta[i], rgb.k[i]) - c.reflectance[i]) < 1e-3);
   }
 }
 

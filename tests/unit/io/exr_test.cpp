@@ -208,7 +208,8 @@ TEST_CASE("a header that declares more than the file can hold is refused before 
     const int x1 = 4 + side;
     std::memcpy(bytes.data() + at + key.size() + 8, &x1, 4);
     write_bytes(folder / "huge.exr", bytes);
-    message_of(Failure::scene, [&] { read_exr(folder / "huge.exr"); });
+    const std::string text = message_of(Failure::scene, [&] { read_exr(folder / "huge.exr"); });
+    if (side == 100000) CHECK(text.find("cannot hold the 100000 x 21 pixels") != std::string::npos);
   }
 }
 

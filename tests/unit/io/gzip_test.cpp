@@ -1,7 +1,7 @@
 #include <zlib.h>
 
 #include "io/file_text.h"
-#include "unit/io/scene_text.h"
+#include "unit/io/reader_checks.h"
 
 using namespace tyndall;
 

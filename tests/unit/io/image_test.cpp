@@ -42,7 +42,8 @@ Image grey_ramp() {
 }
 
 std::string bmp_3x1(unsigned char b, unsigned char g, unsigned char r) {
-  std::string file = std::string("BM") + std::string("\x42\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\x03\0\0\0\x01\0\0\0\x01\0\x18\0", 28);
+  std::string file =
+      std::string("BM") + std::string("\x42\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\x03\0\0\0\x01\0\0\0\x01\0\x18\0", 28);
   file += std::string(24, '\0');
   for (int i = 0; i < 3; ++i) file += {static_cast<char>(b), static_cast<char>(g), static_cast<char>(r)};
   return file + std::string(3, '\0');

@@ -1,4 +1,4 @@
-#include "unit/io/scene_text.h"
+#include "unit/io/reader_checks.h"
 
 using namespace tyndall;
 using test::world_error;
@@ -118,7 +118,7 @@ TEST_CASE("directives keep to their side of WorldBegin") {
   CHECK_CONTAINS(world_error("Camera \"perspective\""), "Camera stands after WorldBegin");
   CHECK_CONTAINS(world_error("WorldBegin"), "WorldBegin stands after WorldBegin");
   CHECK_CONTAINS(test::error_of("Shape \"sphere\" WorldBegin"), "Shape stands before WorldBegin");
-  CHECK(test::error_of("Translate 1 0 0") == "test.pbrt: has no WorldBegin; add it after the camera and the film");
+  CHECK(test::error_of("Translate 1 0 0") == "test.pbrt:1:16: the file ends without WorldBegin; add it after the camera and the film");
   CHECK_CONTAINS(world_error("WorldEnd"), "not part of pbrt-v4");
   CHECK(world_error("Shap \"sphere\"") == "test.pbrt:1:12: unknown directive \"Shap\"; did you mean \"Shape\"?");
   CHECK_CONTAINS(world_error("\"sphere\""), "expected a directive");

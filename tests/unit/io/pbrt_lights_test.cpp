@@ -1,5 +1,5 @@
 #include "io/color.h"
-#include "unit/io/scene_text.h"
+#include "unit/io/reader_checks.h"
 
 using namespace tyndall;
 using test::read_world;

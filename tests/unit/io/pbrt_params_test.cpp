@@ -1,6 +1,6 @@
 /// Parameter lists: types, counts, unknown and repeated names, defaults of the Attribute directive.
 #include "io/pbrt_suggest.h"
-#include "unit/io/scene_text.h"
+#include "unit/io/reader_checks.h"
 
 using namespace tyndall;
 using test::world_error;

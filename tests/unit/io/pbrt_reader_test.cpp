@@ -3,7 +3,7 @@
 #include <map>
 #include <regex>
 
-#include "unit/io/scene_text.h"
+#include "unit/io/reader_checks.h"
 
 using namespace tyndall;
 
@@ -112,7 +112,7 @@ TEST_CASE("each bad scene gives its one error: file, line, column, what, and wha
       {"misplaced_directive", ":4:1: Sampler stands after WorldBegin"},
       {"missing_file", ":4:17: file \"absent.ply\" does not exist"},
       {"missing_include", ":4:9: file \"absent.pbrt\" does not exist"},
-      {"no_world", "has no WorldBegin"},
+      {"no_world", "without WorldBegin"},
       {"repeated_parameter", ":4:33: parameter \"radius\" is given twice"},
       {"singular_transform", ":5:3: transform is singular"},
       {"truncated_ply", ":4:17: "},

@@ -1,4 +1,4 @@
-#include "unit/io/scene_text.h"
+#include "unit/io/reader_checks.h"
 
 using namespace tyndall;
 using test::read_world;

@@ -3,7 +3,7 @@
 #include <clocale>
 
 #include "io/pbrt_number.h"
-#include "unit/io/scene_text.h"
+#include "unit/io/reader_checks.h"
 
 using namespace tyndall;
 using namespace tyndall::pbrt;

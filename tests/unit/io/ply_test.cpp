@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "unit/io/scene_text.h"
+#include "unit/io/reader_checks.h"
 
 using namespace tyndall;
 

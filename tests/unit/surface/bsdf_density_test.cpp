@@ -52,10 +52,12 @@ TEST_CASE("narrow metal lobes follow their density") {
       const Vec3 local = polar(theta, 40);
       const Vec3 wo = tilted_frame().to_world(local);
       // Bins around the mirror direction, as wide as the lobe near it.
-      const auto r = chi_squared_test(
-          smooth_sampler(bsdf, wo), density(bsdf, wo),
-          {.theta_bins = 40, .phi_bins = 16, .axis = tilted_frame().to_world({-local.x, -local.y, local.z}),
-           .theta_power = 1.0 - std::log(double(a)), .alpha = alpha});
+      const auto r = chi_squared_test(smooth_sampler(bsdf, wo), density(bsdf, wo),
+                                      {.theta_bins = 40,
+                                       .phi_bins = 16,
+                                       .axis = tilted_frame().to_world({-local.x, -local.y, local.z}),
+                                       .theta_power = 1.0 - std::log(double(a)),
+                                       .alpha = alpha});
       CHECK_MESSAGE(r.passed, r.summary());
       // A mirror-like microfacet metal loses next to nothing below the horizon.
       CHECK(r.density_integral == doctest::Approx(1).epsilon(a < 0.02f ? 1e-3 : 0.05));
@@ -90,8 +92,8 @@ TEST_CASE("nothing is ever negative, infinite or not a number") {
     const float r = std::sqrt(std::max(0.0f, 1 - z * z));
     return Vec3{r * std::cos(phi), r * std::sin(phi), z};
   };
-  std::vector<Bsdf::Lobe> lobes{DiffuseLobe{}, DiffuseTransmissionLobe{}, ThinDielectricLobe{1.0f},
-                                ThinDielectricLobe{0.7f}, PassThroughLobe{}};
+  std::vector<Bsdf::Lobe> lobes{DiffuseLobe{}, DiffuseTransmissionLobe{}, ThinDielectricLobe{1.0f}, ThinDielectricLobe{0.7f},
+                                PassThroughLobe{}};
   for (const float a : {0.0f, 9e-4f, 1e-3f, 0.02f, 0.3f, 1.0f}) {
     for (const float eta : {0.4f, 0.66f, 0.9999f, 1.0f, 1.00001f, 1.0003f, 1.5f, 4.0f}) lobes.push_back(glass(eta, a, a));
     lobes.push_back(metal(a, 1));

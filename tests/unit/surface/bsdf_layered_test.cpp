@@ -93,8 +93,9 @@ TEST_CASE("a clear smooth coat over diffuse has a closed form") {
   for (const auto& [o, i] : {std::pair{polar(20, 0), polar(50, 70)}, std::pair{polar(80, 0), polar(10, 30)}}) {
     Estimate value;
     for (std::uint64_t n = 0; n < 40'000; ++n) value.add(double(with_seed(lobe, n).eval(o, i).r));
-    const double expected = double((1 - fresnel_dielectric(o.z, eta)) * (1 - fresnel_dielectric(i.z, eta)) * i.z * rho * kInvPi) /
-                            (eta * eta * (1 - rho * inside));
+    const double expected =
+        double((1 - fresnel_dielectric(o.z, eta)) * (1 - fresnel_dielectric(i.z, eta)) * i.z * rho * kInvPi) /
+        (eta * eta * (1 - rho * inside));
     CHECK(std::abs(value.mean() - expected) < 4.5 * value.error());
     CHECK(6.5 * value.error() < 0.03 * expected);
   }

@@ -130,11 +130,9 @@ TEST_CASE("interfaces are known as such, and pass light where a mix holds one") 
 
 TEST_CASE("coated walks differ from point to point") {
   Palette p;
-  const auto coated = p.material(CoatedDiffuseMaterial{p.texture(0.5f),
-                                                       {.roughness = p.roughness(0.2f, 0.2f),
-                                                        .thickness = p.texture(0.01f),
-                                                        .g = p.texture(0),
-                                                        .albedo = p.texture(0)}});
+  const auto coated = p.material(CoatedDiffuseMaterial{
+      p.texture(0.5f),
+      {.roughness = p.roughness(0.2f, 0.2f), .thickness = p.texture(0.01f), .g = p.texture(0), .albedo = p.texture(0)}});
   SurfaceQuery elsewhere = kQuery;
   elsewhere.p.x += 1e-3f;
   const Vec3 wo = polar(30, 0), wi = polar(40, 160);

@@ -1,0 +1,66 @@
+# `tyndall render` as a user meets it: files, streams, exit codes.
+. "$TYNDALL_SOURCE_DIR/tests/cli/support.bash"
+T=$TYNDALL_BIN
+small_scene >s.pbrt
+
+# JSON alone on stdout; a healthy summary.
+expect 0 "$T" render s.pbrt --json -o a.exr
+says '"non_finite": 0' out.txt
+says '"majorant_violations": 0' out.txt
+[ "$(head -c 1 out.txt)" = "{" ] || fail "stdout does not start with JSON"
+says 'health' err.txt
+expect 0 "$T" render s.pbrt --quiet -o a.exr
+[ -s err.txt ] && fail "--quiet is not quiet: $(cat err.txt)"
+
+# The same bits for any number of threads, and for half the picture rendered as a crop.
+for threads in 1 2 4; do expect 0 "$T" render s.pbrt --threads $threads --reproducible -o t$threads.exr; done
+cmp t1.exr t2.exr || fail "one thread and two differ"
+cmp t1.exr t4.exr || fail "one thread and four differ"
+expect 0 "$T" render s.pbrt --seed 1 --reproducible -o other.exr
+cmp -s t1.exr other.exr && fail "another seed gives the same picture"
+expect 0 "$T" render s.pbrt --crop 8,20,4,12 -o crop.exr
+expect 0 "$T" info crop.exr
+says '12 x 8' out.txt
+says '40 x 24' out.txt
+
+# Every channel, nothing left over from the temporary file.
+expect 0 "$T" render s.pbrt --aov Albedo,N,P,Z,Zvol,Variance,SampleCount,Transmittance,SurfaceDirect,SurfaceIndirect,VolumeDirect,VolumeIndirect,Emission -o aov.exr
+expect 0 "$T" info aov.exr
+for channel in Albedo.R N.X P.Z Z Zvol Variance.G SampleCount Transmittance.B VolumeIndirect.R; do says "$channel" out.txt; done
+expect 0 "$T" render s.pbrt -o a.png
+[ "$(ls -A | grep -c tmp)" = 0 ] || fail "a temporary file is left: $(ls -A)"
+
+# Time as the limit.
+expect 0 "$T" render s.pbrt --time 0.5 --json -o time.exr
+
+# What cannot be done gets its exit code, one clear line, and leaves an old file alone.
+expect 2 "$T" render s.pbrt --no-such-option
+expect 2 "$T" render s.pbrt --lights brightest
+says 'tree-binary' err.txt
+expect 2 "$T" render s.pbrt --aov Depth
+expect 2 "$T" render s.pbrt --crop 50,60,0,10 -o a.exr
+expect 2 "$T" render s.pbrt -o a.jpg
+expect 2 "$T"
+expect 3 "$T" render missing.pbrt
+says 'missing.pbrt' err.txt
+expect 4 "$T" render s.pbrt -o no/such/folder/a.exr
+says 'no/such/folder' err.txt
+cp t1.exr keep.exr
+(ulimit -f 1; "$T" render s.pbrt --resolution 400x240 --spp 1 -o keep.exr >out.txt 2>err.txt)
+[ $? = 4 ] || fail "a full disk does not give exit code 4"
+cmp t1.exr keep.exr || fail "a failed write harmed the old file"
+
+# Ctrl-C writes what there is.
+"$T" render s.pbrt --time 60 -o int.exr >out.txt 2>err.txt &
+sleep 1
+kill -INT $!
+wait $!
+[ $? = 130 ] || fail "an interrupted render does not exit with 130"
+expect 0 "$T" info int.exr
+"$T" render s.pbrt --time 60 -o term.exr >out.txt 2>err.txt &
+sleep 1
+kill -TERM $!
+wait $!
+[ $? = 143 ] || fail "a terminated render does not exit with 143"
+[ -s term.exr ] || fail "a terminated render wrote nothing"
+finish

@@ -1,0 +1,41 @@
+# What the scripts share. Each runs in a scratch folder of its own with TYNDALL_BIN and TYNDALL_SOURCE_DIR set.
+set -u
+failures=0
+
+fail() { echo "FAILED: $*"; failures=$((failures + 1)); }
+
+# expect CODE COMMAND...: runs the command; its output is in out.txt and err.txt.
+expect() {
+  local code=$1
+  shift
+  "$@" >out.txt 2>err.txt
+  local got=$?
+  [ "$got" = "$code" ] || fail "exit code $got, not $code: $* ($(head -c 300 err.txt))"
+}
+
+# says TEXT FILE: the file holds the text.
+says() { grep -qF -- "$1" "$2" || fail "\"$1\" is not in $2: $(head -c 300 "$2")"; }
+
+finish() { [ "$failures" = 0 ] && echo "ok" || exit 1; }
+
+# A quick scene with a surface, a medium and a light.
+small_scene() {
+  cat <<'SCENE'
+Film "rgb" "integer xresolution" 40 "integer yresolution" 24
+Sampler "independent" "integer pixelsamples" 4
+Integrator "volpath" "integer maxdepth" 3
+LookAt 0 1 -4  0 0.5 0  0 1 0
+Camera "perspective" "float fov" 45
+WorldBegin
+LightSource "point" "point3 from" [1 3 -1] "rgb I" [9 9 9]
+Material "diffuse" "rgb reflectance" [0.5 0.4 0.3]
+Shape "trianglemesh" "point3 P" [-4 0 -4 4 0 -4 4 0 4 -4 0 4] "integer indices" [0 1 2 0 2 3]
+AttributeBegin
+  MakeNamedMedium "m" "string type" "homogeneous" "rgb sigma_s" [1 1 1] "rgb sigma_a" [0.2 0.2 0.2]
+  Material "interface"
+  MediumInterface "m" ""
+  Translate 0 0.6 0
+  Shape "sphere" "float radius" 0.5
+AttributeEnd
+SCENE
+}
