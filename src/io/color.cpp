@@ -40,8 +40,8 @@ Xyz integrate(const Sampled& s) {
 }
 
 const Sampled& d65() {
-  static const Sampled values = sampled(*named_spectrum("stdillum-D65"));
-  return values;
+  static const Sampled kValues = sampled(*named_spectrum("stdillum-D65"));
+  return kValues;
 }
 
 /// A reflectance's colour under D65. Dividing by the white's own rgb makes a constant spectrum grey to the last bit
@@ -49,10 +49,10 @@ const Sampled& d65() {
 Rgb under_d65(const Sampled& reflectance) {
   Sampled product;
   for (int k = 0; k < kLambdaCount; ++k) product[k] = reflectance[k] * d65()[k];
-  static const Xyz white = rec709_from_xyz() * integrate(d65());
+  static const Xyz kWhite = rec709_from_xyz() * integrate(d65());
   const Xyz c = rec709_from_xyz() * integrate(product);
   const auto channel = [](double value, double of_white) { return static_cast<float>(std::max(value / of_white, 0.0)); };
-  return {channel(c.x, white.x), channel(c.y, white.y), channel(c.z, white.z)};
+  return {channel(c.x, kWhite.x), channel(c.y, kWhite.y), channel(c.z, kWhite.z)};
 }
 
 }  // namespace

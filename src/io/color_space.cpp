@@ -35,10 +35,10 @@ ColorSpace make(const Definition& d) {
 }  // namespace
 
 const ColorSpace* find_color_space(std::string_view name) {
-  static const std::array<ColorSpace, 4> spaces{make(kDefinitions[0]), make(kDefinitions[1]), make(kDefinitions[2]),
-                                                make(kDefinitions[3])};
-  for (std::size_t i = 0; i < spaces.size(); ++i)
-    if (kDefinitions[i].name == name) return &spaces[i];
+  static const std::array<ColorSpace, 4> kSpaces{make(kDefinitions[0]), make(kDefinitions[1]), make(kDefinitions[2]),
+                                                 make(kDefinitions[3])};
+  for (std::size_t i = 0; i < kSpaces.size(); ++i)
+    if (kDefinitions[i].name == name) return &kSpaces[i];
   return nullptr;
 }
 

@@ -171,12 +171,12 @@ bool holds(const std::string& path, const Image& image) {
 /// Runs `read` with the library's limits set and its exceptions turned into ours.
 template <class Read>
 auto guarded(const std::string& path, const Read& read) {
-  static const bool limited = [] {
+  static const bool kLimited = [] {
     Imf::Header::setMaxImageSize(kMaxSide, kMaxSide);
     Imf::Header::setMaxTileSize(kMaxSide / 8, kMaxSide / 8);
     return true;
   }();
-  static_cast<void>(limited);
+  static_cast<void>(kLimited);
   try {
     return read();
   } catch (const Error&) {

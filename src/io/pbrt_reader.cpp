@@ -96,8 +96,10 @@ class Reading {
         const Token& token = in.peek();
         if (token.is(Token::Kind::end)) return;
         const bool first_in_line = token.at.line > line;
-        const bool capital = token.text[0] >= 'A' && token.text[0] <= 'Z';
-        if (token.is(Token::Kind::word) && (find_directive(token.text) || (first_in_line && capital))) return;
+        if (token.is(Token::Kind::word)) {
+          const bool capital = token.text[0] >= 'A' && token.text[0] <= 'Z';
+          if (find_directive(token.text) || (first_in_line && capital)) return;
+        }
         line = in.next().at.line;
       } catch (const Error&) {
         // A broken string: the tokenizer stands behind it.

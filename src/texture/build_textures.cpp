@@ -48,9 +48,7 @@ std::vector<TextureId> evaluation_order(const std::vector<Texture>& textures) {
 
 class Textures::Builder {
  public:
-  explicit Builder(const std::vector<Texture>& textures) : textures_(textures) {
-    result_.nodes_.resize(textures.size());
-  }
+  explicit Builder(const std::vector<Texture>& textures) : textures_(textures) { result_.nodes_.resize(textures.size()); }
 
   Textures build() {
     for (TextureId id : evaluation_order(textures_)) {

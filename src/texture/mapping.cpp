@@ -18,13 +18,16 @@ Vec2 cylindrical(Vec3 q) { return {(kPi + std::atan2(q.y, q.x)) * (0.5f * kInvPi
 
 Vec2 map_to_texture(const TextureMapping& mapping, const TextureQuery& query) {
   switch (mapping.kind) {
-    case TextureMapping::Kind::spherical: return spherical(mapping.to_texture.point(query.p));
-    case TextureMapping::Kind::cylindrical: return cylindrical(mapping.to_texture.point(query.p));
+    case TextureMapping::Kind::spherical:
+      return spherical(mapping.to_texture.point(query.p));
+    case TextureMapping::Kind::cylindrical:
+      return cylindrical(mapping.to_texture.point(query.p));
     case TextureMapping::Kind::planar: {
       const Vec3 q = mapping.to_texture.point(query.p);
       return mapping.offset + Vec2{dot(q, mapping.v1), dot(q, mapping.v2)};
     }
-    case TextureMapping::Kind::uv: break;
+    case TextureMapping::Kind::uv:
+      break;
   }
   return {mapping.scale.x * query.uv.x + mapping.offset.x, mapping.scale.y * query.uv.y + mapping.offset.y};
 }

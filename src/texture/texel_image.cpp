@@ -76,8 +76,8 @@ void require_finite(const std::array<const Channel*, 3>& planes, int width, cons
     if (first == v.end()) continue;
     const auto at = static_cast<std::size_t>(first - v.begin()), w = static_cast<std::size_t>(width);
     throw Error(Failure::scene, path + ": " + std::to_string(std::count_if(first, v.end(), bad)) + " values of channel " +
-                                    plane->name + " are NaN or infinite, the first at pixel " + std::to_string(at % w) +
-                                    ", " + std::to_string(at / w) + "; repair the image");
+                                    plane->name + " are NaN or infinite, the first at pixel " + std::to_string(at % w) + ", " +
+                                    std::to_string(at / w) + "; repair the image");
   }
 }
 
@@ -99,8 +99,7 @@ TexelImage TexelImage::from(const Image& image, const std::string& path) {
   return {image.width(), image.height(), std::move(texels), std::move(alpha)};
 }
 
-TexelImage TexelImage::load(const std::string& path, const std::string& encoding,
-                            const std::array<float, 9>& to_rec709) {
+TexelImage TexelImage::load(const std::string& path, const std::string& encoding, const std::array<float, 9>& to_rec709) {
   const Image image = read_image(path, encoding);
   TexelImage result = from(image, path);
   const auto matrix = image.chromaticities ? rec709_from(*image.chromaticities, false) : to_rec709;

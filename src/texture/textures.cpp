@@ -47,9 +47,7 @@ struct Textures::RgbEvaluator {
   const TextureQuery& query;
 
   Rgb operator()(const ConstantTexture& t) const { return t.value; }
-  Rgb operator()(const ScaleTexture& t) const {
-    return textures.eval(t.texture, query) * textures.eval_float(t.scale, query);
-  }
+  Rgb operator()(const ScaleTexture& t) const { return textures.eval(t.texture, query) * textures.eval_float(t.scale, query); }
   Rgb operator()(const MixTexture& t) const {
     const float amount = textures.eval_float(t.amount, query);
     return (1 - amount) * textures.eval(t.first, query) + amount * textures.eval(t.second, query);
@@ -85,9 +83,7 @@ struct Textures::FloatEvaluator {
   float operator()(const CheckerboardTexture& t) const { return textures.eval_float(checker(t, query), query); }
 };
 
-Rgb Textures::eval(TextureId id, const TextureQuery& query) const {
-  return std::visit(RgbEvaluator{*this, query}, nodes_[id]);
-}
+Rgb Textures::eval(TextureId id, const TextureQuery& query) const { return std::visit(RgbEvaluator{*this, query}, nodes_[id]); }
 
 float Textures::eval_float(TextureId id, const TextureQuery& query) const {
   return std::visit(FloatEvaluator{*this, query}, nodes_[id]);

@@ -34,8 +34,11 @@ TEST_CASE("black bodies lie on the Planckian locus") {
   const struct {
     float kelvin;
     Vec2 xy;
-  } cases[] = {{1500, {0.5857f, 0.3931f}}, {2856, {0.4475f, 0.4074f}}, {4000, {0.3805f, 0.3768f}},
-               {6504, {0.3135f, 0.3237f}}, {10000, {0.2807f, 0.2884f}}};
+  } cases[] = {{1500, {0.5857f, 0.3931f}},
+               {2856, {0.4475f, 0.4074f}},
+               {4000, {0.3805f, 0.3768f}},
+               {6504, {0.3135f, 0.3237f}},
+               {10000, {0.2807f, 0.2884f}}};
   for (const auto& c : cases) {
     CAPTURE(c.kelvin);
     const Vec2 xy = chromaticity(blackbody_rgb(c.kelvin));
@@ -61,6 +64,7 @@ TEST_CASE("black bodies are finite everywhere and smooth") {
   CHECK(blackbody_rgb(std::numeric_limits<float>::quiet_NaN()) == Rgb());
   CHECK(blackbody_rgb(kInfinity) == Rgb());
   for (float t : {1e-38f, 1e-10f, 1.0f, 30.0f, 1e6f, 1e20f, 3e38f}) CHECK(is_finite(blackbody_rgb(t)));
+  CHECK(normalized_blackbody(500, 1e-200) == 0);
   Rgb before = blackbody_rgb(499);
   float slope_before = 0;
   for (float t = 500; t < 12000; t += 1) {

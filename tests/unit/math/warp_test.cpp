@@ -67,8 +67,8 @@ TEST_CASE("the concentric disk covers the disk evenly") {
 TEST_CASE("warps give unit vectors on their side at the corners of the square") {
   for (const float x : {0.0f, 0.5f, kOneMinusEpsilon})
     for (const float y : {0.0f, 0.5f, kOneMinusEpsilon}) {
-      for (const Vec3 w : {square_to_uniform_hemisphere({x, y}), square_to_cosine_hemisphere({x, y}),
-                           square_to_uniform_cone({x, y}, 1e-7f)}) {
+      for (const Vec3 w :
+           {square_to_uniform_hemisphere({x, y}), square_to_cosine_hemisphere({x, y}), square_to_uniform_cone({x, y}, 1e-7f)}) {
         CHECK(length(w) == doctest::Approx(1).epsilon(1e-6));
         CHECK(w.z >= 0);
       }

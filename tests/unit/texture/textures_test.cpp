@@ -43,8 +43,8 @@ std::string reason(const std::vector<Texture>& textures) {
 }  // namespace
 
 TEST_CASE("scale and mix of constants fold to constants, in any order of definition") {
-  const Textures t = build_textures({texture(MixTexture{1, 2, 3}), constant(1), constant(3), constant(0.25f),
-                                     texture(ScaleTexture{0, 5}), constant(2)});
+  const Textures t = build_textures(
+      {texture(MixTexture{1, 2, 3}), constant(1), constant(3), constant(0.25f), texture(ScaleTexture{0, 5}), constant(2)});
   CHECK(t.constant(0) == Rgb(1.5f));
   CHECK(t.constant(4) == Rgb(3.0f));
   const Textures s = build_textures({texture(ScaleTexture{1, 2}), texture(ScaleTexture{2, 2}), constant(3)});
@@ -174,7 +174,7 @@ TEST_CASE("a long chain of textures needs no deep stack to build") {
 }
 
 TEST_CASE("shared inputs are no circle") {
-  const Textures t = build_textures(
-      {texture(MixTexture{1, 2, 3}), texture(ScaleTexture{3, 3}), texture(ScaleTexture{1, 3}), constant(0.5f)});
+  const Textures t =
+      build_textures({texture(MixTexture{1, 2, 3}), texture(ScaleTexture{3, 3}), texture(ScaleTexture{1, 3}), constant(0.5f)});
   CHECK(t.constant(0)->r == Approx(0.5 * 0.25 + 0.5 * 0.125));
 }

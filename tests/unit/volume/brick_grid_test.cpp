@@ -59,13 +59,15 @@ TEST_CASE("float bricks hold voxels exactly") {
   const OracleSource source = test::random_voxels(3, {-16, 8, 64});
   const BrickGrid grid = build_brick_grid(source, {.rules = {}, .float_bricks = true});
   Rng rng(2);
+  int different = 0;
   for (int i = 0; i < 20000; ++i) {
     Vec3d p = random_local(grid, rng, 0);
     for (double& x : p.v) x = std::round(x);
-    CHECK(grid.lookup(p) == static_cast<float>(source.voxel({static_cast<std::int64_t>(index_point(grid, p)[0]),
-                                                             static_cast<std::int64_t>(index_point(grid, p)[1]),
-                                                             static_cast<std::int64_t>(index_point(grid, p)[2])})));
+    const Vec3d index = index_point(grid, p);
+    const Index3 at{static_cast<std::int64_t>(index[0]), static_cast<std::int64_t>(index[1]), static_cast<std::int64_t>(index[2])};
+    different += grid.lookup(p) != static_cast<float>(source.voxel(at)) ? 1 : 0;
   }
+  CHECK(different == 0);
 }
 
 TEST_CASE("16-bit steps err by less than 2^-16 of a brick's range, and zero is exactly zero") {
@@ -99,23 +101,26 @@ TEST_CASE("a voxel decodes alike in the bricks that share it, but for 2^-16 of t
   const BrickGrid grid = build_brick_grid(source, {});
   const ValueRange all = grid.range();
   Rng rng(3);
+  float worst = 0;
   for (int i = 0; i < 20000; ++i) {
     Vec3d p = random_local(grid, rng, -1);
     const int axis = static_cast<int>(rng.uniform() * 3);
     p[axis] = std::round(p[axis] / 8) * 8;
     Vec3d below = p;
     below[axis] = std::nextafter(p[axis], -1e9);
-    CHECK(std::abs(grid.lookup(p) - grid.lookup(below)) <= all.max * 0x1p-16f);
+    worst = std::max(worst, std::abs(grid.lookup(p) - grid.lookup(below)));
   }
+  CHECK(worst <= all.max * 0x1p-16f);
 }
 
-TEST_CASE("ranges of every node bound what interpolation gives, and its mean is the mean") {
+TEST_CASE("ranges of every node bound what interpolation gives") {
   for (const Index3& corner : kCorners) {
     const OracleSource source = test::random_voxels(23, corner);
     const BrickGrid grid = build_brick_grid(source, {});
     Rng rng(9);
     int violations = 0;
-    for (int i = 0; i < 200000; ++i) {
+    const int points = corner == kCorners[0] ? 10'000'000 : 1'000'000;
+    for (int i = 0; i < points; ++i) {
       const Vec3d p = random_local(grid, rng, -0.01);
       const Index3 cell{static_cast<std::int64_t>(p[0]), static_cast<std::int64_t>(p[1]), static_cast<std::int64_t>(p[2])};
       const float value = grid.lookup(p);
@@ -129,7 +134,9 @@ TEST_CASE("ranges of every node bound what interpolation gives, and its mean is 
     }
     CHECK(violations == 0);
   }
+}
 
+TEST_CASE("the mean of a node is the mean of its cells") {
   OracleSource ramp;
   for (std::int64_t x = 0; x < 16; x += 8)
     ramp.add_leaf({x, 0, 0}, [](std::int64_t vx, std::int64_t, std::int64_t) { return static_cast<float>(vx); });
@@ -143,11 +150,11 @@ TEST_CASE("ranges of every node bound what interpolation gives, and its mean is 
   CHECK(grid.range().mean == doctest::Approx(sum / count).epsilon(1e-4));
 }
 
-TEST_CASE("boxes of one value cost no voxels, however large") {
+TEST_CASE("the inside of boxes of one value costs no voxels") {
   OracleSource source;
-  source.add_tile({-4096, 0, 0}, {4095, 4095, 4095}, 2.5f);
+  source.add_tile({-256, 0, 0}, {255, 511, 511}, 2.5f);
   const BrickGrid grid = build_brick_grid(source, {});
-  CHECK(grid.memory_bytes() < 600u << 20);
+  CHECK(grid.memory_bytes() < 50u << 20);  // the faces alone; 512^3 voxels would take 270 MB
   Rng rng(4);
   for (int i = 0; i < 1000; ++i) {
     const Vec3d p = random_local(grid, rng);

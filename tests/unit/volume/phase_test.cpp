@@ -51,6 +51,8 @@ TEST_CASE("HG agrees with its textbook form, has mean cosine g and points forwar
     const HenyeyGreenstein phase{g};
     double sum = 0, sum2 = 0;
     constexpr int kCount = 100000;
+    int different = 0;
+    double worst = 0;
     for (int i = 0; i < kCount; ++i) {
       const Vec3 wo = random_direction(rng);
       const PhaseSample s = phase.sample(wo, {rng.uniform(), rng.uniform()});
@@ -58,9 +60,11 @@ TEST_CASE("HG agrees with its textbook form, has mean cosine g and points forwar
                             std::sqrt(double{length_squared(wo)} * length_squared(s.wi));
       sum += cosine;
       sum2 += cosine * cosine;
-      CHECK(s.pdf == phase.pdf(wo, s.wi));
-      if (std::abs(g) < 0.95f) CHECK(s.pdf == doctest::Approx(textbook(g, cosine)).epsilon(1e-4));
+      different += s.pdf != phase.pdf(wo, s.wi) ? 1 : 0;
+      if (std::abs(g) < 0.95f) worst = std::max(worst, std::abs(s.pdf / textbook(g, cosine) - 1));
     }
+    CHECK(different == 0);
+    CHECK(worst < 1e-4);
     const double mean = sum / kCount, deviation = std::sqrt((sum2 / kCount - mean * mean) / kCount);
     CHECK(std::abs(mean - g) < 4 * deviation + 1e-6);
   }
@@ -104,15 +108,16 @@ TEST_CASE("a mixture samples its own density, per-channel weights average to the
   // sum p_i sigma_i / sum sigma_i integrates to 1 in channels that scatter.
   Rng rng(3);
   double r = 0, g = 0;
+  int wrong = 0;
   constexpr int kCount = 200000;
   for (int i = 0; i < kCount; ++i) {
     const auto s = mix.sample(wo, beta, rng.uniform(), {rng.uniform(), rng.uniform()});
     const Rgb value = mix.eval(wo, s->wi);
-    CHECK(s->weight.r * s->pdf == doctest::Approx(value.r).epsilon(1e-4));
-    CHECK(s->weight.b == 0);
+    wrong += std::abs(s->weight.r * s->pdf / value.r - 1) < 1e-4f && s->weight.b == 0 ? 0 : 1;
     r += s->weight.r;
     g += s->weight.g;
   }
+  CHECK(wrong == 0);
   CHECK(r / kCount == doctest::Approx(1).epsilon(0.02));
   CHECK(g / kCount == doctest::Approx(1).epsilon(0.02));
   CHECK_FALSE(mix.sample(wo, {0, 0, 1}, 0.5f, {0.5f, 0.5f}).has_value());

@@ -1,0 +1,146 @@
+#include "light/importance.h"
+
+#include <doctest/doctest.h>
+
+#include "light_cases.h"
+
+namespace tyndall {
+namespace {
+
+/// A light that can be asked for its contribution directly, with the bounds that selection sees of it.
+struct Oracle {
+  enum class Kind { triangle, point, spot } kind;
+  Vec3 a, b, c;  // spot: a = position, b = axis
+  float core = 0, skirt = 0;
+  bool two_sided = false;
+
+  LightBounds bounds() const {
+    if (kind == Kind::triangle) return test::triangle_bounds(a, b, c, two_sided, 1);
+    if (kind == Kind::point) return test::point_bounds(a, 1);
+    return test::spot_bounds(a, b, core, skirt, 1);
+  }
+
+  /// Whether the point on it that (u, v) picks sends light to the query point, by the float arithmetic of rendering.
+  bool contributes(const PointQuery& q, float u, float v) const {
+    Vec3 x = a;
+    if (kind == Kind::triangle) {
+      if (u + v > 1) u = 1 - u, v = 1 - v;
+      x = a + (b - a) * u + (c - a) * v;
+    }
+    if (x == q.p) return false;
+    const Vec3 wi = normalize(x - q.p);
+    if (kind == Kind::triangle) {
+      const Vec3 n = normalize(cross(b - a, c - a));
+      if (two_sided ? dot(n, wi) == 0 : dot(n, -wi) <= 0) return false;
+    }
+    if (kind == Kind::spot && !(dot(b, -wi) > std::cos(std::min(core + skirt, kPi)))) return false;
+    return length_squared(q.n) == 0 || q.transmissive || dot(q.n, wi) > 0;
+  }
+};
+
+Oracle random_light(Rng& rng) {
+  Oracle l;
+  const float kind = rng.uniform();
+  l.kind = kind < 0.6f ? Oracle::Kind::triangle : (kind < 0.7f ? Oracle::Kind::point : Oracle::Kind::spot);
+  l.a = test::random_in_cube(rng);
+  if (l.kind == Oracle::Kind::triangle) {
+    const float size = std::pow(10.0f, -3 * rng.uniform());
+    l.b = l.a + test::random_in_cube(rng, size);
+    l.c = l.a + test::random_in_cube(rng, size);
+    l.two_sided = rng.uniform() < 0.3f;
+  } else {
+    l.b = test::random_direction(rng);
+    l.core = rng.uniform() < 0.3f ? 0 : kPi * rng.uniform();
+    l.skirt = std::min(kPi - l.core, std::pow(10.0f, 0.5f - 3 * rng.uniform()));
+  }
+  return l;
+}
+
+/// Near the horizon and the light's plane as often as anywhere else.
+PointQuery random_query(const Oracle& l, Rng& rng) {
+  PointQuery q;
+  q.p = rng.uniform() < 0.5f ? test::random_in_cube(rng, 2) : l.a + test::random_in_cube(rng, std::pow(10.0f, -4 * rng.uniform()));
+  q.n = test::random_direction(rng);
+  if (rng.uniform() < 0.3f) {  // the light just about touches the horizon
+    const Vec3 to_light = normalize(l.a - q.p);
+    q.n = normalize(q.n - to_light * dot(q.n, to_light) + to_light * (1e-6f * (rng.uniform() - 0.3f)));
+  }
+  if (l.kind == Oracle::Kind::triangle && rng.uniform() < 0.2f) {  // seen nearly edge-on
+    const Vec3 n = normalize(cross(l.b - l.a, l.c - l.a));
+    q.p = l.a + (l.b - l.a) * (4 * rng.uniform() - 2) + (l.c - l.a) * (4 * rng.uniform() - 2) + n * (1e-6f * rng.uniform());
+  }
+  if (rng.uniform() < 0.2f) q.n = {};
+  q.transmissive = rng.uniform() < 0.2f;
+  return q;
+}
+
+TEST_CASE("importance is 0 only where nothing can contribute: a million clusters, points and normals by brute force") {
+  Rng rng(2024);
+  int contributing = 0, culled = 0;
+  for (int i = 0; i < 1'000'000; ++i) {
+    const int count = 1 + static_cast<int>(rng.next() % 3);
+    std::array<Oracle, 3> lights;
+    LightBounds cluster;
+    for (int k = 0; k < count; ++k) {
+      lights[k] = random_light(rng);
+      if (k > 0 && rng.uniform() < 0.5f && lights[k].kind == lights[0].kind) lights[k].b = lights[0].b;
+      const LightBounds b = lights[k].bounds();
+      if (!(b.intensity > 0)) continue;
+      cluster = bounds_union(cluster, b);
+    }
+    if (cluster.box.empty()) continue;
+    const PointQuery q = random_query(lights[0], rng);
+    const double value = importance(ClusterBounds::from(cluster), cluster.two_sided, q);
+    REQUIRE(std::isfinite(value));
+    if (value > 0) continue;
+    ++culled;
+    for (int k = 0; k < count; ++k) {
+      if (!(lights[k].bounds().intensity > 0)) continue;
+      for (const auto& [u, v] : {std::array{0.f, 0.f}, std::array{1.f, 0.f}, std::array{0.f, 1.f},
+                                 std::array{rng.uniform(), rng.uniform()}, std::array{rng.uniform(), rng.uniform()}})
+        if (lights[k].contributes(q, u, v)) ++contributing;
+    }
+  }
+  CHECK(contributing == 0);
+  CHECK(culled > 100'000);  // the test must mean something
+}
+
+TEST_CASE("importance of a small far light is its irradiance") {
+  const LightBounds light = test::triangle_bounds({0, 0, 0}, {0.001f, 0, 0}, {0, 0.001f, 0}, false, 2);
+  const ClusterBounds b = ClusterBounds::from(light);
+  const PointQuery facing{{0, 0, 3}, {0, 0, -1}};
+  CHECK(importance(b, false, facing) == doctest::Approx(light.intensity / 9).epsilon(1e-3));
+  const PointQuery tilted{{4, 0, 3}, normalize(Vec3{-1, 0, 0})};
+  CHECK(importance(b, false, tilted) == doctest::Approx(light.intensity * 0.6 * 0.8 / 25).epsilon(1e-3));
+  const PointQuery behind{{0, 0, -3}, {0, 0, 1}};
+  CHECK(importance(b, false, behind) == 0);
+  CHECK(importance(b, true, behind) > 0);
+  const PointQuery below{{0, 0, 3}, {0, 0, 1}};
+  CHECK(importance(b, false, below) == 0);
+  CHECK(importance(b, false, {below.p, below.n, true}) == doctest::Approx(light.intensity / 9).epsilon(1e-3));
+}
+
+TEST_CASE("importance of a wide spot does not vanish inside its cone") {
+  const ClusterBounds b = ClusterBounds::from(test::spot_bounds({}, {0, 0, 1}, 0, kPi, 1));
+  for (const float z : {1.0f, 0.0f, -0.5f, -0.999f})
+    CHECK(importance(b, false, {{std::sqrt(1 - z * z), 0, z}, {}}) > 0);
+}
+
+TEST_CASE("importance at a light without extent is 0, within a cluster it is finite") {
+  const LightBounds point = test::point_bounds({1, 2, 3}, 1);
+  CHECK(importance(ClusterBounds::from(point), false, {{1, 2, 3}, {}}) == 0);
+  CHECK(importance(ClusterBounds::from(point), false, {{1, 2, 3.0000002f}, {}}) > 0);
+  const LightBounds pair = bounds_union(point, test::point_bounds({2, 3, 4}, 1));
+  CHECK(importance(ClusterBounds::from(pair), false, {pair.box.center(), {}}) == doctest::Approx(2 / (0.75 / 4)));
+}
+
+TEST_CASE("importance keeps clear of under- and overflow") {
+  const ClusterBounds b = ClusterBounds::from(test::point_bounds({}, 1));
+  for (const float d : {1e-45f, 1e-38f, 1e-23f, 1.0f, 2e19f, 3e38f}) {
+    const double value = importance(b, false, {{d, 0, 0}, {}});
+    CHECK(value == doctest::Approx(1 / (double(d) * d)).epsilon(1e-6));
+  }
+}
+
+}  // namespace
+}  // namespace tyndall

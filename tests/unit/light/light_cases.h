@@ -1,0 +1,146 @@
+/// Sets of light bounds and query points that light selection must cope with, from the ordinary to the nasty.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "light/light_tree.h"
+#include "math/rng.h"
+
+namespace tyndall::test {
+
+inline Vec3 random_in_cube(Rng& rng, float half = 1) {
+  const float x = rng.uniform(), y = rng.uniform(), z = rng.uniform();
+  return Vec3{2 * x - 1, 2 * y - 1, 2 * z - 1} * half;
+}
+
+inline Vec3 random_direction(Rng& rng) {
+  for (;;) {
+    const Vec3 v = random_in_cube(rng);
+    const float l = length(v);
+    if (l > 1e-3f && l <= 1) return v / l;
+  }
+}
+
+inline LightBounds point_bounds(Vec3 p, float intensity) {
+  LightBounds b;
+  b.box.expand(p);
+  b.normals = DirectionCone::everything();
+  b.theta_e = kPi / 2;
+  b.intensity = intensity;
+  return b;
+}
+
+inline LightBounds spot_bounds(Vec3 p, Vec3 axis, float core, float skirt, float intensity) {
+  LightBounds b = point_bounds(p, intensity);
+  b.normals = DirectionCone::around(axis, core);
+  b.theta_e = skirt;
+  return b;
+}
+
+inline LightBounds triangle_bounds(Vec3 a, Vec3 b, Vec3 c, bool two_sided, float radiance) {
+  LightBounds t;
+  for (const Vec3 p : {a, b, c}) t.box.expand(p);
+  const Vec3d n = cross(Vec3d(b) - Vec3d(a), Vec3d(c) - Vec3d(a));
+  t.normals = DirectionCone::around(to_vec3(normalize(n)));
+  t.theta_e = kPi / 2;
+  t.intensity = static_cast<float>(0.5 * length(n)) * radiance;
+  t.two_sided = two_sided;
+  return t;
+}
+
+inline std::vector<TreeLight> numbered(const std::vector<LightBounds>& bounds) {
+  std::vector<TreeLight> lights;
+  for (std::size_t i = 0; i < bounds.size(); ++i) lights.push_back({bounds[i], static_cast<LightId>(i)});
+  return lights;
+}
+
+/// Triangles, points and spots mixed, spread over a cube, powers over five decades.
+inline std::vector<LightBounds> mixed_lights(std::size_t n, std::uint64_t seed) {
+  Rng rng(seed);
+  std::vector<LightBounds> lights;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Vec3 p = random_in_cube(rng);
+    const float strength = std::exp(11 * rng.uniform());
+    const float kind = rng.uniform();
+    if (kind < 0.6f) {
+      const float size = 0.2f * rng.uniform() / std::cbrt(static_cast<float>(n));
+      const Vec3 b = p + random_in_cube(rng, size), c = p + random_in_cube(rng, size);
+      lights.push_back(triangle_bounds(p, b, c, rng.uniform() < 0.3f, strength));
+    } else if (kind < 0.8f) {
+      lights.push_back(point_bounds(p, strength));
+    } else {
+      lights.push_back(spot_bounds(p, random_direction(rng), 0.5f * rng.uniform(), rng.uniform(), strength));
+    }
+    if (!(lights.back().intensity > 0)) lights.back() = point_bounds(p, strength);
+  }
+  return lights;
+}
+
+struct LightCase {
+  std::string name;
+  std::vector<LightBounds> lights;
+};
+
+inline std::vector<LightCase> light_cases() {
+  std::vector<LightCase> cases;
+  for (const std::size_t n : {1u, 2u, 3u, 10u, 100u, 1000u, 10000u})
+    cases.push_back({std::to_string(n) + " mixed lights", mixed_lights(n, n)});
+  const auto add = [&](std::string name, std::size_t n, auto make) {
+    LightCase c{std::move(name), {}};
+    for (std::size_t i = 0; i < n; ++i) c.lights.push_back(make(i));
+    cases.push_back(std::move(c));
+  };
+  Rng rng(99);
+  add("coincident points", 300, [](std::size_t) { return point_bounds({0.25f, 0.5f, -0.75f}, 1); });
+  add("coincident triangles, opposite ways", 300, [](std::size_t i) {
+    const Vec3 a{0, 0, 0}, b{0.5f, 0, 0}, c{0, 0.5f, 0};
+    return i % 2 ? triangle_bounds(a, b, c, false, 1) : triangle_bounds(a, c, b, false, 1);
+  });
+  add("on a line", 300, [](std::size_t i) { return point_bounds({i / 300.0f, 0, 0}, 1); });
+  add("two places", 300, [](std::size_t i) { return point_bounds({i % 2 ? 1.0f : -1.0f, 0, 0}, 1); });
+  add("a chain of halved distances", 120, [](std::size_t i) { return point_bounds({std::ldexp(1.0f, -int(i)), 0, 0}, 1); });
+  add("radii over thirty decades", 300, [&](std::size_t) {
+    return point_bounds(random_direction(rng) * std::pow(10.0f, 30 * rng.uniform() - 15), 1);
+  });
+  add("powers over sixty decades", 300, [&](std::size_t) {
+    return point_bounds(random_in_cube(rng), std::pow(10.0f, 60 * rng.uniform() - 30));
+  });
+  add("a ceiling", 1000, [](std::size_t i) {
+    const float x = float(i % 32) / 16 - 1, y = float(i / 32) / 16 - 1, s = 0.02f;
+    return triangle_bounds({x, y, 1}, {x, y + s, 1}, {x + s, y, 1}, false, 1);
+  });
+  add("at the ends of the float range", 50, [&](std::size_t i) {
+    return point_bounds(random_in_cube(rng) * (i % 2 ? 1e38f : 1e-38f), 1);
+  });
+  return cases;
+}
+
+/// Points inside and outside the lights' box, on lights, at the centre, far away; a third of them in a medium.
+inline std::vector<PointQuery> queries_for(const std::vector<LightBounds>& lights, std::size_t count, std::uint64_t seed) {
+  Bounds3 box;
+  for (const LightBounds& l : lights) box.expand(l.box);
+  const Vec3 center = box.min * 0.5f + box.max * 0.5f, half = box.max * 0.5f - box.min * 0.5f;
+  Rng rng(seed);
+  std::vector<PointQuery> queries;
+  for (std::size_t i = 0; i < count; ++i) {
+    PointQuery q;
+    const LightBounds& light = lights[rng.next() % lights.size()];
+    switch (i % 6) {
+      case 0: q.p = center + half * random_in_cube(rng); break;
+      case 1: q.p = light.box.min; break;
+      case 2: q.p = center; break;
+      case 3: q.p = light.box.center() + random_in_cube(rng, 1e-6f); break;
+      case 4: q.p = center + random_direction(rng) * (10 * length(half) + 1); break;
+      default: q.p = center + half * random_in_cube(rng, 3); break;
+    }
+    q.n = random_direction(rng);
+    if (i % 7 == 0) q.n = {0, 0, 1};
+    if (i % 3 == 2) q.n = {};
+    q.transmissive = rng.uniform() < 0.3f;
+    queries.push_back(q);
+  }
+  return queries;
+}
+
+}  // namespace tyndall::test

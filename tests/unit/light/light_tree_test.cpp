@@ -1,0 +1,217 @@
+#include "light/light_tree.h"
+
+#include <doctest/doctest.h>
+
+#include <cstring>
+
+#include "light_cases.h"
+#include "support/chi_squared.h"
+
+namespace tyndall {
+namespace {
+
+/// Leaf of every light.
+std::vector<std::uint32_t> leaves_of(const LightTree& tree, std::size_t lights) {
+  std::vector<std::uint32_t> leaves(lights, LightTree::kNoParent);
+  for (std::uint32_t i = 0; i < tree.nodes().size(); ++i)
+    if (tree.nodes()[i].leaf) leaves[tree.nodes()[i].second_or_light] = i;
+  return leaves;
+}
+
+struct Masses {
+  std::vector<double> pmf;  ///< by light
+  double dead = 0;          ///< on branches without importance
+};
+
+/// The probabilities of all outcomes by walking the whole tree from the root.
+Masses walk(const LightTree& tree, const PointQuery& query, std::size_t lights) {
+  Masses m{std::vector<double>(lights)};
+  if (!(tree.importance(query) > 0)) return {std::move(m.pmf), 1};
+  std::vector<std::pair<std::uint32_t, double>> stack{{0, 1.0}};
+  while (!stack.empty()) {
+    const auto [index, mass] = stack.back();
+    stack.pop_back();
+    const LightTree::Node& node = tree.nodes()[index];
+    if (node.leaf) {
+      m.pmf[node.second_or_light] += mass;
+    } else if (const auto p = tree.child_probability(index, query)) {
+      if (*p > 0) stack.push_back({index + 1, mass * *p});
+      if (*p < 1) stack.push_back({node.second_or_light, mass * (1 - *p)});
+    } else {
+      m.dead += mass;
+    }
+  }
+  return m;
+}
+
+TEST_CASE("every case: the tree is sound, the pmf sums to 1 less the dead mass") {
+  for (const auto& c : test::light_cases()) {
+    CAPTURE(c.name);
+    const LightTree tree(test::numbered(c.lights));
+    const std::size_t n = c.lights.size();
+    REQUIRE(tree.nodes().size() == 2 * n - 1);
+    const auto leaves = leaves_of(tree, n);
+    for (std::uint32_t i = 0; i < tree.nodes().size(); ++i) {
+      const auto& node = tree.nodes()[i];
+      REQUIRE((node.parent == LightTree::kNoParent) == (i == 0));
+      if (node.leaf) continue;
+      REQUIRE(tree.nodes()[i + 1].parent == i);
+      REQUIRE(tree.nodes()[node.second_or_light].parent == i);
+    }
+    for (const std::uint32_t leaf : leaves) REQUIRE(leaf != LightTree::kNoParent);
+
+    for (const PointQuery& q : test::queries_for(c.lights, n > 1000 ? 12 : 60, 5)) {
+      const Masses walked = walk(tree, q, n);
+      double sum = 0, worst = 0;
+      for (std::size_t i = 0; i < n; ++i) {
+        const double pmf = tree.pmf(q, leaves[i]);
+        REQUIRE((pmf >= 0 && pmf <= 1));
+        worst = std::max(worst, std::abs(pmf - walked.pmf[i]) / std::max(walked.pmf[i], 1e-30));
+        sum += pmf;
+      }
+      REQUIRE(std::abs(sum - (1 - walked.dead)) < 1e-5);
+      REQUIRE(worst < 1e-6);
+    }
+  }
+}
+
+TEST_CASE("every case: what select() returns is what pmf() says, a million times") {
+  const auto cases = test::light_cases();
+  Rng rng(8);
+  std::size_t selected = 0;
+  const std::size_t each = 1'000'000 / cases.size();
+  for (const auto& c : cases) {
+    CAPTURE(c.name);
+    const LightTree tree(test::numbered(c.lights));
+    const auto leaves = leaves_of(tree, c.lights.size());
+    const auto queries = test::queries_for(c.lights, 1000, 6);
+    for (std::size_t i = 0; i < each; ++i) {
+      const PointQuery& q = queries[i % queries.size()];
+      const auto s = tree.select(q, rng.uniform_wide());
+      if (!s) continue;
+      ++selected;
+      REQUIRE(s->pmf > 0);
+      REQUIRE(std::abs(tree.pmf(q, leaves[s->light]) - s->pmf) <= 1e-6 * s->pmf);
+    }
+  }
+  CHECK(selected > 500'000);
+}
+
+TEST_CASE("lights are chosen with their probability") {
+  for (const std::size_t n : {2u, 5u, 40u, 500u}) {
+    const auto lights = test::mixed_lights(n, 77 + n);
+    const LightTree tree(test::numbered(lights));
+    const auto queries = test::queries_for(lights, 6, 9);
+    for (const PointQuery& q : queries) {
+      const Masses m = walk(tree, q, n);
+      constexpr int kDraws = 40'000;
+      std::vector<double> counts(n + 1);
+      Rng rng(n);
+      for (int i = 0; i < kDraws; ++i) {
+        const auto s = tree.select(q, (i + rng.uniform_wide()) / kDraws);
+        counts[s ? s->light : n] += 1;
+      }
+      double statistic = 0, rest_expected = 0, rest = 0;
+      int bins = 0;
+      const auto add = [&](double count, double e) {
+        statistic += (count - e) * (count - e) / e;
+        ++bins;
+      };
+      for (std::size_t i = 0; i <= n; ++i) {
+        const double e = (i < n ? m.pmf[i] : m.dead) * kDraws;
+        REQUIRE((e > 0 || counts[i] == 0));
+        if (e >= 5) {
+          add(counts[i], e);
+        } else {
+          rest += counts[i];
+          rest_expected += e;
+        }
+      }
+      if (rest_expected >= 5) add(rest, rest_expected);
+      if (bins > 1) CHECK(test::chi_squared_tail(statistic, bins - 1) > 1e-5);
+    }
+  }
+}
+
+TEST_CASE("scaling the scene by powers of two changes no probability") {
+  for (const auto& c : test::light_cases()) {
+    if (c.lights.size() > 1000 || c.name.find("range") != std::string::npos || c.name.find("decades") != std::string::npos) continue;
+    CAPTURE(c.name);
+    const LightTree tree(test::numbered(c.lights));
+    const auto leaves = leaves_of(tree, c.lights.size());
+    const auto queries = test::queries_for(c.lights, 12, 10);
+    for (const int k : {-40, -17, 3, 40}) {
+      CAPTURE(k);
+      const float s = std::ldexp(1.0f, k);
+      auto scaled = c.lights;
+      for (LightBounds& l : scaled) l.box = {l.box.min * s, l.box.max * s};
+      const LightTree other(test::numbered(scaled));
+      const auto other_leaves = leaves_of(other, scaled.size());
+      for (PointQuery q : queries) {
+        std::vector<double> before;
+        for (const auto leaf : leaves) before.push_back(tree.pmf(q, leaf));
+        q.p = q.p * s;
+        for (std::size_t i = 0; i < before.size(); ++i)
+          REQUIRE(std::abs(other.pmf(q, other_leaves[i]) - before[i]) <= 1e-4 * before[i] + 1e-12);
+      }
+    }
+  }
+}
+
+TEST_CASE("a light that can contribute is always reachable") {
+  // Of 100,000 lights, those whose probability is less than a step of u are a negligible part of all.
+  const auto lights = test::mixed_lights(100'000, 21);
+  const LightTree tree(test::numbered(lights));
+  const PointQuery q{{0.1f, 0.2f, -0.3f}, {}};
+  double unreachable = 0;
+  for (std::uint32_t i = 0; i < tree.nodes().size(); ++i) {
+    const auto& node = tree.nodes()[i];
+    if (!node.leaf || !(importance(node.bounds, node.two_sided, q) > 0)) continue;
+    bool alive = true;
+    for (std::uint32_t p = node.parent; p != LightTree::kNoParent && alive; p = tree.nodes()[p].parent)
+      alive = importance(tree.nodes()[p].bounds, tree.nodes()[p].two_sided, q) > 0;
+    REQUIRE(alive);  // bounds nest: importance of a leaf implies that of all above it
+    const double pmf = tree.pmf(q, i);
+    REQUIRE(pmf > 0);
+    if (pmf < 0x1p-52) unreachable += pmf;
+  }
+  CHECK(unreachable < 1e-13);
+}
+
+TEST_CASE("far away the choice follows power") {
+  const auto lights = [] {
+    std::vector<LightBounds> l;
+    Rng rng(12);
+    for (int i = 0; i < 200; ++i) l.push_back(test::point_bounds(test::random_in_cube(rng), 1 + 9 * rng.uniform()));
+    return l;
+  }();
+  const LightTree tree(test::numbered(lights));
+  const auto leaves = leaves_of(tree, lights.size());
+  double total = 0;
+  for (const auto& l : lights) total += l.intensity;
+  for (std::size_t i = 0; i < lights.size(); ++i)
+    CHECK(tree.pmf({{1e4f, 0, 0}, {}}, leaves[i]) == doctest::Approx(lights[i].intensity / total).epsilon(0.01));
+}
+
+TEST_CASE("equal input gives an equal tree, and depth stays moderate") {
+  const auto lights = test::mixed_lights(5000, 31);
+  const LightTree a(test::numbered(lights)), b(test::numbered(lights));
+  CHECK(std::memcmp(a.nodes().data(), b.nodes().data(), a.nodes().size_bytes()) == 0);
+  CHECK(a.depth() <= 40);
+  const LightTree coincident(test::numbered(std::vector(4096, test::point_bounds({1, 1, 1}, 1))));
+  CHECK(coincident.depth() == 12);
+  CHECK(LightTree().empty());
+  CHECK(!LightTree().select({}, 0.5));
+}
+
+TEST_CASE("the extremes of u are safe") {
+  const auto lights = test::mixed_lights(1000, 41);
+  const LightTree tree(test::numbered(lights));
+  const auto leaves = leaves_of(tree, lights.size());
+  for (const PointQuery& q : test::queries_for(lights, 200, 3))
+    for (const double u : {0.0, 0x1p-1074, 0x1p-60, 0.5, 0x1.fffffffffffffp-1})
+      if (const auto s = tree.select(q, u)) CHECK(tree.pmf(q, leaves[s->light]) > 0);
+}
+
+}  // namespace
+}  // namespace tyndall
