@@ -244,14 +244,14 @@ struct Cylinder {
   float radius = 1, z_min = -1, z_max = 1, phi_max_degrees = 360;
 };
 struct Shape {
-  std::variant<TriangleMesh, BilinearMesh, Sphere, Disk, Cylinder> kind;
-  Transform to_world;  ///< to object-definition space inside an Object
+  std::variant<TriangleMesh, BilinearMesh, Sphere, Disk, Cylinder> kind{};
+  Transform to_world{};  ///< to object-definition space inside an Object
   bool reverse_orientation = false;
   MaterialId material = 0;
-  std::optional<AreaLight> emission;
-  std::optional<BoundaryId> boundary;  ///< set when the media on the two sides differ
-  std::optional<TextureId> alpha;      ///< opacity, [0,1]
-  Location where;
+  std::optional<AreaLight> emission{};
+  std::optional<BoundaryId> boundary{};  ///< set when the media on the two sides differ
+  std::optional<TextureId> alpha{};      ///< opacity, [0,1]
+  Location where{};
 };
 struct Object {
   std::string name;

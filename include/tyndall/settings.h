@@ -18,14 +18,14 @@ enum class TransmittanceStrategy { residual, ratio, delta };
 
 struct RenderSettings {
   int spp = 64;                  ///< samples a pixel, >= 1
-  std::optional<double> time;    ///< seconds; stops at the first pass end after it, overrides spp
+  std::optional<double> time{};  ///< seconds; stops at the first pass end after it, if spp have not been reached before
   int max_depth = 5;             ///< scattering events a path, counted as pbrt's volpath; >= 0
   std::uint64_t seed = 0;
   int threads = 0;               ///< 0: all cores
   LightStrategy lights = LightStrategy::tree_binary;
   TransmittanceStrategy transmittance = TransmittanceStrategy::residual;
-  std::vector<std::string> aovs; ///< names from aov_names()
-  std::optional<PixelBounds> crop;
+  std::vector<std::string> aovs{};  ///< names from aov_names()
+  std::optional<PixelBounds> crop{};
   bool reproducible = false;     ///< leave times and dates out of the image header
 };
 
