@@ -216,7 +216,7 @@ struct AreaLight {
   Rgb L;                   ///< radiance
   std::string path;        ///< emission image over uv, multiplied by L; empty: constant
   std::array<float, 9> to_rec709{1, 0, 0, 0, 1, 0, 0, 0, 1};
-  std::optional<float> power;  ///< when set, L is scaled so that the shape emits this much (pbrt)
+  std::optional<float> power;  ///< when set, L is scaled so that each triangle, patch or quadric emits this much (pbrt)
   bool two_sided = false;
 };
 

@@ -46,14 +46,13 @@ void require_closed(State& state, std::size_t depth) {
 
 void read_world_begin(State& state, Tokenizer&, const Location&) {
   state.in_world = true;
+  state.world_assumed = false;
   state.graphics.ctm = Transform();
   state.graphics.start_active = true;
   state.coordinate_systems["world"] = Transform();
 }
 
-void read_attribute_begin(State& state, Tokenizer&, const Location& where) {
-  open_block(state, Block::Kind::attribute, where);
-}
+void read_attribute_begin(State& state, Tokenizer&, const Location& where) { open_block(state, Block::Kind::attribute, where); }
 
 void read_attribute_end(State& state, Tokenizer&, const Location& where) {
   require_open(state, Block::Kind::attribute, where);
@@ -71,7 +70,8 @@ void read_object_begin(State& state, Tokenizer& in, const Location& where) {
   const std::string name(in.expect_string("an object name").text);
   const bool nested = state.open_object.has_value();
   open_block(state, nested ? Block::Kind::attribute : Block::Kind::object, where);
-  if (nested) throw Error(where, "ObjectBegin stands inside another object; objects cannot be nested, close the first with ObjectEnd");
+  if (nested)
+    throw Error(where, "ObjectBegin stands inside another object; objects cannot be nested, close the first with ObjectEnd");
   state.open_object = static_cast<ObjectId>(state.scene.objects.size());
   state.scene.objects.push_back({name, {}});
   if (!state.objects.try_emplace(name, *state.open_object).second)

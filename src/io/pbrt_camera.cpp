@@ -28,7 +28,8 @@ void read_screen(ParamList& params, Camera& camera) {
   const std::vector<float> window = params.numbers("screenwindow");
   if (window.empty()) return;
   if (window.size() != 4) throw params.error("screenwindow", "screenwindow takes four numbers: x0 x1 y0 y1");
-  if (window[0] == window[1] || window[2] == window[3]) throw params.error("screenwindow", "screenwindow is empty; x0 and x1, y0 and y1 must differ");
+  if (window[0] == window[1] || window[2] == window[3])
+    throw params.error("screenwindow", "screenwindow is empty; x0 and x1, y0 and y1 must differ");
   camera.screen_window = {window[0], window[1], window[2], window[3]};
 }
 
@@ -40,7 +41,8 @@ void read_camera(State& state, Tokenizer& in, const Location& where) {
   Camera camera;
   camera.to_world = state.graphics.ctm.inverse();
   camera.medium = state.graphics.outside;
-  if (type == "orthographic") camera.kind = Camera::Kind::orthographic;
+  if (type == "orthographic")
+    camera.kind = Camera::Kind::orthographic;
   else if (type == "realistic" || type == "spherical")
     throw params.error("camera \"" + type + "\" is not supported by Tyndall; use \"perspective\" or \"orthographic\"");
   else if (type != "perspective")
@@ -50,7 +52,8 @@ void read_camera(State& state, Tokenizer& in, const Location& where) {
   read_screen(params, camera);
   if (camera.kind == Camera::Kind::perspective) {
     camera.fov_degrees = params.number("fov", 90);
-    if (!(camera.fov_degrees > 0 && camera.fov_degrees < 180)) throw params.error("fov", "fov must lie between 0 and 180 degrees");
+    if (!(camera.fov_degrees > 0 && camera.fov_degrees < 180))
+      throw params.error("fov", "fov must lie between 0 and 180 degrees");
   }
   params.finish();
   state.coordinate_systems["camera"] = camera.to_world;

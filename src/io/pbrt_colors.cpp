@@ -90,8 +90,7 @@ Rgb to_color(State& state, const Param& param, ColorUse use) {
                   [&] { return convert_spectrum(blackbody_spectrum(kelvin), use); });
   }
   if (param.strings.size() != 1) return convert_spectrum(to_spectrum(state, param), use);
-  return cached(state, cache_key('n', param.strings[0], use),
-                [&] { return convert_spectrum(to_spectrum(state, param), use); });
+  return cached(state, cache_key('n', param.strings[0], use), [&] { return convert_spectrum(to_spectrum(state, param), use); });
 }
 
 std::optional<Rgb> find_color(State& state, ParamList& params, std::string_view name, ColorUse use) {

@@ -84,11 +84,13 @@ std::vector<std::string> directive_names() {
   return names;
 }
 
-void check_scope(const Directive& directive, const State& state, const Location& where) {
-  if (directive.scope == Scope::options && state.in_world)
+void check_scope(const Directive& directive, State& state, const Location& where) {
+  if (directive.scope == Scope::options && state.in_world && !state.world_assumed)
     throw Error(where, std::string(directive.name) + " stands after WorldBegin; move it before WorldBegin");
-  if (directive.scope == Scope::world && !state.in_world)
+  if (directive.scope == Scope::world && !state.in_world) {
+    state.in_world = state.world_assumed = true;
     throw Error(where, std::string(directive.name) + " stands before WorldBegin; move it after WorldBegin, or add that line");
+  }
 }
 
 }  // namespace tyndall::pbrt

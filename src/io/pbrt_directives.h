@@ -19,7 +19,7 @@ struct Directive {
 const Directive* find_directive(std::string_view name);  ///< null when unknown
 std::vector<std::string> directive_names();
 
-/// Error when the directive may not stand where the reading is.
-void check_scope(const Directive& directive, const State& state, const Location& where);
+/// Error when the directive may not stand where the reading is. Without WorldBegin only the first is one.
+void check_scope(const Directive& directive, State& state, const Location& where);
 
 }  // namespace tyndall::pbrt

@@ -33,8 +33,8 @@ PixelBounds read_crop(ParamList& params, int width, int height) {
     const auto pixel = [](float fraction, int size) {
       return static_cast<int>(std::ceil(static_cast<float>(size) * std::clamp(fraction, 0.0f, 1.0f)));
     };
-    crop = {pixel(std::min(c[0], c[1]), width), pixel(std::min(c[2], c[3]), height),
-            pixel(std::max(c[0], c[1]), width), pixel(std::max(c[2], c[3]), height)};
+    crop = {pixel(std::min(c[0], c[1]), width), pixel(std::min(c[2], c[3]), height), pixel(std::max(c[0], c[1]), width),
+            pixel(std::max(c[2], c[3]), height)};
   }
   const char* name = params.find("cropwindow", {ParamType::number}) ? "cropwindow" : "pixelbounds";
   if (crop.width() < 1 || crop.height() < 1) throw params.error(name, std::string(name) + " leaves no pixel; widen it");
@@ -48,7 +48,8 @@ float read_iso(ParamList& params) {
   if (params.string("sensor", "cie1931") != "cie1931")
     params.reports().warn(params.where("sensor"), "film sensors are not simulated; \"cie1931\" is used");
   if (params.number("whitebalance", 0) != 0)
-    params.reports().warn(params.where("whitebalance"), "parameter \"whitebalance\" is ignored: film sensors are not simulated");
+    params.reports().warn(params.where("whitebalance"),
+                          "parameter \"whitebalance\" is ignored: film sensors are not simulated");
   return iso;
 }
 
@@ -63,7 +64,8 @@ void read_film(State& state, Tokenizer& in, const Location& where) {
   Film film;
   film.gbuffer = type == "gbuffer";
   if (film.gbuffer && params.choice("coordinatesystem", "camera", {"camera", "world"}) == "world")
-    params.reports().warn(params.where("coordinatesystem"), "parameter \"coordinatesystem\" is ignored: positions and normals are written as --aov defines them");
+    params.reports().warn(params.where("coordinatesystem"),
+                          "parameter \"coordinatesystem\" is ignored: positions and normals are written as --aov defines them");
   film.width = read_resolution(params, "xresolution", 1280);
   film.height = read_resolution(params, "yresolution", 720);
   film.crop = read_crop(params, film.width, film.height);
@@ -88,11 +90,15 @@ void read_pixel_filter(State& state, Tokenizer& in, const Location& where) {
     Kind kind;
     float radius;
   };
-  constexpr Row kRows[] = {{"box", Kind::box, 0.5f}, {"triangle", Kind::triangle, 2}, {"gaussian", Kind::gaussian, 1.5f},
-                           {"mitchell", Kind::mitchell, 2}, {"sinc", Kind::sinc, 4}};
+  constexpr Row kRows[] = {{"box", Kind::box, 0.5f},
+                           {"triangle", Kind::triangle, 2},
+                           {"gaussian", Kind::gaussian, 1.5f},
+                           {"mitchell", Kind::mitchell, 2},
+                           {"sinc", Kind::sinc, 4}};
   const auto row = std::find_if(std::begin(kRows), std::end(kRows), [&](const Row& r) { return r.name == type; });
   if (row == std::end(kRows))
-    throw params.error("filter \"" + printable(type) + "\" is unknown; " + suggestion(type, {"box", "triangle", "gaussian", "mitchell", "sinc"}));
+    throw params.error("filter \"" + printable(type) + "\" is unknown; " +
+                       suggestion(type, {"box", "triangle", "gaussian", "mitchell", "sinc"}));
   PixelFilter filter;
   filter.kind = row->kind;
   filter.radius = {params.number("xradius", row->radius), params.number("yradius", row->radius)};

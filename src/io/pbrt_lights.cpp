@@ -36,8 +36,8 @@ PointLight point_light(State& state, ParamList& params) {
 Transform frame_at(Vec3 from, Vec3 z) {
   const Vec3 helper = std::abs(z.x) > std::abs(z.y) ? Vec3{0, 1, 0} : Vec3{1, 0, 0};
   const Vec3 x = normalize(cross(helper, z)), y = cross(z, x);
-  return Transform(Transform::Matrix{
-      {{x.x, y.x, z.x, from.x}, {x.y, y.y, z.y, from.y}, {x.z, y.z, z.z, from.z}, {0, 0, 0, 1}}});
+  return Transform(
+      Transform::Matrix{{{x.x, y.x, z.x, from.x}, {x.y, y.y, z.y, from.y}, {x.z, y.z, z.z, from.z}, {0, 0, 0, 1}}});
 }
 
 SpotLight spot_light(State& state, ParamList& params) {
@@ -69,7 +69,8 @@ InfiniteLight infinite_light(State& state, ParamList& params) {
   InfiniteLight light;
   light.to_world = state.graphics.ctm;
   if (params.find("portal", {ParamType::point3}))
-    throw params.error("portal", "portals are not supported by Tyndall; remove the parameter, the picture is the same but for noise");
+    throw params.error("portal",
+                       "portals are not supported by Tyndall; remove the parameter, the picture is the same but for noise");
   const float scale = params.number("scale", 1);
   const auto illuminance = positive(params, "illuminance");
   const auto L = find_color(state, params, "L", ColorUse::light);
@@ -92,7 +93,8 @@ decltype(Light::kind) read_kind(State& state, ParamList& params, const std::stri
   if (type == "infinite") return infinite_light(state, params);
   if (type == "projection" || type == "goniometric")
     throw params.error("light \"" + type + "\" is not supported by Tyndall; use a spot light or an area light with an image");
-  throw params.error("light \"" + printable(type) + "\" is unknown; " + suggestion(type, {"point", "spot", "distant", "infinite"}));
+  throw params.error("light \"" + printable(type) + "\" is unknown; " +
+                     suggestion(type, {"point", "spot", "distant", "infinite"}));
 }
 
 AreaLight read_area_light(State& state, ParamList& params, const std::string& type) {

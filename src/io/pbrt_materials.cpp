@@ -80,7 +80,8 @@ MixMaterial read_mix(State& state, ParamList& params) {
   for (int i = 0; i < 2; ++i) {
     const auto it = state.materials.find(names[i]);
     if (it == state.materials.end())
-      throw params.error("materials", "material \"" + printable(names[i]) + "\" is not defined; define it with MakeNamedMaterial before (" +
+      throw params.error("materials", "material \"" + printable(names[i]) +
+                                          "\" is not defined; define it with MakeNamedMaterial before (" +
                                           suggestion(names[i], names_of(state.materials)) + ")");
     ids[i] = it->second;
   }
@@ -117,7 +118,8 @@ Kind read_kind(State& state, ParamList& params, const std::string& type) {
   if (type == "interface" || type == "none" || type.empty()) return InterfaceMaterial{};
   for (const char* other : {"hair", "measured", "subsurface"})
     if (type == other)
-      throw params.error("material \"" + type + "\" is not supported by Tyndall; use coateddiffuse or a dielectric around a medium");
+      throw params.error("material \"" + type +
+                         "\" is not supported by Tyndall; use coateddiffuse or a dielectric around a medium");
   throw params.error("material \"" + printable(type) + "\" is unknown; " +
                      suggestion(type, {"diffuse", "conductor", "dielectric", "thindielectric", "diffusetransmission",
                                        "coateddiffuse", "coatedconductor", "mix", "interface"}));
@@ -154,17 +156,14 @@ MaterialId shared_material(State& state, Kind kind, const Location& where) {
 
 void read_material(State& state, Tokenizer& in, const Location& where) {
   const std::string type(in.expect_string("a kind of material, as \"diffuse\"").text);
-  ParamList params =
-      read_param_list(state, in, "material \"" + printable(type) + "\"", where, &AttributeDefaults::material);
+  ParamList params = read_param_list(state, in, "material \"" + printable(type) + "\"", where, &AttributeDefaults::material);
   state.graphics.material = shared_material(state, read_checked_kind(state, params, type), where);
 }
 
 void read_make_named_material(State& state, Tokenizer& in, const Location& where) {
   const std::string name(in.expect_string("a material name").text);
-  ParamList params =
-      read_param_list(state, in, "material \"" + printable(name) + "\"", where, &AttributeDefaults::material);
-  if (state.materials.contains(name))
-    throw Error(where, "material \"" + printable(name) + "\" is defined twice; rename one");
+  ParamList params = read_param_list(state, in, "material \"" + printable(name) + "\"", where, &AttributeDefaults::material);
+  if (state.materials.contains(name)) throw Error(where, "material \"" + printable(name) + "\" is defined twice; rename one");
   try {
     const std::string type = params.string("type", "?");
     if (type == "?") throw params.error("material \"" + printable(name) + "\" has no type; add \"string type\"");
@@ -180,7 +179,8 @@ void read_named_material(State& state, Tokenizer& in, const Location& where) {
   const Token name = in.expect_string("a material name");
   const auto it = state.materials.find(std::string(name.text));
   if (it == state.materials.end())
-    throw in.error(name.at, "material \"" + printable(name.text) + "\" is not defined; define it with MakeNamedMaterial before line " +
+    throw in.error(name.at, "material \"" + printable(name.text) +
+                                "\" is not defined; define it with MakeNamedMaterial before line " +
                                 std::to_string(where.line) + " (" + suggestion(name.text, names_of(state.materials)) + ")");
   state.graphics.material = it->second;
 }

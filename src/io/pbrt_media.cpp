@@ -38,7 +38,8 @@ Bounds3 read_bounds(ParamList& params) {
   const Vec3 p0 = params.point("p0", {0, 0, 0}), p1 = params.point("p1", {1, 1, 1});
   const Bounds3 bounds{tyndall::min(p0, p1), tyndall::max(p0, p1)};
   const Vec3 extent = bounds.extent();
-  if (!(extent.x > 0 && extent.y > 0 && extent.z > 0)) throw params.error("p0", "the box from p0 to p1 is empty; move its corners apart");
+  if (!(extent.x > 0 && extent.y > 0 && extent.z > 0))
+    throw params.error("p0", "the box from p0 to p1 is empty; move its corners apart");
   return bounds;
 }
 
@@ -80,7 +81,8 @@ Medium homogeneous(State& state, ParamList& params) {
   if (!preset.empty()) {
     const MediumPreset* found = find_medium_preset(preset);
     if (!found)
-      throw params.error("preset", "medium preset \"" + printable(preset) + "\" is unknown; " + suggestion(preset, medium_preset_names()));
+      throw params.error(
+          "preset", "medium preset \"" + printable(preset) + "\" is unknown; " + suggestion(preset, medium_preset_names()));
     for (const char* sigma : {"sigma_a", "sigma_s"})
       if (params.find(sigma, {ParamType::rgb, ParamType::spectrum, ParamType::blackbody}))
         throw params.error(sigma, "a medium takes a preset or its own coefficients, not both; remove one");
@@ -102,7 +104,8 @@ Medium uniform_grid(State& state, ParamList& params) {
   if (g.density.empty()) throw params.error("a uniformgrid medium has no density; add \"float density\" with nx*ny*nz values");
   g.temperature = params.numbers("temperature");
   g.Le_scale = params.numbers("Lescale");
-  for (const auto& [name, values] : {std::pair{"density", &g.density}, {"temperature", &g.temperature}, {"Lescale", &g.Le_scale}})
+  for (const auto& [name, values] :
+       {std::pair{"density", &g.density}, {"temperature", &g.temperature}, {"Lescale", &g.Le_scale}})
     check_size(params, name, values->size(), n);
   check_not_negative(params, "density", g.density);
   check_not_negative(params, "Lescale", g.Le_scale);
@@ -127,7 +130,8 @@ Medium rgb_grid(State&, ParamList& params) {
   g.Le = find_colors(params, "Le", ColorUse::light);
   for (const auto& [name, values] : {std::pair{"sigma_a", &g.sigma_a}, {"sigma_s", &g.sigma_s}, {"Le", &g.Le}})
     check_size(params, name, values->size(), n);
-  if (g.sigma_a.empty() && g.sigma_s.empty()) throw params.error("an rgbgrid medium has neither sigma_a nor sigma_s; add one of them");
+  if (g.sigma_a.empty() && g.sigma_s.empty())
+    throw params.error("an rgbgrid medium has neither sigma_a nor sigma_s; add one of them");
   if (!g.Le.empty() && g.sigma_a.empty()) throw params.error("Le", "\"Le\" of an rgbgrid needs \"sigma_a\"; add it");
   const float Le_scale = params.number("Lescale", 1) * kCieYIntegral;
   for (Rgb& Le : g.Le) Le *= Le_scale;
@@ -185,8 +189,9 @@ std::optional<MediumId> medium_named(const State& state, const Tokenizer& in, co
   if (name.text.empty()) return std::nullopt;
   const auto it = state.media.find(std::string(name.text));
   if (it != state.media.end()) return it->second;
-  throw in.error(name.at, "medium \"" + printable(name.text) + "\" is not defined; define it with MakeNamedMedium before line " +
-                              std::to_string(name.at.line) + " (" + suggestion(name.text, names_of(state.media)) + ")");
+  throw in.error(name.at, "medium \"" + printable(name.text) +
+                              "\" is not defined; define it with MakeNamedMedium before line " + std::to_string(name.at.line) +
+                              " (" + suggestion(name.text, names_of(state.media)) + ")");
 }
 
 }  // namespace

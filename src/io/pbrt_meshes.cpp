@@ -23,11 +23,13 @@ std::vector<std::uint32_t> read_indices(ParamList& params, std::size_t vertices,
     return indices;
   }
   if (given.size() % corners != 0)
-    throw params.error("indices", count(given.size()) + " indices are no multiple of " + count(corners) + "; each face takes " + count(corners));
+    throw params.error("indices", count(given.size()) + " indices are no multiple of " + count(corners) + "; each face takes " +
+                                      count(corners));
   for (std::size_t i = 0; i < given.size(); ++i) {
     if (given[i] < 0 || static_cast<std::size_t>(given[i]) >= vertices)
-      throw params.error("indices", "index " + std::to_string(given[i]) + " (the " + count(i + 1) + ". of the list) is out of range; the mesh has " +
-                                        count(vertices) + " vertices, counted from 0");
+      throw params.error("indices", "index " + std::to_string(given[i]) + " (the " + count(i + 1) +
+                                        ". of the list) is out of range; the mesh has " + count(vertices) +
+                                        " vertices, counted from 0");
     indices[i] = static_cast<std::uint32_t>(given[i]);
   }
   return indices;
@@ -35,7 +37,8 @@ std::vector<std::uint32_t> read_indices(ParamList& params, std::size_t vertices,
 
 void check_per_vertex(ParamList& params, std::string_view name, std::size_t given, std::size_t vertices) {
   if (given != 0 && given != vertices)
-    throw params.error(name, "\"" + std::string(name) + "\" has " + count(given) + " values for " + count(vertices) + " vertices; give one for each");
+    throw params.error(name, "\"" + std::string(name) + "\" has " + count(given) + " values for " + count(vertices) +
+                                 " vertices; give one for each");
 }
 
 template <typename Mesh>
@@ -79,9 +82,11 @@ std::vector<decltype(Shape::kind)> read_ply_mesh(State& state, ParamList& params
   if (!ply.triangles.empty() && !ply.quads.empty())
     kinds.emplace_back(TriangleMesh{ply.positions, ply.normals, ply.uvs, std::move(ply.triangles)});
   else if (!ply.triangles.empty())
-    kinds.emplace_back(TriangleMesh{std::move(ply.positions), std::move(ply.normals), std::move(ply.uvs), std::move(ply.triangles)});
+    kinds.emplace_back(
+        TriangleMesh{std::move(ply.positions), std::move(ply.normals), std::move(ply.uvs), std::move(ply.triangles)});
   if (!ply.quads.empty())
-    kinds.emplace_back(BilinearMesh{std::move(ply.positions), std::move(ply.normals), std::move(ply.uvs), std::move(ply.quads)});
+    kinds.emplace_back(
+        BilinearMesh{std::move(ply.positions), std::move(ply.normals), std::move(ply.uvs), std::move(ply.quads)});
   return kinds;
 }
 

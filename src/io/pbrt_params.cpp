@@ -25,11 +25,7 @@ std::size_t count_of(const Param& p) { return p.numbers.size() + p.integers.size
 
 ParamList::ParamList(std::string owner, Location where, std::vector<Param> params, const std::vector<Param>* defaults,
                      Reports& reports)
-    : owner_(std::move(owner)),
-      where_(std::move(where)),
-      params_(std::move(params)),
-      defaults_(defaults),
-      reports_(&reports) {}
+    : owner_(std::move(owner)), where_(std::move(where)), params_(std::move(params)), defaults_(defaults), reports_(&reports) {}
 
 const Param* ParamList::look(std::string_view name) const {
   for (const Param& p : params_)
@@ -49,9 +45,7 @@ Param* ParamList::find(std::string_view name, std::initializer_list<ParamType> t
   if (std::find(types.begin(), types.end(), p->type) == types.end())
     throw Error(p->where, "parameter " + quoted(name) + " of " + owner_ + " is a " + list_of(types) + ", not a " +
                               std::string(name_of(p->type)) + "; change its type");
-  const auto own = [&](auto& list) {
-    return std::find_if(list.begin(), list.end(), [&](const Param& q) { return &q == p; });
-  };
+  const auto own = [&](auto& list) { return std::find_if(list.begin(), list.end(), [&](const Param& q) { return &q == p; }); };
   if (const auto it = own(params_); it != params_.end()) return &*it;
   if (const auto it = own(borrowed_); it != borrowed_.end()) return &*it;
   return &borrowed_.emplace_back(*p);
@@ -116,8 +110,7 @@ std::vector<std::string> ParamList::strings(std::string_view name) {
 std::vector<Vec3> ParamList::triples(std::string_view name, ParamType type) {
   const Param* p = find(name, {type});
   std::vector<Vec3> out(p ? p->numbers.size() / 3 : 0);
-  for (std::size_t i = 0; i < out.size(); ++i)
-    out[i] = {p->numbers[3 * i], p->numbers[3 * i + 1], p->numbers[3 * i + 2]};
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = {p->numbers[3 * i], p->numbers[3 * i + 1], p->numbers[3 * i + 2]};
   return out;
 }
 

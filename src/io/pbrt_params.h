@@ -17,7 +17,19 @@
 namespace tyndall::pbrt {
 
 enum class ParamType {
-  number, integer, boolean, string, point2, vector2, point3, vector3, normal, rgb, spectrum, blackbody, texture
+  number,
+  integer,
+  boolean,
+  string,
+  point2,
+  vector2,
+  point3,
+  vector3,
+  normal,
+  rgb,
+  spectrum,
+  blackbody,
+  texture
 };
 std::string_view name_of(ParamType type);  ///< as in the scene file: "float", "point3" ...
 
@@ -40,8 +52,7 @@ class ParamList {
  public:
   /// `owner` is for messages: `material "diffuse"`. `defaults` (of the Attribute directive) fill in for parameters
   /// that are absent and are never reported as unknown; they must outlive this object.
-  ParamList(std::string owner, Location where, std::vector<Param> params, const std::vector<Param>* defaults,
-            Reports& reports);
+  ParamList(std::string owner, Location where, std::vector<Param> params, const std::vector<Param>* defaults, Reports& reports);
 
   /// The parameter, or null. Error when it is there with none of these types.
   Param* find(std::string_view name, std::initializer_list<ParamType> types);

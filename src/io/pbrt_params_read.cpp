@@ -70,9 +70,15 @@ bool to_boolean(const Tokenizer& in, const Token& token) {
 
 void read_value(const Tokenizer& in, const Token& token, Values values, Param& out) {
   switch (values) {
-    case Values::numbers: out.numbers.push_back(in.to_number(token)); return;
-    case Values::integers: out.integers.push_back(in.to_integer(token)); return;
-    case Values::booleans: out.integers.push_back(to_boolean(in, token)); return;
+    case Values::numbers:
+      out.numbers.push_back(in.to_number(token));
+      return;
+    case Values::integers:
+      out.integers.push_back(in.to_integer(token));
+      return;
+    case Values::booleans:
+      out.integers.push_back(to_boolean(in, token));
+      return;
     case Values::numbers_or_strings:
       if (!token.is(Token::Kind::string)) return read_value(in, token, Values::numbers, out);
       [[fallthrough]];
@@ -99,10 +105,9 @@ void check_count(const Param& p, int multiple) {
   const std::string name = "parameter \"" + p.name + "\"";
   if (count == 0) throw Error(p.where, name + " has no value; give one or leave it out");
   if (count % multiple != 0)
-    throw Error(p.where, name + " has " + std::to_string(count) + " values; a " + std::string(name_of(p.type)) +
-                             " takes " + std::to_string(multiple) + " for each item");
-  if (!p.numbers.empty() && !p.strings.empty())
-    throw Error(p.where, name + " mixes numbers and strings; use one kind");
+    throw Error(p.where, name + " has " + std::to_string(count) + " values; a " + std::string(name_of(p.type)) + " takes " +
+                             std::to_string(multiple) + " for each item");
+  if (!p.numbers.empty() && !p.strings.empty()) throw Error(p.where, name + " mixes numbers and strings; use one kind");
 }
 
 }  // namespace
@@ -125,8 +130,7 @@ std::vector<Param> read_params(Tokenizer& in, const ColorSpace* color_space) {
     read_values(in, row.values, param);
     check_count(param, row.multiple);
     for (const Param& other : params)
-      if (other.name == param.name)
-        throw Error(param.where, "parameter \"" + param.name + "\" is given twice; remove one");
+      if (other.name == param.name) throw Error(param.where, "parameter \"" + param.name + "\" is given twice; remove one");
     params.push_back(std::move(param));
   }
   return params;

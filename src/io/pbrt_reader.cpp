@@ -14,8 +14,9 @@ namespace tyndall {
 namespace pbrt {
 namespace {
 
-constexpr std::size_t kMaxErrors = 100;     // one mistake early in a big file can make thousands
-constexpr std::size_t kMaxFiles = 100'000;  // Include lines followed; files that include each other twice grow beyond all bounds
+constexpr std::size_t kMaxErrors = 100;  // one mistake early in a big file can make thousands
+constexpr std::size_t kMaxFiles =
+    100'000;  // Include lines followed; files that include each other twice grow beyond all bounds
 
 enum class OnError { stop, go_on };
 
@@ -35,7 +36,8 @@ class Reading {
       read_directives(top);
       attempt([&] { require_closed(state_, 1); });
       attempt([&] {
-        if (!state_.in_world) throw top.error(top.peek().at, "the file ends without WorldBegin; add it after the camera and the film");
+        if (!state_.in_world)
+          throw top.error(top.peek().at, "the file ends without WorldBegin; add it after the camera and the film");
       });
     } catch (TooManyErrors) {
       errors_.push_back("more errors are not shown; mend these first");
@@ -82,9 +84,12 @@ class Reading {
     if (!directive)
       throw Error(where, "unknown directive \"" + printable(token.text) + "\"; " + suggestion(token.text, directive_names()));
     check_scope(*directive, state_, where);
-    if (directive->read) directive->read(state_, in, where);
-    else if (directive->name == "Import") import(in, where);
-    else include(in);
+    if (directive->read)
+      directive->read(state_, in, where);
+    else if (directive->name == "Import")
+      import(in, where);
+    else
+      include(in);
     return true;
   }
 
@@ -114,7 +119,8 @@ class Reading {
     if (open || open_files_.size() > kMaxDepth)
       throw in.error(name.at, "file \"" + printable(name.text) + "\" includes itself or is nested deeper than " +
                                   std::to_string(kMaxDepth) + "; break the circle");
-    if (++files_ > kMaxFiles) throw in.error(name.at, "more than " + std::to_string(kMaxFiles) + " files are included; merge some");
+    if (++files_ > kMaxFiles)
+      throw in.error(name.at, "more than " + std::to_string(kMaxFiles) + " files are included; merge some");
     std::string text;
     try {
       text = read_file_text(path);
@@ -166,9 +172,7 @@ SceneFile read_or_throw(std::string text, const std::string& name, const std::st
 }  // namespace
 }  // namespace pbrt
 
-SceneFile read_scene(const std::string& path) {
-  return pbrt::read_or_throw(read_file_text(path), path, pbrt::folder_of(path));
-}
+SceneFile read_scene(const std::string& path) { return pbrt::read_or_throw(read_file_text(path), path, pbrt::folder_of(path)); }
 
 SceneFile read_scene_text(const std::string& text, const std::string& name, const std::string& folder) {
   return pbrt::read_or_throw(text, name, folder);

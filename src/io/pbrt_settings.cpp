@@ -42,8 +42,10 @@ int read_pixel_samples(ParamList& params, const std::string& type) {
 /// pbrt's own light samplers; "lights" names ours and wins.
 void read_light_sampler(ParamList& params, RenderSettings& settings) {
   const std::string sampler = params.choice("lightsampler", "", {"", "uniform", "power", "bvh", "exhaustive"});
-  if (sampler == "bvh") settings.lights = LightStrategy::tree_binary;
-  else if (const auto strategy = parse_light_strategy(sampler)) settings.lights = *strategy;
+  if (sampler == "bvh")
+    settings.lights = LightStrategy::tree_binary;
+  else if (const auto strategy = parse_light_strategy(sampler))
+    settings.lights = *strategy;
   read_strategy(params, "lights", parse_light_strategy, light_strategy_names(), settings.lights);
 }
 
@@ -100,7 +102,8 @@ void read_sampler(State& state, Tokenizer& in, const Location& where) {
 void read_integrator(State& state, Tokenizer& in, const Location& where) {
   const std::string type(in.expect_string("a kind of integrator, as \"volpath\"").text);
   ParamList params = read_param_list(state, in, "integrator \"" + printable(type) + "\"", where);
-  const std::vector<std::string> known{"volpath", "path", "simplevolpath", "simplepath", "lightpath", "randomwalk", "bdpt", "mlt", "sppm", "ao"};
+  const std::vector<std::string> known{"volpath",    "path", "simplevolpath", "simplepath", "lightpath",
+                                       "randomwalk", "bdpt", "mlt",           "sppm",       "ao"};
   if (std::find(known.begin(), known.end(), type) == known.end())
     throw params.error("integrator \"" + printable(type) + "\" is unknown; " + suggestion(type, known));
   if (type != "volpath" && type != "path")
@@ -128,8 +131,17 @@ void read_option(State& state, Tokenizer& in, const Location& where) {
     state.scene.settings.seed = static_cast<std::uint64_t>(in.to_integer(value));
     return;
   }
-  const std::vector<std::string> known{"disablepixeljitter", "disabletexturefiltering", "disablewavelengthjitter", "displacementedgescale",
-                                       "forcediffuse", "msereferenceimage", "msereferenceout", "pixelstats", "rendercoordsys", "seed", "wavefront"};
+  const std::vector<std::string> known{"disablepixeljitter",
+                                       "disabletexturefiltering",
+                                       "disablewavelengthjitter",
+                                       "displacementedgescale",
+                                       "forcediffuse",
+                                       "msereferenceimage",
+                                       "msereferenceout",
+                                       "pixelstats",
+                                       "rendercoordsys",
+                                       "seed",
+                                       "wavefront"};
   if (std::find(known.begin(), known.end(), name) == known.end())
     throw in.error(declaration.at, "option \"" + printable(declaration.text) + "\" is unknown; " + suggestion(name, known));
   if (name == "disablepixeljitter" || name == "forcediffuse" || name.starts_with("mse") || name == "pixelstats")

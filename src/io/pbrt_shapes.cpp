@@ -27,7 +27,8 @@ Sphere sphere(ParamList& params) {
   const float r = positive(params, "radius", 1);
   const float z0 = params.number("zmin", -r), z1 = params.number("zmax", r);
   const Sphere s{r, std::clamp(std::min(z0, z1), -r, r), std::clamp(std::max(z0, z1), -r, r), phi_max(params)};
-  if (s.z_min == s.z_max) throw params.error("zmin", "the sphere is cut away entirely; zmin and zmax must enclose a part of it");
+  if (s.z_min == s.z_max)
+    throw params.error("zmin", "the sphere is cut away entirely; zmin and zmax must enclose a part of it");
   return s;
 }
 
@@ -49,12 +50,18 @@ using Kind = decltype(Shape::kind);
 
 std::vector<Kind> read_kinds(State& state, ParamList& params, const std::string& type) {
   std::vector<Kind> kinds;
-  if (type == "sphere") kinds.emplace_back(sphere(params));
-  else if (type == "disk") kinds.emplace_back(disk(params));
-  else if (type == "cylinder") kinds.emplace_back(cylinder(params));
-  else if (type == "trianglemesh") kinds.emplace_back(read_triangle_mesh(params));
-  else if (type == "bilinearmesh") kinds.emplace_back(read_bilinear_mesh(params));
-  else if (type == "plymesh") kinds = read_ply_mesh(state, params);
+  if (type == "sphere")
+    kinds.emplace_back(sphere(params));
+  else if (type == "disk")
+    kinds.emplace_back(disk(params));
+  else if (type == "cylinder")
+    kinds.emplace_back(cylinder(params));
+  else if (type == "trianglemesh")
+    kinds.emplace_back(read_triangle_mesh(params));
+  else if (type == "bilinearmesh")
+    kinds.emplace_back(read_bilinear_mesh(params));
+  else if (type == "plymesh")
+    kinds = read_ply_mesh(state, params);
   else if (type == "curve" || type == "loopsubdiv")
     throw params.error("shape \"" + type + "\" is not supported by Tyndall; convert it to a plymesh");
   else
@@ -67,8 +74,8 @@ std::vector<Kind> read_kinds(State& state, ParamList& params, const std::string&
 std::optional<BoundaryId> boundary_group(State& state) {
   const auto inside = state.graphics.inside, outside = state.graphics.outside;
   if (inside == outside) return std::nullopt;
-  const auto block = std::find_if(state.blocks.rbegin(), state.blocks.rend(),
-                                  [](const Block& b) { return b.kind != Block::Kind::import; });
+  const auto block =
+      std::find_if(state.blocks.rbegin(), state.blocks.rend(), [](const Block& b) { return b.kind != Block::Kind::import; });
   for (const BlockBoundary& b : block->boundaries)
     if (b.inside == inside && b.outside == outside) return b.id;
   const auto id = static_cast<BoundaryId>(state.scene.boundaries.size());

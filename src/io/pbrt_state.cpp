@@ -38,8 +38,7 @@ ParamList read_param_list(State& state, Tokenizer& in, std::string owner, Locati
 }
 
 ParamList read_param_list(State& state, Tokenizer& in, std::string owner, Location where) {
-  return ParamList(std::move(owner), std::move(where), read_params(in, state.graphics.color_space), nullptr,
-                   state.reports);
+  return ParamList(std::move(owner), std::move(where), read_params(in, state.graphics.color_space), nullptr, state.reports);
 }
 
 }  // namespace tyndall::pbrt

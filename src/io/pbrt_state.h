@@ -58,6 +58,7 @@ struct State {
   std::string folder;  ///< of the top file; relative names start here
 
   bool in_world = false;
+  bool world_assumed = false;  ///< WorldBegin was missed and that was said; more of the same need not be
   GraphicsState graphics;
   std::vector<Block> blocks;
   std::optional<ObjectId> open_object;

@@ -23,15 +23,19 @@ TextureId look_up(const Names<TextureId>& table, const Names<TextureId>& other, 
   if (other.contains(name))
     throw Error(p.where, "texture \"" + printable(name) + "\" is a " + other_kind + " texture, and \"" + p.name +
                              "\" takes a " + kind + " texture; declare it as \"" + kind + "\"");
-  throw Error(p.where, std::string(kind) + " texture \"" + printable(name) + "\" is not defined; define it with Texture before line " +
-                           std::to_string(p.where.line) + " (" + suggestion(name, names_of(table)) + ")");
+  throw Error(p.where, std::string(kind) + " texture \"" + printable(name) +
+                           "\" is not defined; define it with Texture before line " + std::to_string(p.where.line) + " (" +
+                           suggestion(name, names_of(table)) + ")");
 }
 
 TextureMapping read_mapping(State& state, ParamList& params) {
   using Kind = TextureMapping::Kind;
   TextureMapping m;
   const std::string kind = params.choice("mapping", "uv", {"uv", "spherical", "cylindrical", "planar"});
-  m.kind = kind == "uv" ? Kind::uv : kind == "spherical" ? Kind::spherical : kind == "cylindrical" ? Kind::cylindrical : Kind::planar;
+  m.kind = kind == "uv"            ? Kind::uv
+           : kind == "spherical"   ? Kind::spherical
+           : kind == "cylindrical" ? Kind::cylindrical
+                                   : Kind::planar;
   m.scale = {params.number("uscale", 1), params.number("vscale", 1)};
   m.offset = {params.number("udelta", 0), params.number("vdelta", 0)};
   m.v1 = params.vector("v1", {1, 0, 0});
@@ -61,11 +65,14 @@ ImageTexture read_image_map(State& state, ParamList& params, Content) {
   t.scale = params.number("scale", 1);
   t.invert = params.boolean("invert", false);
   const std::string wrap = params.choice("wrap", "repeat", {"repeat", "black", "clamp"});
-  t.wrap = wrap == "repeat" ? ImageTexture::Wrap::repeat : wrap == "black" ? ImageTexture::Wrap::black : ImageTexture::Wrap::clamp;
+  t.wrap = wrap == "repeat"  ? ImageTexture::Wrap::repeat
+           : wrap == "black" ? ImageTexture::Wrap::black
+                             : ImageTexture::Wrap::clamp;
   const std::string filter = params.choice("filter", "bilinear", {"point", "bilinear", "trilinear", "ewa", "EWA"});
   t.filter = filter == "point" ? ImageTexture::Filter::point : ImageTexture::Filter::bilinear;
   if (filter != "point" && filter != "bilinear")
-    params.reports().warn(params.where("filter"), "texture filter \"" + filter + "\" is replaced by \"bilinear\": textures have no levels");
+    params.reports().warn(params.where("filter"),
+                          "texture filter \"" + filter + "\" is replaced by \"bilinear\": textures have no levels");
   params.ignore("maxanisotropy", {ParamType::number}, "textures have no levels");
   t.encoding = params.string("encoding", "");
   if (!t.encoding.empty() && t.encoding != "sRGB" && t.encoding != "linear" && !t.encoding.starts_with("gamma "))

@@ -22,8 +22,7 @@ inline constexpr std::initializer_list<ParamType> kColorTextureTypes = {ParamTyp
 
 /// A colour parameter: rgb, spectrum, blackbody, or "texture" (a spectrum texture).
 std::optional<TextureId> find_color_texture(State& state, ParamList& params, std::string_view name, ColorUse use);
-TextureId color_texture(State& state, ParamList& params, std::string_view name, Rgb otherwise,
-                        ColorUse use = ColorUse::albedo);
+TextureId color_texture(State& state, ParamList& params, std::string_view name, Rgb otherwise, ColorUse use = ColorUse::albedo);
 
 /// The directive `Texture "name" "float|spectrum" "kind" ...`.
 void read_texture(State& state, Tokenizer& in, const Location& where);

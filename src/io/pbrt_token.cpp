@@ -13,15 +13,22 @@ bool ends_word(char c) { return is_blank(c) || c == '"' || c == '[' || c == ']' 
 
 char escaped(char c) {
   switch (c) {
-    case 'b': return '\b';
-    case 'f': return '\f';
-    case 'n': return '\n';
-    case 'r': return '\r';
-    case 't': return '\t';
+    case 'b':
+      return '\b';
+    case 'f':
+      return '\f';
+    case 'n':
+      return '\n';
+    case 'r':
+      return '\r';
+    case 't':
+      return '\t';
     case '\\':
     case '\'':
-    case '"': return c;
-    default: return 0;
+    case '"':
+      return c;
+    default:
+      return 0;
   }
 }
 
@@ -41,11 +48,7 @@ std::string shown(const Token& token) {
 }
 
 Tokenizer::Tokenizer(std::string text, std::string name)
-    : text_(std::move(text)),
-      name_(std::move(name)),
-      pos_(text_.data()),
-      end_(text_.data() + text_.size()),
-      line_start_(pos_) {
+    : text_(std::move(text)), name_(std::move(name)), pos_(text_.data()), end_(text_.data() + text_.size()), line_start_(pos_) {
   if (text_.starts_with("\xef\xbb\xbf")) line_start_ = pos_ += 3;
   if (text_.starts_with("\xff\xfe") || text_.starts_with("\xfe\xff"))
     throw Error(Location{name_, 1, 1}, "the file is UTF-16; save it as UTF-8");
@@ -149,7 +152,8 @@ template <typename T>
 T Tokenizer::parse(const Token& token) const {
   if (token.is(Token::Kind::word)) return parse<T>(token.text, token.at);
   const std::string got = token.is(Token::Kind::end) ? "the file ends" : "found " + shown(token);
-  throw error(token.at, std::string("expected ") + (std::is_integral_v<T> ? "an integer" : "a number") + " but " + got + "; give the missing value");
+  throw error(token.at, std::string("expected ") + (std::is_integral_v<T> ? "an integer" : "a number") + " but " + got +
+                            "; give the missing value");
 }
 
 double Tokenizer::number() { return parse<double>(next()); }

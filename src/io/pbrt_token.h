@@ -34,8 +34,8 @@ class Tokenizer {
   Token next();
   Token expect_string(std::string_view what);  ///< Error unless a string follows
 
-  double number();                              ///< one number, as a directive takes it
-  float to_number(const Token& token) const;    ///< Error when the token is none
+  double number();                            ///< one number, as a directive takes it
+  float to_number(const Token& token) const;  ///< Error when the token is none
   std::int32_t to_integer(const Token& token) const;
   /// All numbers up to the next token that is none (a bracket, say), appended. The fast path of big meshes.
   void append_numbers(std::vector<float>& out);

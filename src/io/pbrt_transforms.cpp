@@ -8,7 +8,8 @@
 namespace tyndall::pbrt {
 namespace {
 
-constexpr const char* kNoMotion = "moving transforms are not supported by Tyndall: everything stands as at the start of the shutter";
+constexpr const char* kNoMotion =
+    "moving transforms are not supported by Tyndall: everything stands as at the start of the shutter";
 
 /// Sets the matrix to what `make` gives, with errors located; a transform for the shutter's end alone has no effect.
 template <typename Make>
@@ -18,7 +19,8 @@ void set_transform(State& state, const Location& where, Make make) {
     next = make();
     for (const auto& row : next.matrix())
       for (const double v : row)
-        if (!std::isfinite(v)) throw Error(Failure::scene, "transforms multiply to more than a number can hold; check the scale factors");
+        if (!std::isfinite(v))
+          throw Error(Failure::scene, "transforms multiply to more than a number can hold; check the scale factors");
   } catch (const Error& e) {
     throw Error(where, e.what());
   }
@@ -99,8 +101,10 @@ void read_coord_sys_transform(State& state, Tokenizer& in, const Location&) {
   const Token name = in.expect_string("the name of a coordinate system");
   const auto it = state.coordinate_systems.find(std::string(name.text));
   if (it == state.coordinate_systems.end())
-    throw in.error(name.at, "coordinate system \"" + printable(name.text) + "\" is not defined; define it with CoordinateSystem before line " +
-                                std::to_string(name.at.line) + " (" + suggestion(name.text, names_of(state.coordinate_systems)) + ")");
+    throw in.error(name.at, "coordinate system \"" + printable(name.text) +
+                                "\" is not defined; define it with CoordinateSystem before line " +
+                                std::to_string(name.at.line) + " (" +
+                                suggestion(name.text, names_of(state.coordinate_systems)) + ")");
   if (state.graphics.start_active) state.graphics.ctm = it->second;
 }
 

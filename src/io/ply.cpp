@@ -20,8 +20,10 @@ struct VertexLayout {
 };
 
 VertexLayout layout_of(const PlyElement& e) {
-  VertexLayout layout{{e.index_of("x"), e.index_of("y"), e.index_of("z")}, {e.index_of("nx"), e.index_of("ny"), e.index_of("nz")}};
-  constexpr std::array<std::array<const char*, 2>, 4> kNames{{{"u", "v"}, {"s", "t"}, {"texture_u", "texture_v"}, {"texture_s", "texture_t"}}};
+  VertexLayout layout{{e.index_of("x"), e.index_of("y"), e.index_of("z")},
+                      {e.index_of("nx"), e.index_of("ny"), e.index_of("nz")}};
+  constexpr std::array<std::array<const char*, 2>, 4> kNames{
+      {{"u", "v"}, {"s", "t"}, {"texture_u", "texture_v"}, {"texture_s", "texture_t"}}};
   for (const auto& names : kNames)
     if (!layout.has_uv()) layout.uv = {e.index_of(names[0]), e.index_of(names[1])};
   return layout;
@@ -40,10 +42,14 @@ class BodyReader {
     for (const PlyElement& e : header_.elements) {
       if (e.properties.empty()) continue;
       if (!values_.can_hold(e.count, e))
-        throw error("declares " + std::to_string(e.count) + " elements \"" + e.name + "\", more than the file can hold; it is truncated or damaged");
-      if (e.name == "vertex") read_vertices(e);
-      else if (e.name == "face") read_faces(e);
-      else skip_elements(e);
+        throw error("declares " + std::to_string(e.count) + " elements \"" + e.name +
+                    "\", more than the file can hold; it is truncated or damaged");
+      if (e.name == "vertex")
+        read_vertices(e);
+      else if (e.name == "face")
+        read_faces(e);
+      else
+        skip_elements(e);
     }
     if (mesh_.positions.empty()) throw error("has no vertices");
     if (mesh_.triangles.empty() && mesh_.quads.empty()) throw error("has no faces");
@@ -53,7 +59,8 @@ class BodyReader {
  private:
   Error error(const std::string& what) const { return Error(Failure::scene, path_ + ": " + what); }
   Error truncated(const PlyElement& e, std::size_t i) const {
-    return error("ends or holds no number in " + e.name + " " + std::to_string(i) + " of " + std::to_string(e.count) + "; it is truncated or damaged");
+    return error("ends or holds no number in " + e.name + " " + std::to_string(i) + " of " + std::to_string(e.count) +
+                 "; it is truncated or damaged");
   }
 
   void read_vertices(const PlyElement& e) {
@@ -102,8 +109,10 @@ class BodyReader {
     if (type == PlyType::float32 || type == PlyType::float64) throw error("has indices of a floating-point type");
     for (std::size_t i = 0; i < e.count; ++i)
       for (std::size_t p = 0; p < e.properties.size(); ++p) {
-        if (static_cast<int>(p) == list) read_corners(e, e.properties[p], i);
-        else read_property(e, p, i);
+        if (static_cast<int>(p) == list)
+          read_corners(e, e.properties[p], i);
+        else
+          read_property(e, p, i);
       }
   }
 
@@ -123,8 +132,10 @@ class BodyReader {
       corners[c] = static_cast<std::uint32_t>(index);
     }
     // A patch names its corners by rows, a quadrilateral goes around.
-    if (count == 3) mesh_.triangles.insert(mesh_.triangles.end(), corners.begin(), corners.begin() + 3);
-    else mesh_.quads.insert(mesh_.quads.end(), {corners[0], corners[1], corners[3], corners[2]});
+    if (count == 3)
+      mesh_.triangles.insert(mesh_.triangles.end(), corners.begin(), corners.begin() + 3);
+    else
+      mesh_.quads.insert(mesh_.quads.end(), {corners[0], corners[1], corners[3], corners[2]});
   }
 
   void skip_elements(const PlyElement& e) {

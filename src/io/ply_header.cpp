@@ -28,14 +28,18 @@ class HeaderReader {
   HeaderReader(std::string_view bytes, const std::string& path) : bytes_(bytes), path_(path) {}
 
   PlyHeader read() {
-    if (const Words magic = next_line(); magic.size() != 1 || magic[0] != "ply") throw error("is no ply file; it must begin with \"ply\"");
+    if (const Words magic = next_line(); magic.size() != 1 || magic[0] != "ply")
+      throw error("is no ply file; it must begin with \"ply\"");
     PlyHeader header;
     header.encoding = read_format();
     for (Words words = next_line(); words.empty() || words[0] != "end_header"; words = next_line()) {
       if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
-      if (words[0] == "element") header.elements.push_back(read_element(words));
-      else if (words[0] == "property" && !header.elements.empty()) header.elements.back().properties.push_back(read_property(words));
-      else throw error("header line is not understood; expected element, property or end_header");
+      if (words[0] == "element")
+        header.elements.push_back(read_element(words));
+      else if (words[0] == "property" && !header.elements.empty())
+        header.elements.back().properties.push_back(read_property(words));
+      else
+        throw error("header line is not understood; expected element, property or end_header");
     }
     header.size = used_;
     return header;
@@ -106,11 +110,15 @@ class HeaderReader {
 std::size_t size_of(PlyType type) {
   switch (type) {
     case PlyType::int8:
-    case PlyType::uint8: return 1;
+    case PlyType::uint8:
+      return 1;
     case PlyType::int16:
-    case PlyType::uint16: return 2;
-    case PlyType::float64: return 8;
-    default: return 4;
+    case PlyType::uint16:
+      return 2;
+    case PlyType::float64:
+      return 8;
+    default:
+      return 4;
   }
 }
 

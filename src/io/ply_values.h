@@ -44,14 +44,22 @@ class PlyBinaryValues {
 
   bool value(PlyType type, double& out) {
     switch (type) {
-      case PlyType::int8: return take<std::int8_t>(out);
-      case PlyType::uint8: return take<std::uint8_t>(out);
-      case PlyType::int16: return take<std::int16_t>(out);
-      case PlyType::uint16: return take<std::uint16_t>(out);
-      case PlyType::int32: return take<std::int32_t>(out);
-      case PlyType::uint32: return take<std::uint32_t>(out);
-      case PlyType::float32: return take<float>(out);
-      case PlyType::float64: return take<double>(out);
+      case PlyType::int8:
+        return take<std::int8_t>(out);
+      case PlyType::uint8:
+        return take<std::uint8_t>(out);
+      case PlyType::int16:
+        return take<std::int16_t>(out);
+      case PlyType::uint16:
+        return take<std::uint16_t>(out);
+      case PlyType::int32:
+        return take<std::int32_t>(out);
+      case PlyType::uint32:
+        return take<std::uint32_t>(out);
+      case PlyType::float32:
+        return take<float>(out);
+      case PlyType::float64:
+        return take<double>(out);
     }
     return false;
   }

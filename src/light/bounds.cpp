@@ -4,23 +4,32 @@
 
 namespace tyndall {
 
-LightBounds bounds_union(const LightBounds& a, const LightBounds& b) {
-  if (a.box.empty()) return b;
-  if (b.box.empty()) return a;
-  LightBounds u = a;
-  u.box.expand(b.box);
-  u.theta_e = std::max(a.theta_e, b.theta_e);
-  u.intensity = a.intensity + b.intensity;
-  u.two_sided = a.two_sided || b.two_sided;
+void expand(LightBounds& a, const LightBounds& b) {
+  if (b.box.empty()) return;
+  if (a.box.empty()) {
+    a = b;
+    return;
+  }
+  a.box.expand(b.box);
+  a.theta_e = std::max(a.theta_e, b.theta_e);
+  a.intensity += b.intensity;
+  a.two_sided = a.two_sided || b.two_sided;
+  if (a.normals.full()) return;
   DirectionCone other = b.normals;
-  if (u.two_sided && dot(a.normals.axis, other.axis) < 0) other.axis = -other.axis;
-  u.normals = cone_union(a.normals, other);
-  return u;
+  if (a.two_sided && dot(a.normals.axis, other.axis) < 0) other.axis = -other.axis;
+  a.normals = cone_union(a.normals, other);
+}
+
+LightBounds bounds_union(const LightBounds& a, const LightBounds& b) {
+  LightBounds both = a;
+  expand(both, b);
+  return both;
 }
 
 double orientation_measure(const LightBounds& bounds) {
   constexpr double pi = 3.14159265358979323846;
   if (bounds.normals.empty()) return 0;
+  if (bounds.normals.full()) return 4 * pi;
   const double o = bounds.normals.theta;
   const double w = std::min(o + bounds.theta_e, pi);
   const double sin_o = std::sin(o), cos_o = std::cos(o);

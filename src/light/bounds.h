@@ -21,6 +21,7 @@ inline double strength(Rgb c) { return (std::abs(double(c.r)) + std::abs(double(
 
 /// Bounds of both clusters together. Of a two-sided pair an axis may be turned round if that narrows the cone.
 LightBounds bounds_union(const LightBounds& a, const LightBounds& b);
+void expand(LightBounds& a, const LightBounds& b);  ///< a = bounds_union(a, b)
 
 /// Solid angle of the normals plus the cosine-weighted skirt of their emission, in [0, 4 pi]:
 /// the orientation measure of the surface area orientation heuristic [Conty Estevez and Kulla 2018, eq. 1].

@@ -7,7 +7,10 @@ namespace {
 
 using Kind = Lights::Parts::Kind;
 
-LightSample delta_sample(const DeltaArrival& a) { return {a.wi, a.distance, a.L, 1, true}; }
+std::optional<LightSample> delta_sample(const std::optional<DeltaArrival>& a) {
+  if (!a || is_black(a->L)) return std::nullopt;
+  return LightSample{a->wi, a->distance, a->L, 1, true};
+}
 
 }  // namespace
 
@@ -49,16 +52,12 @@ float Lights::pmf(const PointQuery& query, LightId light) const {
 std::optional<LightSample> Lights::sample(LightId light, Vec3 p, Vec2 u, bool mis_partner) const {
   const Parts::Reference r = parts_->lights[light];
   switch (r.kind) {
-    case Kind::point:
-      if (const auto a = parts_->points[r.index].arrival(p)) return delta_sample(*a);
-      return std::nullopt;
-    case Kind::spot:
-      if (const auto a = parts_->spots[r.index].arrival(p)) return delta_sample(*a);
-      return std::nullopt;
+    case Kind::point: return delta_sample(parts_->points[r.index].arrival(p));
+    case Kind::spot: return delta_sample(parts_->spots[r.index].arrival(p));
     case Kind::distant: return delta_sample(parts_->distants[r.index].arrival());
     case Kind::environment: {
       const auto s = parts_->environments[r.index].sample(u, mis_partner);
-      if (!s) return std::nullopt;
+      if (!s || is_black(s->L)) return std::nullopt;
       return LightSample{s->wi, kInfinity, s->L, s->pdf, false};
     }
     case Kind::emitter: {

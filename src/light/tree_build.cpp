@@ -50,16 +50,22 @@ std::array<Buckets, 3> make_buckets(Range lights) {
 
 /// The cheapest cut between the buckets of one axis, by unions from both ends.
 Split best_cut(const Buckets& buckets, const std::array<LightBounds, kBuckets>& content) {
+  // An empty bucket changes no union, and to cut on either side of it is the same.
   std::array<double, kBuckets> before{};
   LightBounds prefix;
-  for (int i = 0; i < kBuckets; ++i) {
-    prefix = bounds_union(prefix, content[i]);
+  for (int i = 0; i < kBuckets - 1; ++i) {
+    if (content[i].box.empty()) {
+      before[i] = i > 0 ? before[i - 1] : 0;
+      continue;
+    }
+    expand(prefix, content[i]);
     before[i] = measure(prefix);
   }
   Split best{buckets, 0, kInfinity};
   LightBounds suffix;
   for (int i = kBuckets - 1; i > 0; --i) {
-    suffix = bounds_union(suffix, content[i]);
+    if (content[i].box.empty()) continue;
+    expand(suffix, content[i]);
     const double cost = before[i - 1] + measure(suffix);
     if (cost < best.cost) best = {buckets, i - 1, cost};
   }
@@ -75,8 +81,7 @@ std::optional<Split> find_split(Range lights) {
     box.expand(light.bounds.box);
     for (int axis = 0; axis < 3; ++axis) {
       if (buckets[axis].flat()) continue;
-      LightBounds& bucket = content[axis][buckets[axis].of(light)];
-      bucket = bounds_union(bucket, light.bounds);
+      expand(content[axis][buckets[axis].of(light)], light.bounds);
     }
   }
 

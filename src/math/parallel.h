@@ -3,7 +3,10 @@
 
 #include <cstddef>
 
+#include <optional>
+
 #include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
 #include <tbb/task_arena.h>
@@ -13,7 +16,10 @@ namespace tyndall {
 /// A pool of `threads` threads (<= 0: one a core) that runs work given to it.
 class ThreadPool {
  public:
-  explicit ThreadPool(int threads) : arena_(threads > 0 ? threads : tbb::task_arena::automatic) {}
+  explicit ThreadPool(int threads) : arena_(threads > 0 ? threads : tbb::task_arena::automatic) {
+    // More threads than cores must be allowed, or those asked for beyond the cores never come.
+    if (threads > 0) limit_.emplace(tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(threads));
+  }
 
   int size() const { return arena_.max_concurrency(); }
 
@@ -28,6 +34,7 @@ class ThreadPool {
   }
 
  private:
+  std::optional<tbb::global_control> limit_;
   tbb::task_arena arena_;
 };
 

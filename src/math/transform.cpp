@@ -141,9 +141,10 @@ Transform Transform::translate(double x, double y, double z) {
 Transform Transform::scale(double x, double y, double z) {
   Matrix m = kIdentity, inverse = kIdentity;
   m[0][0] = x, m[1][1] = y, m[2][2] = z;
+  for (const double factor : {x, y, z})
+    if (factor == 0 || !std::isfinite(factor) || !std::isfinite(1 / factor))
+      throw bad_transform("transform is singular; every scale factor must be finite and not 0");
   inverse[0][0] = 1 / x, inverse[1][1] = 1 / y, inverse[2][2] = 1 / z;
-  if (!all_finite(m) || !all_finite(inverse))
-    throw bad_transform("transform is singular; every scale factor must be finite and not 0");
   return Transform(m, inverse);
 }
 
@@ -201,9 +202,7 @@ Bounds3 Transform::bounds(const Bounds3& b) const {
 
 Transform Transform::inverse() const { return Transform(inverse_, m_); }
 
-Transform Transform::operator*(const Transform& b) const {
-  return Transform(product(m_, b.m_), product(b.inverse_, inverse_));
-}
+Transform Transform::operator*(const Transform& b) const { return Transform(product(m_, b.m_), product(b.inverse_, inverse_)); }
 
 bool Transform::swaps_handedness() const { return determinant3(m_) < 0; }
 

@@ -1,5 +1,8 @@
-#include <map>
 #include <xmmintrin.h>
+
+#include <map>
+#include <string>
+#include <thread>
 
 #include "surface/geometry_impl.h"
 #include "texture/textures.h"
@@ -94,7 +97,10 @@ GeometryImpl::GeometryImpl(const Scene& scene, const Textures* textures, int thr
 }
 
 void GeometryImpl::create_device(int threads) {
-  const std::string count = threads > 0 ? "threads=" + std::to_string(threads) + "," : "";
+  // The library's limit holds for all of TBB as long as the device lives: as many threads as cores or more must stay
+  // the default, or a render could not use them.
+  const bool fewer = threads > 0 && static_cast<unsigned>(threads) < std::thread::hardware_concurrency();
+  const std::string count = fewer ? "threads=" + std::to_string(threads) + "," : "";
   device.reset(rtcNewDevice((count + "set_affinity=0").c_str()));
   if (!device) {
     throw Error(Failure::run_time, std::string("the ray tracing library cannot start: ") + describe(rtcGetDeviceError(nullptr)));

@@ -32,13 +32,15 @@ TEST_CASE("AttributeEnd restores the whole graphics state") {
 }
 
 TEST_CASE("ReverseOrientation toggles") {
-  const Scene scene = test::read_world("ReverseOrientation ReverseOrientation Shape \"sphere\" ReverseOrientation Shape \"sphere\"");
+  const Scene scene =
+      test::read_world("ReverseOrientation ReverseOrientation Shape \"sphere\" ReverseOrientation Shape \"sphere\"");
   CHECK_FALSE(scene.shapes.at(0).reverse_orientation);
   CHECK(scene.shapes.at(1).reverse_orientation);
 }
 
 TEST_CASE("TransformBegin acts as AttributeBegin, with one warning") {
-  const SceneFile file = test::read_world_file("TransformBegin Translate 1 0 0 TransformEnd TransformBegin TransformEnd Shape \"sphere\"");
+  const SceneFile file =
+      test::read_world_file("TransformBegin Translate 1 0 0 TransformEnd TransformBegin TransformEnd Shape \"sphere\"");
   CHECK(file.scene.shapes.at(0).to_world.is_identity());
   CHECK(file.warnings.size() == 1);
 }
@@ -118,7 +120,8 @@ TEST_CASE("directives keep to their side of WorldBegin") {
   CHECK_CONTAINS(world_error("Camera \"perspective\""), "Camera stands after WorldBegin");
   CHECK_CONTAINS(world_error("WorldBegin"), "WorldBegin stands after WorldBegin");
   CHECK_CONTAINS(test::error_of("Shape \"sphere\" WorldBegin"), "Shape stands before WorldBegin");
-  CHECK(test::error_of("Translate 1 0 0") == "test.pbrt:1:16: the file ends without WorldBegin; add it after the camera and the film");
+  CHECK(test::error_of("Translate 1 0 0") ==
+        "test.pbrt:1:16: the file ends without WorldBegin; add it after the camera and the film");
   CHECK_CONTAINS(world_error("WorldEnd"), "not part of pbrt-v4");
   CHECK(world_error("Shap \"sphere\"") == "test.pbrt:1:12: unknown directive \"Shap\"; did you mean \"Shape\"?");
   CHECK_CONTAINS(world_error("\"sphere\""), "expected a directive");

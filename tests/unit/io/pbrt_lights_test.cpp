@@ -23,7 +23,8 @@ void check_near(Rgb a, Rgb b) {
 }  // namespace
 
 TEST_CASE("point") {
-  const auto p = light<PointLight>("Scale 2 2 2 LightSource \"point\" \"point3 from\" [1 2 3] \"rgb I\" [6 5 4] \"float scale\" .5");
+  const auto p =
+      light<PointLight>("Scale 2 2 2 LightSource \"point\" \"point3 from\" [1 2 3] \"rgb I\" [6 5 4] \"float scale\" .5");
   CHECK(p.position == Vec3{2, 4, 6});
   check_near(p.I, {3, 2.5f, 2});
   check_near(light<PointLight>("LightSource \"point\"").I, Rgb(1.0f));
@@ -35,12 +36,16 @@ TEST_CASE("spectra of lights are scaled to luminance 1") {
   const Rgb warm = light<PointLight>("LightSource \"point\" \"blackbody I\" 3000 \"float scale\" 5").I;
   CHECK(luminance(warm) == doctest::Approx(5).epsilon(1e-3));
   CHECK(warm.r > warm.b);
-  CHECK(luminance(light<PointLight>("LightSource \"point\" \"spectrum I\" [300 7 900 7]").I) == doctest::Approx(1).epsilon(1e-3));
-  check_near(light<PointLight>("LightSource \"point\" \"spectrum I\" \"stdillum-D65\"").I, illuminant_rgb(*named_spectrum("stdillum-D65")));
+  CHECK(luminance(light<PointLight>("LightSource \"point\" \"spectrum I\" [300 7 900 7]").I) ==
+        doctest::Approx(1).epsilon(1e-3));
+  check_near(light<PointLight>("LightSource \"point\" \"spectrum I\" \"stdillum-D65\"").I,
+             illuminant_rgb(*named_spectrum("stdillum-D65")));
 }
 
 TEST_CASE("spot") {
-  const auto s = light<SpotLight>("LightSource \"spot\" \"point3 from\" [1 0 0] \"point3 to\" [1 5 0] \"rgb I\" [1 2 3] \"float coneangle\" 40 \"float conedeltaangle\" 10");
+  const auto s = light<SpotLight>(
+      "LightSource \"spot\" \"point3 from\" [1 0 0] \"point3 to\" [1 5 0] \"rgb I\" [1 2 3] \"float coneangle\" 40 \"float "
+      "conedeltaangle\" 10");
   CHECK(s.to_world.point({0, 0, 0}) == Vec3{1, 0, 0});
   const Vec3 axis = s.to_world.vector({0, 0, 1});
   CHECK(axis.y == doctest::Approx(1));
@@ -55,7 +60,8 @@ TEST_CASE("spot") {
 }
 
 TEST_CASE("distant") {
-  const auto d = light<DistantLight>("LightSource \"distant\" \"point3 from\" [0 2 0] \"point3 to\" [0 0 0] \"rgb L\" [2 2 2] \"float scale\" 3");
+  const auto d = light<DistantLight>(
+      "LightSource \"distant\" \"point3 from\" [0 2 0] \"point3 to\" [0 0 0] \"rgb L\" [2 2 2] \"float scale\" 3");
   CHECK(d.direction == Vec3{0, -1, 0});
   check_near(d.E, Rgb(6.0f));
   CHECK(light<DistantLight>("LightSource \"distant\"").direction == Vec3{0, 0, 1});
@@ -69,14 +75,18 @@ TEST_CASE("infinite") {
   check_near(light<InfiniteLight>("LightSource \"infinite\" \"float illuminance\" 10").L, Rgb(10 / kPi));
   const test::TempFolder folder;
   folder.write("sky.exr", "not read here");
-  const Scene s = read_scene_text("WorldBegin Rotate 90 0 1 0 LightSource \"infinite\" \"string filename\" \"sky.exr\" \"float scale\" 3 \"float illuminance\" 9",
-                                  "test.pbrt", folder.path()).scene;
+  const Scene s = read_scene_text(
+                      "WorldBegin Rotate 90 0 1 0 LightSource \"infinite\" \"string filename\" \"sky.exr\" \"float scale\" 3 "
+                      "\"float illuminance\" 9",
+                      "test.pbrt", folder.path())
+                      .scene;
   const auto map = std::get<InfiniteLight>(s.lights.at(0).kind);
   CHECK(map.path == folder.path() + "/sky.exr");
   CHECK(map.L == Rgb(3.0f));
   CHECK(*map.illuminance == 9);
   CHECK_FALSE(map.to_world.is_identity());
-  CHECK_CONTAINS(world_error("LightSource \"infinite\" \"point3 portal\" [0 0 0 1 0 0 1 1 0 0 1 0]"), "portals are not supported");
+  CHECK_CONTAINS(world_error("LightSource \"infinite\" \"point3 portal\" [0 0 0 1 0 0 1 1 0 0 1 0]"),
+                 "portals are not supported");
   CHECK_CONTAINS(world_error("LightSource \"infinite\" \"string filename\" \"absent.exr\""), "does not exist");
 }
 
@@ -99,10 +109,13 @@ TEST_CASE("an interface does not emit, and that is said") {
 
 TEST_CASE("colours are read in the colour space in force") {
   const ColorSpace& aces = *find_color_space("aces2065-1");
-  check_near(light<PointLight>("ColorSpace \"aces2065-1\" LightSource \"point\" \"rgb I\" [1 2 3]").I, mul(aces.to_rec709, {1, 2, 3}));
+  check_near(light<PointLight>("ColorSpace \"aces2065-1\" LightSource \"point\" \"rgb I\" [1 2 3]").I,
+             mul(aces.to_rec709, {1, 2, 3}));
   check_near(light<PointLight>("ColorSpace \"aces2065-1\" LightSource \"point\"").I, mul(aces.to_rec709, Rgb(1.0f)));
   // The Attribute's parameters keep the space of their own place.
-  check_near(light<PointLight>("ColorSpace \"aces2065-1\" Attribute \"light\" \"rgb I\" [1 2 3] ColorSpace \"srgb\" LightSource \"point\"").I,
+  check_near(light<PointLight>(
+                 "ColorSpace \"aces2065-1\" Attribute \"light\" \"rgb I\" [1 2 3] ColorSpace \"srgb\" LightSource \"point\"")
+                 .I,
              mul(aces.to_rec709, {1, 2, 3}));
   const Scene s = read_world("ColorSpace \"aces2065-1\" Material \"diffuse\" \"rgb reflectance\" [.5 .5 .5]");
   check_near(test::constant(s, std::get<DiffuseMaterial>(s.materials[0].kind).reflectance), Rgb(.5f));
@@ -121,6 +134,9 @@ TEST_CASE("light errors") {
 TEST_CASE("spectra come from files too") {
   const test::TempFolder folder;
   folder.write("flat.spd", "# wavelength value\n300 2\n900 2\n");
-  const Scene s = read_scene_text("WorldBegin MakeNamedMedium \"m\" \"string type\" \"homogeneous\" \"spectrum sigma_s\" \"flat.spd\"", "test.pbrt", folder.path()).scene;
+  const Scene s =
+      read_scene_text("WorldBegin MakeNamedMedium \"m\" \"string type\" \"homogeneous\" \"spectrum sigma_s\" \"flat.spd\"",
+                      "test.pbrt", folder.path())
+          .scene;
   check_near(s.media.at(0).optics.sigma_s, Rgb(2.0f));
 }

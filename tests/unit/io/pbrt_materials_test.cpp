@@ -15,8 +15,9 @@ Kind last(const Scene& scene) {
 }  // namespace
 
 TEST_CASE("diffuse, its default and its sharing") {
-  const Scene s = read_world("Material \"diffuse\" Shape \"sphere\" Material \"diffuse\" \"rgb reflectance\" [.1 .2 .3] Shape \"sphere\""
-                             "Material \"diffuse\" \"rgb reflectance\" [.1 .2 .3] Shape \"sphere\"");
+  const Scene s = read_world(
+      "Material \"diffuse\" Shape \"sphere\" Material \"diffuse\" \"rgb reflectance\" [.1 .2 .3] Shape \"sphere\""
+      "Material \"diffuse\" \"rgb reflectance\" [.1 .2 .3] Shape \"sphere\"");
   CHECK(s.materials.size() == 2);
   CHECK(s.shapes.at(0).material == 0);
   CHECK(s.shapes.at(1).material == s.shapes.at(2).material);
@@ -25,7 +26,9 @@ TEST_CASE("diffuse, its default and its sharing") {
 }
 
 TEST_CASE("conductor by reflectance, by index and by default") {
-  Scene s = read_world("Material \"conductor\" \"rgb reflectance\" [.8 .7 .6] \"float roughness\" .1 \"float vroughness\" .2 \"bool remaproughness\" false");
+  Scene s = read_world(
+      "Material \"conductor\" \"rgb reflectance\" [.8 .7 .6] \"float roughness\" .1 \"float vroughness\" .2 \"bool "
+      "remaproughness\" false");
   auto m = last<ConductorMaterial>(s);
   CHECK(constant(s, *m.optics.reflectance) == Rgb(.8f, .7f, .6f));
   CHECK(constant(s, m.roughness.u) == Rgb(.1f));
@@ -70,7 +73,8 @@ TEST_CASE("coated materials have pbrt's defaults and names") {
   CHECK(constant(s, d.coating.albedo) == Rgb(0.0f));
   CHECK(d.coating.max_depth == 10);
   CHECK(d.coating.samples == 1);
-  s = read_world(R"(Material "coatedconductor" "float interface.roughness" .1 "float conductor.uroughness" .2 "float interface.eta" 1.4
+  s = read_world(
+      R"(Material "coatedconductor" "float interface.roughness" .1 "float conductor.uroughness" .2 "float interface.eta" 1.4
     "rgb reflectance" [.9 .9 .9] "float thickness" .5 "float g" .3 "rgb albedo" [.4 .4 .4] "integer maxdepth" 7 "integer nsamples" 2)");
   const auto c = last<CoatedConductorMaterial>(s);
   CHECK(constant(s, c.coating.roughness.v) == Rgb(.1f));
@@ -106,10 +110,14 @@ TEST_CASE("named materials and their mix") {
 }
 
 TEST_CASE("material errors") {
-  CHECK_CONTAINS(world_error("NamedMaterial \"a\""), "test.pbrt:1:26: material \"a\" is not defined; define it with MakeNamedMaterial before line 1");
-  CHECK_CONTAINS(world_error("MakeNamedMaterial \"gold\" \"string type\" \"diffuse\" NamedMaterial \"golt\""), "did you mean \"gold\"?");
+  CHECK_CONTAINS(world_error("NamedMaterial \"a\""),
+                 "test.pbrt:1:26: material \"a\" is not defined; define it with MakeNamedMaterial before line 1");
+  CHECK_CONTAINS(world_error("MakeNamedMaterial \"gold\" \"string type\" \"diffuse\" NamedMaterial \"golt\""),
+                 "did you mean \"gold\"?");
   CHECK_CONTAINS(world_error("MakeNamedMaterial \"a\""), "has no type");
-  CHECK_CONTAINS(world_error("MakeNamedMaterial \"a\" \"string type\" \"diffuse\" MakeNamedMaterial \"a\" \"string type\" \"diffuse\""), "defined twice");
+  CHECK_CONTAINS(
+      world_error("MakeNamedMaterial \"a\" \"string type\" \"diffuse\" MakeNamedMaterial \"a\" \"string type\" \"diffuse\""),
+      "defined twice");
   CHECK_CONTAINS(world_error("Material \"mix\" \"string materials\" [\"a\"]"), "takes two names");
   CHECK_CONTAINS(world_error("Material \"mix\" \"string materials\" [\"a\" \"b\"]"), "material \"a\" is not defined");
   CHECK_CONTAINS(world_error("Material \"hair\""), "not supported by Tyndall");
@@ -120,7 +128,8 @@ TEST_CASE("material errors") {
 }
 
 TEST_CASE("displacement and normal maps are ignored with one warning") {
-  const SceneFile file = test::read_world_file("Material \"diffuse\" \"string normalmap\" \"a.png\" Material \"diffuse\" \"string normalmap\" \"b.png\"");
+  const SceneFile file = test::read_world_file(
+      "Material \"diffuse\" \"string normalmap\" \"a.png\" Material \"diffuse\" \"string normalmap\" \"b.png\"");
   REQUIRE(file.warnings.size() == 1);
   CHECK_CONTAINS(file.warnings[0].message, "\"normalmap\" of material \"diffuse\" is ignored");
 }

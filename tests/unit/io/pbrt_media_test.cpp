@@ -23,20 +23,26 @@ TEST_CASE("homogeneous: defaults, scale and emission") {
   CHECK(m.optics.sigma_s == Rgb(1.0f));
   CHECK(m.optics.g == 0);
   CHECK(m.name == "m");
-  m = medium(R"("string type" "homogeneous" "rgb sigma_a" [1 2 3] "spectrum sigma_s" [200 2 900 2] "float scale" 10 "float g" -.5
+  m = medium(
+      R"("string type" "homogeneous" "rgb sigma_a" [1 2 3] "spectrum sigma_s" [200 2 900 2] "float scale" 10 "float g" -.5
     "rgb Le" [1 2 3] "float Lescale" 2)");
   CHECK(m.optics.sigma_a == Rgb(10, 20, 30));
   check_near(m.optics.sigma_s, Rgb(20.0f));
   CHECK(m.optics.g == -.5f);
   check_near(std::get<HomogeneousMedium>(m.kind).Le, {2, 4, 6});
   // A spectrum of emission is scaled to luminance 1, whatever its values.
-  CHECK(luminance(std::get<HomogeneousMedium>(medium("\"string type\" \"homogeneous\" \"spectrum Le\" [300 5 900 5]").kind).Le) == doctest::Approx(1).epsilon(1e-3));
+  CHECK(
+      luminance(std::get<HomogeneousMedium>(medium("\"string type\" \"homogeneous\" \"spectrum Le\" [300 5 900 5]").kind).Le) ==
+      doctest::Approx(1).epsilon(1e-3));
 }
 
 TEST_CASE("presets") {
-  CHECK(medium("\"string type\" \"homogeneous\" \"string preset\" \"Wholemilk\" \"float scale\" 2").optics.sigma_s == Rgb(5.1f, 6.42f, 7.54f));
-  CHECK_CONTAINS(medium_error("\"string type\" \"homogeneous\" \"string preset\" \"wholemilk\""), "did you mean \"Wholemilk\"?");
-  CHECK_CONTAINS(medium_error("\"string type\" \"homogeneous\" \"string preset\" \"Cream\" \"rgb sigma_a\" [1 1 1]"), "not both");
+  CHECK(medium("\"string type\" \"homogeneous\" \"string preset\" \"Wholemilk\" \"float scale\" 2").optics.sigma_s ==
+        Rgb(5.1f, 6.42f, 7.54f));
+  CHECK_CONTAINS(medium_error("\"string type\" \"homogeneous\" \"string preset\" \"wholemilk\""),
+                 "did you mean \"Wholemilk\"?");
+  CHECK_CONTAINS(medium_error("\"string type\" \"homogeneous\" \"string preset\" \"Cream\" \"rgb sigma_a\" [1 1 1]"),
+                 "not both");
 }
 
 TEST_CASE("uniformgrid") {
@@ -51,16 +57,23 @@ TEST_CASE("uniformgrid") {
   CHECK(g.temperature == std::vector<float>{500, 1500});
   CHECK(g.Le_scale == std::vector<float>{1, 3});
   CHECK_CONTAINS(medium_error("\"string type\" \"uniformgrid\""), "has no density");
-  CHECK_CONTAINS(medium_error("\"string type\" \"uniformgrid\" \"integer nx\" 3 \"float density\" [1 2]"), "\"density\" has 2 values; nx*ny*nz is 3*1*1");
-  CHECK_CONTAINS(medium_error("\"string type\" \"uniformgrid\" \"integer nx\" 2 \"float density\" [1 -2]"), "negative at index 1");
-  CHECK_CONTAINS(medium_error("\"string type\" \"uniformgrid\" \"integer nx\" 2000000000 \"integer ny\" 2000000000 \"integer nz\" 2000000000 \"float density\" [1]"), "nx*ny*nz");
+  CHECK_CONTAINS(medium_error("\"string type\" \"uniformgrid\" \"integer nx\" 3 \"float density\" [1 2]"),
+                 "\"density\" has 2 values; nx*ny*nz is 3*1*1");
+  CHECK_CONTAINS(medium_error("\"string type\" \"uniformgrid\" \"integer nx\" 2 \"float density\" [1 -2]"),
+                 "negative at index 1");
+  CHECK_CONTAINS(medium_error("\"string type\" \"uniformgrid\" \"integer nx\" 2000000000 \"integer ny\" 2000000000 \"integer "
+                              "nz\" 2000000000 \"float density\" [1]"),
+                 "nx*ny*nz");
   CHECK_CONTAINS(medium_error("\"string type\" \"uniformgrid\" \"integer nx\" 0 \"float density\" [1]"), "at least 1");
-  CHECK_CONTAINS(medium_error("\"string type\" \"uniformgrid\" \"float density\" 1 \"point3 p1\" [0 1 1]"), "box from p0 to p1 is empty");
-  CHECK_CONTAINS(medium_error("\"string type\" \"uniformgrid\" \"float density\" 1 \"float temperature\" 1 \"rgb Le\" [1 1 1]"), "not both");
+  CHECK_CONTAINS(medium_error("\"string type\" \"uniformgrid\" \"float density\" 1 \"point3 p1\" [0 1 1]"),
+                 "box from p0 to p1 is empty");
+  CHECK_CONTAINS(medium_error("\"string type\" \"uniformgrid\" \"float density\" 1 \"float temperature\" 1 \"rgb Le\" [1 1 1]"),
+                 "not both");
 }
 
 TEST_CASE("rgbgrid: emission is not normalised, as in pbrt") {
-  const Medium m = medium(R"("string type" "rgbgrid" "integer nx" 2 "rgb sigma_a" [1 2 3 4 5 6] "rgb Le" [1 1 1 0 0 0] "float Lescale" 2
+  const Medium m =
+      medium(R"("string type" "rgbgrid" "integer nx" 2 "rgb sigma_a" [1 2 3 4 5 6] "rgb Le" [1 1 1 0 0 0] "float Lescale" 2
     "float scale" 3 "float g" .1)");
   const auto& g = std::get<RgbGridMedium>(m.kind);
   CHECK(g.sigma_a == std::vector<Rgb>{{1, 2, 3}, {4, 5, 6}});
@@ -74,7 +87,8 @@ TEST_CASE("rgbgrid: emission is not normalised, as in pbrt") {
 }
 
 TEST_CASE("cloud") {
-  const auto c = std::get<CloudMedium>(medium("\"string type\" \"cloud\" \"float density\" 4 \"float wispiness\" 2 \"float frequency\" 3").kind);
+  const auto c = std::get<CloudMedium>(
+      medium("\"string type\" \"cloud\" \"float density\" 4 \"float wispiness\" 2 \"float frequency\" 3").kind);
   CHECK(c.density == 4);
   CHECK(c.wispiness == 2);
   CHECK(c.frequency == 3);
@@ -83,7 +97,8 @@ TEST_CASE("cloud") {
 TEST_CASE("nanovdb, also spelled openvdb") {
   const test::TempFolder folder;
   folder.write("smoke.vdb", "not read here");
-  const std::string text = R"(WorldBegin Translate 1 2 3 MakeNamedMedium "m" "string type" "openvdb" "string filename" "smoke.vdb" "string gridname" "soot"
+  const std::string text =
+      R"(WorldBegin Translate 1 2 3 MakeNamedMedium "m" "string type" "openvdb" "string filename" "smoke.vdb" "string gridname" "soot"
     "string flamename" "flames" "float temperatureoffset" 1 "float temperaturescale" 2 "float Lescale" 3 "rgb Le" [1 .5 .25] "float scale" 4)";
   const Medium m = read_scene_text(text, "test.pbrt", folder.path()).scene.media.at(0);
   const auto& v = std::get<VdbMedium>(m.kind);
@@ -99,16 +114,20 @@ TEST_CASE("nanovdb, also spelled openvdb") {
   CHECK(v.Le == Rgb(1, .5f, .25f));
   CHECK(m.optics.sigma_a == Rgb(4.0f));
   CHECK(m.to_world.point({0, 0, 0}) == Vec3{1, 2, 3});
-  CHECK_CONTAINS(medium_error("\"string type\" \"nanovdb\" \"string filename\" \"absent.nvdb\""), "file \"absent.nvdb\" does not exist");
+  CHECK_CONTAINS(medium_error("\"string type\" \"nanovdb\" \"string filename\" \"absent.nvdb\""),
+                 "file \"absent.nvdb\" does not exist");
 }
 
 TEST_CASE("medium errors") {
   CHECK_CONTAINS(medium_error("\"rgb sigma_a\" [1 1 1]"), "medium has no type");
-  CHECK_CONTAINS(medium_error("\"string type\" \"heterogeneous\""), "medium type \"heterogeneous\" is unknown; did you mean \"homogeneous\"?");
+  CHECK_CONTAINS(medium_error("\"string type\" \"heterogeneous\""),
+                 "medium type \"heterogeneous\" is unknown; did you mean \"homogeneous\"?");
   CHECK_CONTAINS(medium_error("\"string type\" \"homogeneous\" \"float g\" 1"), "between -1 and 1");
   CHECK_CONTAINS(medium_error("\"string type\" \"homogeneous\" \"float scale\" -1"), "must not be negative");
-  CHECK_CONTAINS(medium_error("\"string type\" \"homogeneous\" \"float density\" 1"), "medium \"m\" has no parameter \"density\"");
-  CHECK_CONTAINS(medium_error("\"string type\" \"homogeneous\" MakeNamedMedium \"m\" \"string type\" \"cloud\""), "defined twice");
+  CHECK_CONTAINS(medium_error("\"string type\" \"homogeneous\" \"float density\" 1"),
+                 "medium \"m\" has no parameter \"density\"");
+  CHECK_CONTAINS(medium_error("\"string type\" \"homogeneous\" MakeNamedMedium \"m\" \"string type\" \"cloud\""),
+                 "defined twice");
   CHECK(test::error_of("WorldBegin\n\nMediumInterface \"smoke\" \"\"")
             .starts_with("test.pbrt:3:17: medium \"smoke\" is not defined; define it with MakeNamedMedium before line 3"));
 }

@@ -15,11 +15,13 @@ TEST_CASE("values stand alone or in brackets") {
 TEST_CASE("errors name the place, the fault and the way out") {
   CHECK(test::error_of("WorldBegin\nShape \"sphere\"\n  \"float radus\" 2") ==
         "test.pbrt:3:3: shape \"sphere\" has no parameter \"radus\"; did you mean \"radius\"?");
-  CHECK_CONTAINS(world_error("Shape \"sphere\" \"string radius\" \"2\""), "test.pbrt:1:27: parameter \"radius\" of shape \"sphere\" is a float, not a string");
+  CHECK_CONTAINS(world_error("Shape \"sphere\" \"string radius\" \"2\""),
+                 "test.pbrt:1:27: parameter \"radius\" of shape \"sphere\" is a float, not a string");
   CHECK_CONTAINS(world_error("Shape \"sphere\" \"float radius\" [1 2]"), "has more than one value");
   CHECK_CONTAINS(world_error("Shape \"sphere\" \"float radius\" []"), "has no value");
   CHECK_CONTAINS(world_error("Shape \"sphere\" \"float radius\" 1 \"float radius\" 2"), "is given twice");
-  CHECK_CONTAINS(world_error("Shape \"sphere\" \"floot radius\" 1"), "\"floot\" is not a parameter type; did you mean \"float\"?");
+  CHECK_CONTAINS(world_error("Shape \"sphere\" \"floot radius\" 1"),
+                 "\"floot\" is not a parameter type; did you mean \"float\"?");
   CHECK_CONTAINS(world_error("Shape \"sphere\" \"color alpha\" [1 1 1]"), "use \"rgb\"");
   CHECK_CONTAINS(world_error("Shape \"sphere\" \"radius\" 1"), "write \"type name\"");
   CHECK_CONTAINS(world_error("Shape \"sphere\" \"float radius big\" 1"), "write \"type name\"");

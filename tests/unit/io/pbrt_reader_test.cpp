@@ -21,7 +21,9 @@ TEST_CASE("Include reads on in place; names start at the folder of the top file"
 
 TEST_CASE("Import keeps its graphics state to itself and its names for all") {
   const test::TempFolder folder;
-  folder.write("a.pbrt", "Translate 1 0 0\nMakeNamedMaterial \"m\" \"string type\" \"dielectric\"\nNamedMaterial \"m\"\nShape \"sphere\"\n");
+  folder.write(
+      "a.pbrt",
+      "Translate 1 0 0\nMakeNamedMaterial \"m\" \"string type\" \"dielectric\"\nNamedMaterial \"m\"\nShape \"sphere\"\n");
   const std::string text = "WorldBegin\nImport \"a.pbrt\"\nShape \"sphere\"\nNamedMaterial \"m\"\nShape \"sphere\"\n";
   const Scene s = read_scene_text(text, "test.pbrt", folder.path()).scene;
   REQUIRE(s.shapes.size() == 3);
@@ -33,8 +35,9 @@ TEST_CASE("Import keeps its graphics state to itself and its names for all") {
   CHECK_CONTAINS(test::message_of([&] { read_scene_text("WorldBegin Import \"open.pbrt\"", "test.pbrt", folder.path()); }),
                  "open.pbrt:1:1: AttributeBegin is not closed");
   folder.write("end.pbrt", "AttributeEnd\n");
-  CHECK_CONTAINS(test::message_of([&] { read_scene_text("WorldBegin AttributeBegin Import \"end.pbrt\"", "test.pbrt", folder.path()); }),
-                 "AttributeEnd closes nothing");
+  CHECK_CONTAINS(
+      test::message_of([&] { read_scene_text("WorldBegin AttributeBegin Import \"end.pbrt\"", "test.pbrt", folder.path()); }),
+      "AttributeEnd closes nothing");
   CHECK_CONTAINS(test::error_of("Import \"a.pbrt\""), "Import stands before WorldBegin");
 }
 
@@ -42,10 +45,12 @@ TEST_CASE("circles of Include end in an error") {
   const test::TempFolder folder;
   folder.write("a.pbrt", "Include \"b.pbrt\"");
   folder.write("b.pbrt", "Include \"a.pbrt\"");
-  CHECK_CONTAINS(test::message_of([&] { read_scene(folder.path() + "/a.pbrt"); }), "includes itself or is nested deeper than 64");
+  CHECK_CONTAINS(test::message_of([&] { read_scene(folder.path() + "/a.pbrt"); }),
+                 "includes itself or is nested deeper than 64");
   CHECK(check_scene(folder.path() + "/a.pbrt").errors.size() == 2);  // and no WorldBegin
   for (int i = 0; i < 100; ++i) folder.write("n" + std::to_string(i), "Include \"n" + std::to_string(i + 1) + "\"");
-  CHECK_CONTAINS(test::message_of([&] { read_scene(folder.path() + "/n0"); }), "/n64:1:9: file \"n65\" includes itself or is nested");
+  CHECK_CONTAINS(test::message_of([&] { read_scene(folder.path() + "/n0"); }),
+                 "/n64:1:9: file \"n65\" includes itself or is nested");
 }
 
 TEST_CASE("warnings are given once, with the first place") {
@@ -56,8 +61,9 @@ TEST_CASE("warnings are given once, with the first place") {
 
 TEST_CASE("check lists every problem and none that follows from another") {
   const SceneCheck check = check_scene(std::string(TYNDALL_SOURCE_DIR) + "/tests/scenes/bad/several.pbrt");
-  const char* expected[] = {":2:22: fov must lie between 0 and 180", ":3:34: expected an integer", ":5:25: medium type \"vapour\"", ":8:3: unknown directive \"Shpe\"",
-                            ":9:18: radius must be above 0", ":12:21: parameter \"I\" has a negative component"};
+  const char* expected[] = {":2:22: fov must lie between 0 and 180", ":3:34: expected an integer",
+                            ":5:25: medium type \"vapour\"",         ":8:3: unknown directive \"Shpe\"",
+                            ":9:18: radius must be above 0",         ":12:21: parameter \"I\" has a negative component"};
   REQUIRE(check.errors.size() == std::size(expected));
   for (std::size_t i = 0; i < std::size(expected); ++i) CHECK_CONTAINS(check.errors[i], expected[i]);
   CHECK(check.scene.shapes.size() == 1);
@@ -70,6 +76,15 @@ TEST_CASE("check gives up after a hundred errors") {
   const SceneCheck check = check_scene(folder.write("a.pbrt", text));
   CHECK(check.errors.size() == 101);
   CHECK_CONTAINS(check.errors.back(), "more errors are not shown");
+}
+
+TEST_CASE("a missing or late WorldBegin is one error") {
+  const test::TempFolder folder;
+  const std::string shapes = "AttributeBegin\nAttributeEnd\nShape \"sphere\"\nShape \"sphere\"\n";
+  CHECK(check_scene(folder.write("a.pbrt", "Material \"diffuse\"\n" + shapes)).errors.size() == 1);
+  CHECK(check_scene(folder.write("b.pbrt", "Material \"diffuse\"\n" + shapes + "Camera \"perspective\" WorldBegin\n" + shapes))
+            .errors.size() == 1);
+  CHECK(check_scene(folder.write("c.pbrt", "WorldBegin\n" + shapes + "Camera \"perspective\"\n")).errors.size() == 1);
 }
 
 TEST_CASE("check of a good and of an absent file") {

@@ -32,7 +32,8 @@ TEST_CASE("Integrator gives depth and light sampler") {
 }
 
 TEST_CASE("Tyndall's own options stand on the Integrator line") {
-  const RenderSettings s = settings(R"(Integrator "volpath" "string lights" "uniform" "string transmittance" "ratio" "integer spp" 9
+  const RenderSettings s =
+      settings(R"(Integrator "volpath" "string lights" "uniform" "string transmittance" "ratio" "integer spp" 9
     "integer seed" 5 "float time" 2.5 "integer threads" 2 "string aov" ["Albedo" "N"] "bool reproducible" true "integer crop" [1 2 3 4]
     "integer max-depth" 12)");
   CHECK(s.lights == LightStrategy::uniform);
@@ -52,12 +53,15 @@ TEST_CASE("Tyndall's own options stand on the Integrator line") {
 
 TEST_CASE("spp and seed of the Integrator win over the Sampler's, in either order") {
   CHECK(settings("Sampler \"sobol\" \"integer pixelsamples\" 64 Integrator \"volpath\" \"integer spp\" 9").spp == 9);
-  CHECK(settings("Integrator \"volpath\" \"integer spp\" 9 \"integer seed\" 3 Sampler \"sobol\" \"integer pixelsamples\" 64").spp == 9);
+  CHECK(settings("Integrator \"volpath\" \"integer spp\" 9 \"integer seed\" 3 Sampler \"sobol\" \"integer pixelsamples\" 64")
+            .spp == 9);
   CHECK(settings("Integrator \"volpath\" \"integer seed\" 3 Sampler \"sobol\" \"integer seed\" 4").seed == 3);
 }
 
 TEST_CASE("what is known and not honoured is a warning") {
-  const auto warnings = [](const std::string& text) { return read_scene_text(text + " WorldBegin", "test.pbrt").warnings.size(); };
+  const auto warnings = [](const std::string& text) {
+    return read_scene_text(text + " WorldBegin", "test.pbrt").warnings.size();
+  };
   CHECK(warnings("Integrator \"bdpt\" \"bool visualizestrategies\" false") == 1);
   CHECK(warnings("Integrator \"volpath\" \"bool regularize\" true") == 1);
   CHECK(warnings("Integrator \"volpath\" \"bool regularize\" false") == 0);

@@ -40,7 +40,8 @@ TEST_CASE("trianglemesh") {
   CHECK(m.indices == std::vector<std::uint32_t>{0, 1, 2, 2, 1, 3});
   CHECK(m.normals.size() == 4);
   CHECK(m.uvs.at(1).x == 1);
-  CHECK(shape<TriangleMesh>("\"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0]").indices == std::vector<std::uint32_t>{0, 1, 2});
+  CHECK(shape<TriangleMesh>("\"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0]").indices ==
+        std::vector<std::uint32_t>{0, 1, 2});
   const std::string four = "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0 1 1 0] ";
   CHECK_CONTAINS(world_error(four), "has no indices");
   CHECK_CONTAINS(world_error(four + "\"integer indices\" [0 1]"), "no multiple of 3");
@@ -57,25 +58,32 @@ TEST_CASE("bilinearmesh") {
 
 TEST_CASE("plymesh: triangles and quadrilaterals become two shapes of one boundary") {
   const test::TempFolder folder;
-  folder.write("a.ply", "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
-                        "element face 2\nproperty list uchar int vertex_indices\nend_header\n"
-                        "0 0 0\n1 0 0\n1 1 0\n0 1 0\n2 2 2\n3 0 1 4\n4 0 1 2 3\n");
+  folder.write("a.ply",
+               "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
+               "element face 2\nproperty list uchar int vertex_indices\nend_header\n"
+               "0 0 0\n1 0 0\n1 1 0\n0 1 0\n2 2 2\n3 0 1 4\n4 0 1 2 3\n");
   const Scene s = read_scene_text(R"(WorldBegin MakeNamedMedium "m" "string type" "homogeneous" MediumInterface "m" ""
-    Shape "plymesh" "string filename" "a.ply")", "test.pbrt", folder.path()).scene;
+    Shape "plymesh" "string filename" "a.ply")",
+                                  "test.pbrt", folder.path())
+                      .scene;
   REQUIRE(s.shapes.size() == 2);
   CHECK(std::get<TriangleMesh>(s.shapes[0].kind).indices == std::vector<std::uint32_t>{0, 1, 4});
   CHECK(std::get<BilinearMesh>(s.shapes[1].kind).indices == std::vector<std::uint32_t>{0, 1, 3, 2});
   CHECK(std::get<BilinearMesh>(s.shapes[1].kind).positions.size() == 5);
   CHECK(s.shapes[0].boundary == s.shapes[1].boundary);
   folder.write("bad.ply", "plx\n");
-  CHECK_CONTAINS(test::message_of([&] { read_scene_text("WorldBegin Shape \"plymesh\" \"string filename\" \"bad.ply\"", "test.pbrt", folder.path()); }),
+  CHECK_CONTAINS(test::message_of([&] {
+                   read_scene_text("WorldBegin Shape \"plymesh\" \"string filename\" \"bad.ply\"", "test.pbrt", folder.path());
+                 }),
                  "bad.ply:1:1: is no ply file");
-  CHECK_CONTAINS(world_error("Shape \"plymesh\" \"string filename\" \"absent.ply\""), "test.pbrt:1:28: file \"absent.ply\" does not exist");
+  CHECK_CONTAINS(world_error("Shape \"plymesh\" \"string filename\" \"absent.ply\""),
+                 "test.pbrt:1:28: file \"absent.ply\" does not exist");
 }
 
 TEST_CASE("alpha: a constant below 1 or a texture; 1 is none") {
   CHECK_FALSE(read_world("Shape \"sphere\" \"float alpha\" 1").shapes.at(0).alpha);
-  const Scene s = read_world("Shape \"sphere\" \"float alpha\" .25 Texture \"a\" \"float\" \"checkerboard\" Shape \"sphere\" \"texture alpha\" \"a\"");
+  const Scene s = read_world(
+      "Shape \"sphere\" \"float alpha\" .25 Texture \"a\" \"float\" \"checkerboard\" Shape \"sphere\" \"texture alpha\" \"a\"");
   CHECK(test::constant(s, *s.shapes.at(0).alpha) == Rgb(.25f));
   CHECK(std::holds_alternative<CheckerboardTexture>(s.textures.at(*s.shapes.at(1).alpha).kind));
 }

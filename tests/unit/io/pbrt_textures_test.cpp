@@ -38,7 +38,8 @@ TEST_CASE("scale and mix of constants and textures") {
 }
 
 TEST_CASE("checkerboard and mappings") {
-  const Scene s = read_world(R"(Translate 1 2 3 Texture "c" "spectrum" "checkerboard" "integer dimension" 3 "rgb tex1" [.1 .1 .1]
+  const Scene s =
+      read_world(R"(Translate 1 2 3 Texture "c" "spectrum" "checkerboard" "integer dimension" 3 "rgb tex1" [.1 .1 .1]
     "string mapping" "planar" "vector3 v1" [1 2 3] "vector3 v2" [4 5 6] "float udelta" 7 "float vscale" 8)");
   const auto c = last_texture<CheckerboardTexture>(s);
   CHECK(c.dimension == 3);
@@ -51,15 +52,17 @@ TEST_CASE("checkerboard and mappings") {
   CHECK(c.mapping.scale.y == 8);
   CHECK(c.mapping.to_texture.point({1, 2, 3}) == Vec3{0, 0, 0});
   CHECK_CONTAINS(world_error("Texture \"c\" \"float\" \"checkerboard\" \"integer dimension\" 4"), "dimension 2 or 3");
-  CHECK_CONTAINS(world_error("Texture \"c\" \"float\" \"checkerboard\" \"string mapping\" \"cubic\""), "\"cubic\" is no mapping");
+  CHECK_CONTAINS(world_error("Texture \"c\" \"float\" \"checkerboard\" \"string mapping\" \"cubic\""),
+                 "\"cubic\" is no mapping");
 }
 
 TEST_CASE("imagemap") {
   const test::TempFolder folder;
   folder.write("tex/a.png", "not read here");
-  const SceneFile file = read_scene_text(R"(WorldBegin Texture "i" "spectrum" "imagemap" "string filename" "tex/a.png" "string wrap" "clamp"
+  const SceneFile file =
+      read_scene_text(R"(WorldBegin Texture "i" "spectrum" "imagemap" "string filename" "tex/a.png" "string wrap" "clamp"
     "string filter" "trilinear" "float scale" 2 "bool invert" true "string encoding" "gamma 2.2" "float maxanisotropy" 8)",
-                                         "test.pbrt", folder.path());
+                      "test.pbrt", folder.path());
   const auto t = last_texture<ImageTexture>(file.scene);
   CHECK(t.path == folder.path() + "/tex/a.png");
   CHECK(t.wrap == ImageTexture::Wrap::clamp);
@@ -68,7 +71,8 @@ TEST_CASE("imagemap") {
   CHECK(t.invert);
   CHECK(t.encoding == "gamma 2.2");
   CHECK(file.warnings.size() == 2);
-  CHECK_CONTAINS(world_error("Texture \"i\" \"float\" \"imagemap\" \"string filename\" \"absent.png\""), "test.pbrt:1:43: file \"absent.png\" does not exist");
+  CHECK_CONTAINS(world_error("Texture \"i\" \"float\" \"imagemap\" \"string filename\" \"absent.png\""),
+                 "test.pbrt:1:43: file \"absent.png\" does not exist");
   CHECK_CONTAINS(world_error("Texture \"i\" \"float\" \"imagemap\""), "file name is empty");
 }
 

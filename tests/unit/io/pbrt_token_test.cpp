@@ -16,9 +16,10 @@ TEST_CASE("words, strings, brackets and comments, each with its line and column"
     const char* text;
     int line, column;
   };
-  const Expected expected[] = {{Kind::word, "Shape", 1, 1},    {Kind::string, "sphere", 1, 7}, {Kind::string, "float radius", 2, 3},
-                               {Kind::open, "[", 2, 18},       {Kind::word, "1", 2, 19},       {Kind::close, "]", 2, 20},
-                               {Kind::word, "x", 3, 2},        {Kind::end, "", 3, 3},          {Kind::end, "", 3, 3}};
+  const Expected expected[] = {
+      {Kind::word, "Shape", 1, 1}, {Kind::string, "sphere", 1, 7}, {Kind::string, "float radius", 2, 3},
+      {Kind::open, "[", 2, 18},    {Kind::word, "1", 2, 19},       {Kind::close, "]", 2, 20},
+      {Kind::word, "x", 3, 2},     {Kind::end, "", 3, 3},          {Kind::end, "", 3, 3}};
   for (const Expected& e : expected) {
     CHECK(in.peek().text == e.text);
     const Token token = in.next();
@@ -42,13 +43,24 @@ TEST_CASE("strings undo escapes and end on their line") {
 TEST_CASE("byte order marks") {
   Tokenizer utf8("\xef\xbb\xbfx", "a.pbrt");
   CHECK(utf8.next().at.column == 1);
-  CHECK_THROWS_AS(Tokenizer("\xff\xfe" "W", "a.pbrt"), Error);
+  CHECK_THROWS_AS(Tokenizer("\xff\xfe"
+                            "W",
+                            "a.pbrt"),
+                  Error);
 }
 
 TEST_CASE("numbers of every notation, and nothing else") {
   double d;
-  for (const auto& [text, value] : {std::pair{"1", 1.0}, {"-1.5", -1.5}, {"+2", 2.0}, {".5", 0.5}, {"-.5", -0.5}, {"3.", 3.0},
-                                    {"1e3", 1000.0}, {"1E-2", 0.01}, {"1e-400", 0.0}, {"007", 7.0}}) {
+  for (const auto& [text, value] : {std::pair{"1", 1.0},
+                                    {"-1.5", -1.5},
+                                    {"+2", 2.0},
+                                    {".5", 0.5},
+                                    {"-.5", -0.5},
+                                    {"3.", 3.0},
+                                    {"1e3", 1000.0},
+                                    {"1E-2", 0.01},
+                                    {"1e-400", 0.0},
+                                    {"007", 7.0}}) {
     CHECK(parse_number(std::string_view(text), d) == NumberFault::none);
     CHECK(d == value);
   }

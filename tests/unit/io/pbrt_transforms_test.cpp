@@ -37,7 +37,8 @@ TEST_CASE("Transform and ConcatTransform take columns") {
 TEST_CASE("coordinate systems are named and recalled; camera and world are given") {
   check_near(origin("Translate 1 0 0 CoordinateSystem \"a\" Translate 5 5 5 CoordSysTransform \"a\""), {1, 0, 0});
   check_near(origin("Translate 1 0 0 CoordSysTransform \"world\""), {0, 0, 0});
-  const Scene scene = test::read("Translate 0 0 -7 Camera \"perspective\" WorldBegin CoordSysTransform \"camera\" Shape \"sphere\"");
+  const Scene scene =
+      test::read("Translate 0 0 -7 Camera \"perspective\" WorldBegin CoordSysTransform \"camera\" Shape \"sphere\"");
   check_near(scene.shapes.at(0).to_world.point({0, 0, 0}), {0, 0, 7});
   CHECK_CONTAINS(world_error("CoordSysTransform \"wurld\""), "did you mean \"world\"?");
 }
@@ -49,7 +50,8 @@ TEST_CASE("WorldBegin resets the matrix") {
 
 TEST_CASE("moving transforms stand still, with one warning") {
   const SceneFile file = test::read_world_file(
-      "ActiveTransform StartTime Translate 1 0 0 ActiveTransform EndTime Translate 0 9 0 Identity ActiveTransform All Translate 0 0 1 "
+      "ActiveTransform StartTime Translate 1 0 0 ActiveTransform EndTime Translate 0 9 0 Identity ActiveTransform All "
+      "Translate 0 0 1 "
       "ActiveTransform EndTime Shape \"sphere\"");
   check_near(file.scene.shapes.at(0).to_world.point({0, 0, 0}), {1, 0, 1});
   REQUIRE(file.warnings.size() == 1);

@@ -40,15 +40,20 @@ TEST_CASE("Camera") {
 }
 
 TEST_CASE("the camera's medium is the outside of the MediumInterface before it") {
-  const Scene s = read(R"(MakeNamedMedium "fog" "string type" "homogeneous" MediumInterface "" "fog" Camera "perspective" WorldBegin)");
+  const Scene s =
+      read(R"(MakeNamedMedium "fog" "string type" "homogeneous" MediumInterface "" "fog" Camera "perspective" WorldBegin)");
   CHECK(s.camera.medium == MediumId{0});
-  CHECK_FALSE(read("MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" Camera \"perspective\" MediumInterface \"fog\" WorldBegin").camera.medium);
+  CHECK_FALSE(
+      read("MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" Camera \"perspective\" MediumInterface \"fog\" WorldBegin")
+          .camera.medium);
 }
 
 TEST_CASE("Film: size, crop, exposure") {
-  const Film f = read(R"(Film "rgb" "integer xresolution" 200 "integer yresolution" 100 "string filename" "a.exr" "float iso" 200
+  const Film f =
+      read(R"(Film "rgb" "integer xresolution" 200 "integer yresolution" 100 "string filename" "a.exr" "float iso" 200
     "float maxcomponentvalue" 10 "bool savefp16" false "float diagonal" 20 "string sensor" "cie1931" "float cropwindow" [.25 .5 0 .333]
-    Camera "perspective" "float shutterclose" .25 WorldBegin)").film;
+    Camera "perspective" "float shutterclose" .25 WorldBegin)")
+          .film;
   CHECK(f.width == 200);
   CHECK(f.height == 100);
   CHECK(f.filename == "a.exr");
@@ -56,7 +61,10 @@ TEST_CASE("Film: size, crop, exposure") {
   CHECK(f.max_component == 10);
   CHECK(f.crop == PixelBounds{50, 0, 100, 34});
   CHECK_FALSE(f.gbuffer);
-  const Film g = read("Film \"gbuffer\" \"integer xresolution\" 64 \"integer yresolution\" 64 \"integer pixelbounds\" [8 16 4 99] WorldBegin").film;
+  const Film g = read(
+                     "Film \"gbuffer\" \"integer xresolution\" 64 \"integer yresolution\" 64 \"integer pixelbounds\" [8 16 4 "
+                     "99] WorldBegin")
+                     .film;
   CHECK(g.gbuffer);
   CHECK(g.crop == PixelBounds{8, 4, 16, 64});
   CHECK_CONTAINS(error_of("Film \"rgb\" \"integer xresolution\" 0"), "xresolution must be from 1");
@@ -66,7 +74,8 @@ TEST_CASE("Film: size, crop, exposure") {
 }
 
 TEST_CASE("sensors are not simulated, and that is said once") {
-  const SceneFile file = read_scene_text("Film \"rgb\" \"string sensor\" \"canon_eos_100d\" \"float whitebalance\" 5000 WorldBegin", "test.pbrt");
+  const SceneFile file =
+      read_scene_text("Film \"rgb\" \"string sensor\" \"canon_eos_100d\" \"float whitebalance\" 5000 WorldBegin", "test.pbrt");
   CHECK(file.warnings.size() == 2);
 }
 
@@ -84,8 +93,11 @@ TEST_CASE("PixelFilter") {
     float radius;
   };
   using Kind = PixelFilter::Kind;
-  for (const Row& row : {Row{"box", Kind::box, .5f}, {"triangle", Kind::triangle, 2}, {"gaussian", Kind::gaussian, 1.5f},
-                         {"mitchell", Kind::mitchell, 2}, {"sinc", Kind::sinc, 4}}) {
+  for (const Row& row : {Row{"box", Kind::box, .5f},
+                         {"triangle", Kind::triangle, 2},
+                         {"gaussian", Kind::gaussian, 1.5f},
+                         {"mitchell", Kind::mitchell, 2},
+                         {"sinc", Kind::sinc, 4}}) {
     const PixelFilter f = read("PixelFilter \"" + std::string(row.name) + "\" \"float yradius\" 3 WorldBegin").filter;
     CHECK(f.kind == row.kind);
     CHECK(f.radius.x == row.radius);

@@ -44,7 +44,8 @@ std::string binary(bool big) {
 std::string ascii() {
   std::string text = "ply\r\nformat ascii 1.0\n" + kHeader;
   for (int i = 0; i < 4; ++i)
-    text += std::to_string(i) + " " + std::to_string(2 * i) + " " + std::to_string(-i) + " 255 0 0 1 " + std::to_string(0.25 * i) + " 0.5\n";
+    text += std::to_string(i) + " " + std::to_string(2 * i) + " " + std::to_string(-i) + " 255 0 0 1 " +
+            std::to_string(0.25 * i) + " 0.5\n";
   return text + "7 2 1 2\n1 3 0 1 2\n1 4 0 1 2 3\n";
 }
 
@@ -54,8 +55,9 @@ std::string error_of(const std::string& bytes) {
 
 std::string triangle(const std::string& vertices, const std::string& face, const std::string& counts = "3 1") {
   const std::size_t blank = counts.find(' ');
-  return "ply\nformat ascii 1.0\nelement vertex " + counts.substr(0, blank) + "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
-         counts.substr(blank + 1) + "\nproperty list uchar int vertex_indices\nend_header\n" + vertices + face;
+  return "ply\nformat ascii 1.0\nelement vertex " + counts.substr(0, blank) +
+         "\nproperty float x\nproperty float y\nproperty float z\nelement face " + counts.substr(blank + 1) +
+         "\nproperty list uchar int vertex_indices\nend_header\n" + vertices + face;
 }
 
 }  // namespace
@@ -104,17 +106,20 @@ TEST_CASE("what is wrong is said") {
   CHECK_CONTAINS(error_of(triangle(good, "3 0 1 2\n", "4000000000 1")), "more than the file can hold");
   CHECK_CONTAINS(error_of(triangle(good, "3 0 1 2\n", "3 18446744073709551615")), "more than the file can hold");
   CHECK_CONTAINS(error_of(triangle(good, "", "3 0")), "has no faces");
-  CHECK_CONTAINS(error_of("ply\nformat ascii 1.0\nelement vertex 99999999999999999999\nend_header\n"), "a.ply:3:1: element line");
+  CHECK_CONTAINS(error_of("ply\nformat ascii 1.0\nelement vertex 99999999999999999999\nend_header\n"),
+                 "a.ply:3:1: element line");
   CHECK_CONTAINS(error_of("ply\nformat binary 1.0\nend_header\n"), "a.ply:2:1: format is unknown");
-  CHECK_CONTAINS(error_of("ply\nformat ascii 1.0\nelement vertex 1\nproperty vec3 x\nend_header\n"), "property type is unknown");
+  CHECK_CONTAINS(error_of("ply\nformat ascii 1.0\nelement vertex 1\nproperty vec3 x\nend_header\n"),
+                 "property type is unknown");
   CHECK_CONTAINS(error_of("ply\nformat ascii 1.0\nnonsense\nend_header\n"), "not understood");
   CHECK_CONTAINS(error_of("ply\nformat ascii 1.0\n"), "header ends too early");
 }
 
 TEST_CASE("binary NaN and infinity are refused") {
   for (const float bad : {std::numeric_limits<float>::quiet_NaN(), kInfinity}) {
-    Bytes b{false, "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
-                   "element face 1\nproperty list uchar int vertex_indices\nend_header\n"};
+    Bytes b{false,
+            "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+            "element face 1\nproperty list uchar int vertex_indices\nend_header\n"};
     for (int i = 0; i < 3; ++i) b.add(float(i)).add(i == 2 ? bad : 1.0f).add(0.0f);
     b.add(std::uint8_t(3)).add(0).add(1).add(2);
     CHECK_CONTAINS(error_of(b.out), "vertex 2 has a NaN or infinite value");

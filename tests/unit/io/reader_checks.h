@@ -38,10 +38,10 @@ inline std::string world_error(const std::string& body) {
 
 inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
-#define CHECK_CONTAINS(text, part)                 \
-  do {                                             \
-    const std::string contains_text = (text);      \
-    INFO(contains_text);                           \
+#define CHECK_CONTAINS(text, part)                           \
+  do {                                                       \
+    const std::string contains_text = (text);                \
+    INFO(contains_text);                                     \
     CHECK(::tyndall::test::contains(contains_text, (part))); \
   } while (false)
 

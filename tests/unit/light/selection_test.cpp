@@ -1,0 +1,148 @@
+#include "light/selection.h"
+
+#include <doctest/doctest.h>
+
+#include "light_cases.h"
+#include "support/chi_squared.h"
+
+namespace tyndall {
+namespace {
+
+FarLight sun(LightId id, Vec3 toward, float E) { return {{{DirectionCone::around(toward), toward, E, E}}, id}; }
+
+/// A sky of constant radiance over the upper hemisphere, in four cones; nothing of it is sampled beside scattered rays
+/// unless `partner`.
+FarLight upper_sky(LightId id, float radiance, bool partner) {
+  FarLight sky{{}, id};
+  for (int i = 0; i < 4; ++i) {
+    const Vec3 corner{i & 1 ? 1.0f : -1.0f, i & 2 ? 1.0f : -1.0f, 1};
+    const float f = radiance * kPi / 2;
+    sky.cones.push_back({DirectionCone::around(normalize(corner), 0.9554f), corner * 0.5f, f, partner ? f : 0});
+  }
+  return sky;
+}
+
+/// Mixed near lights, two suns and a sky; light 3 is dark.
+SelectionInput mixed_input(std::size_t near, bool sky_partner) {
+  SelectionInput input;
+  const auto lights = test::mixed_lights(near, 3);
+  LightId id = 0;
+  for (const LightBounds& l : lights) {
+    if (id == 3) {
+      input.power.push_back(0);
+      ++id;
+    }
+    input.near.push_back({l, id++});
+    input.power.push_back(l.intensity);
+  }
+  input.far = {sun(id, {0, 0, 1}, 1000), sun(id + 1, normalize(Vec3{1, 0, -1}), 1e-3f), upper_sky(id + 2, 1, sky_partner)};
+  for (const double p : {1e4, 1e-2, 3e3}) input.power.push_back(p);
+  return input;
+}
+
+constexpr LightStrategy kStrategies[] = {LightStrategy::uniform, LightStrategy::power, LightStrategy::tree_binary};
+
+std::vector<PointQuery> queries() {
+  std::vector<LightBounds> box{test::point_bounds({-1, -1, -1}, 1), test::point_bounds({1, 1, 1}, 1)};
+  auto all = test::queries_for(box, 40, 8);
+  for (std::size_t i = 0; i < all.size(); i += 2) all[i].mis_partner = false;
+  return all;
+}
+
+TEST_CASE("every strategy: probabilities sum to at most 1, and draws follow them") {
+  for (const LightStrategy strategy : kStrategies) {
+    CAPTURE(name_of(strategy));
+    const SelectionInput input = mixed_input(60, true);
+    const auto n = static_cast<LightId>(input.power.size());
+    const Selection selection(strategy, input);
+    for (const PointQuery& q : queries()) {
+      double sum = 0;
+      std::vector<double> pmf(n + 1), counts(n + 1);
+      for (LightId i = 0; i < n; ++i) sum += pmf[i] = selection.pmf(q, i);
+      REQUIRE(sum < 1 + 1e-5);
+      pmf[n] = std::max(0.0, 1 - sum);
+      CHECK(pmf[3] == 0);
+      constexpr int kDraws = 10'000;
+      Rng rng(4);
+      for (int i = 0; i < kDraws; ++i) {
+        const auto s = selection.select(q, rng.uniform_wide());
+        if (s) REQUIRE(std::abs(s->pmf - selection.pmf(q, s->light)) <= 1e-6 * s->pmf);
+        counts[s ? s->light : n] += 1;
+      }
+      double statistic = 0, rest = 0, rest_expected = 0;
+      int bins = 0;
+      for (LightId i = 0; i <= n; ++i) {
+        const double e = pmf[i] * kDraws;
+        if (e >= 5) {
+          statistic += (counts[i] - e) * (counts[i] - e) / e;
+          ++bins;
+        } else {
+          rest += counts[i];
+          rest_expected += e;
+        }
+      }
+      if (rest_expected >= 5) statistic += (rest - rest_expected) * (rest - rest_expected) / rest_expected, ++bins;
+      if (bins > 1) CHECK(test::chi_squared_tail(statistic, bins - 1) > 1e-6);
+    }
+  }
+}
+
+TEST_CASE("uniform gives every light with power the same, power gives each its share") {
+  const SelectionInput input = mixed_input(10, true);
+  double total = 0;
+  for (const double p : input.power) total += p;
+  const Selection uniform(LightStrategy::uniform, input), power(LightStrategy::power, input);
+  for (LightId i = 0; i < input.power.size(); ++i) {
+    CHECK(uniform.pmf({}, i) == doctest::Approx(i == 3 ? 0 : 1.0 / (double(input.power.size()) - 1)));
+    CHECK(power.pmf({}, i) == doctest::Approx(input.power[i] / total));
+  }
+}
+
+TEST_CASE("tree: neither near nor far lights starve, and a light below the horizon gets nothing") {
+  const SelectionInput input = mixed_input(60, true);
+  const Selection selection(LightStrategy::tree_binary, input);
+  const auto first_far = static_cast<LightId>(input.power.size() - 3);
+  const auto far_share = [&](const PointQuery& q) {
+    return selection.pmf(q, first_far) + selection.pmf(q, first_far + 1) + selection.pmf(q, first_far + 2);
+  };
+  for (const float distance : {0.1f, 10.0f, 1e6f}) {
+    CHECK(far_share({{0, 0, distance}, {}}) > 0.099);
+    CHECK(far_share({{0, 0, distance}, {}}) < 0.901);
+  }
+  const PointQuery up{{0, 0, -5}, {0, 0, 1}}, down{{0, 0, 5}, {0, 0, -1}};
+  CHECK(selection.pmf(up, first_far) > 100 * selection.pmf(up, first_far + 2));  // the sun outshines the sky
+  CHECK(selection.pmf(up, first_far + 1) == 0);                                  // this one is below
+  CHECK(selection.pmf(down, first_far) == 0);
+  CHECK(selection.pmf(down, first_far + 1) > 0);
+  CHECK(selection.pmf({down.p, down.n, true}, first_far) > 0);
+}
+
+TEST_CASE("tree: an environment that scattered rays look after takes no part, unless there are none") {
+  const SelectionInput input = mixed_input(5, false);
+  const Selection selection(LightStrategy::tree_binary, input);
+  const auto sky = static_cast<LightId>(input.power.size() - 1);
+  PointQuery q{{0, 0, 0}, {0, 0, 1}};
+  CHECK(selection.pmf(q, sky) == 0);
+  q.mis_partner = false;
+  CHECK(selection.pmf(q, sky) > 0);
+}
+
+TEST_CASE("the importance of a sky is its irradiance where all of each cone is seen") {
+  const std::vector<FarLight> lights{upper_sky(0, 1, true)};
+  const FarLights far(lights);
+  CHECK(far.importance({{}, {0, 0, 1}}) == doctest::Approx(kPi));
+  CHECK(far.importance({{}, {}}) == doctest::Approx(2 * kPi));
+  CHECK(far.importance({{}, {0, 0, -1}}) < 0.5 * kPi);
+}
+
+TEST_CASE("nothing to choose from") {
+  for (const LightStrategy strategy : kStrategies) {
+    CHECK(!Selection(strategy, {}).select({}, 0.5));
+    const Selection dark(strategy, {{0, 0}, {}, {}});
+    CHECK(!dark.select({}, 0.5));
+    CHECK(dark.pmf({}, 1) == 0);
+  }
+}
+
+}  // namespace
+}  // namespace tyndall
