@@ -68,8 +68,8 @@ void Builder::add(const Light& light) {
 }
 
 std::uint32_t Builder::image(const AreaLight& light, const Location& where) {
-  const auto [entry, added] = images_.try_emplace({light.path, light.to_rec709},
-                                                  static_cast<std::uint32_t>(parts_->maps.images.size()));
+  const auto [entry, added] =
+      images_.try_emplace({light.path, light.to_rec709}, static_cast<std::uint32_t>(parts_->maps.images.size()));
   if (added) {
     try {
       parts_->maps.images.push_back(TexelImage::load(light.path, "", light.to_rec709));

@@ -58,8 +58,7 @@ SpotEmitter::SpotEmitter(const SpotLight& light)
   double largest = 0;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) largest = std::max(largest, std::abs(inverse[i][j]));
-  for (int i = 0; i < 3; ++i)
-    to_light_[i] = to_vec3(Vec3d(inverse[i][0], inverse[i][1], inverse[i][2]) / largest);
+  for (int i = 0; i < 3; ++i) to_light_[i] = to_vec3(Vec3d(inverse[i][0], inverse[i][1], inverse[i][2]) / largest);
   core_ = is_similarity(light.to_world) ? DirectionCone::around(normalize(light.to_world.vector({0, 0, 1})), start_)
                                         : DirectionCone::everything();
 }

@@ -16,9 +16,8 @@ std::uint32_t Emitter::size() const {
 }
 
 double Emitter::area(std::uint32_t i) const {
-  return std::visit(Overloaded{[](const QuadricEmitter& q) { return q.area(); },
-                               [&](const auto& mesh) { return mesh.area(i); }},
-                    surface_);
+  return std::visit(
+      Overloaded{[](const QuadricEmitter& q) { return q.area(); }, [&](const auto& mesh) { return mesh.area(i); }}, surface_);
 }
 
 double Emitter::projected_area(std::uint32_t i) const {
@@ -37,13 +36,11 @@ double Emitter::power(std::uint32_t i) const {
 }
 
 LightBounds Emitter::bounds(std::uint32_t i) const {
-  const EmitterExtent extent =
-      std::visit(Overloaded{[](const QuadricEmitter& q) { return q.extent(); },
-                            [&](const auto& mesh) { return mesh.extent(i); }},
-                 surface_);
+  const EmitterExtent extent = std::visit(
+      Overloaded{[](const QuadricEmitter& q) { return q.extent(); }, [&](const auto& mesh) { return mesh.extent(i); }},
+      surface_);
   const double intensity = projected_area(i) * strength(emission_.mean) * scale(i);
-  return {extent.box, extent.normals, kPi / 2,
-          static_cast<float>(std::clamp(intensity, 1e-37, 1e38)), emission_.two_sided};
+  return {extent.box, extent.normals, kPi / 2, static_cast<float>(std::clamp(intensity, 1e-37, 1e38)), emission_.two_sided};
 }
 
 Rgb Emitter::radiance(const EmissionMaps& maps, std::uint32_t i, Vec2 uv, Vec3 ng, Vec3 wo) const {
@@ -54,10 +51,9 @@ Rgb Emitter::radiance(const EmissionMaps& maps, std::uint32_t i, Vec2 uv, Vec3 n
 }
 
 std::optional<Emitter::Sample> Emitter::sample(const EmissionMaps& maps, std::uint32_t i, Vec3 p, Vec2 u) const {
-  const std::optional<EmitterSample> point =
-      std::visit(Overloaded{[&](const QuadricEmitter& q) { return q.sample(p, u); },
-                            [&](const auto& mesh) { return mesh.sample(i, p, u); }},
-                 surface_);
+  const std::optional<EmitterSample> point = std::visit(Overloaded{[&](const QuadricEmitter& q) { return q.sample(p, u); },
+                                                                   [&](const auto& mesh) { return mesh.sample(i, p, u); }},
+                                                        surface_);
   if (!point) return std::nullopt;
   Rgb L = radiance(maps, i, point->uv, point->ng, -point->wi);
   if (is_black(L)) return std::nullopt;
@@ -69,9 +65,9 @@ std::optional<Emitter::Sample> Emitter::sample(const EmissionMaps& maps, std::ui
 }
 
 float Emitter::pdf(std::uint32_t i, Vec3 p, Vec3 hit) const {
-  return std::visit(Overloaded{[&](const QuadricEmitter& q) { return q.pdf(p, hit); },
-                               [&](const auto& mesh) { return mesh.pdf(i, p, hit); }},
-                    surface_);
+  return std::visit(
+      Overloaded{[&](const QuadricEmitter& q) { return q.pdf(p, hit); }, [&](const auto& mesh) { return mesh.pdf(i, p, hit); }},
+      surface_);
 }
 
 std::size_t Emitter::memory_bytes() const {

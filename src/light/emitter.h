@@ -38,8 +38,8 @@ class Emitter {
   using Surface = std::variant<TriangleEmitter, PatchEmitter, QuadricEmitter>;
   Emitter(Surface surface, const Emission& emission) : surface_(std::move(surface)), emission_(emission) {}
 
-  std::uint32_t size() const;                  ///< primitives
-  double power(std::uint32_t i) const;         ///< W, mean of the channels
+  std::uint32_t size() const;           ///< primitives
+  double power(std::uint32_t i) const;  ///< W, mean of the channels
   LightBounds bounds(std::uint32_t i) const;
   bool delta() const { return emission_.invisible; }
 

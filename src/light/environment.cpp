@@ -23,8 +23,7 @@ Environment::Environment(const InfiniteLight& light, const Location& where) : to
   for (std::size_t i = 0; i < 3; ++i) rows_[i] = to_vec3(rows[i] = Vec3d(m[i][0], m[i][1], m[i][2]));
   determinant_ = static_cast<float>(std::abs(dot(rows[0], cross(rows[1], rows[2]))));
   for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j)
-      rotation_ = rotation_ && std::abs(dot(rows[i], rows[j]) - (i == j ? 1 : 0)) < 1e-6;
+    for (std::size_t j = 0; j < 3; ++j) rotation_ = rotation_ && std::abs(dot(rows[i], rows[j]) - (i == j ? 1 : 0)) < 1e-6;
 
   if (!light.path.empty()) {
     load(light, where);
@@ -63,7 +62,9 @@ void Environment::load(const InfiniteLight& light, const Location& where) {
     }
   if (light.illuminance) {
     // pbrt-v4 measures a map's illuminance as half of what it is, and we scale like it: its picture is the reference.
-    if (!(upward > 0)) throw Error(where, "environment map \"" + light.path + "\" has no light above to scale to an illuminance; remove \"illuminance\"");
+    if (!(upward > 0))
+      throw Error(where, "environment map \"" + light.path +
+                             "\" has no light above to scale to an illuminance; remove \"illuminance\"");
     L_ *= static_cast<float>(*light.illuminance / (upward / 2));
   }
   mean_ = L_ * Rgb(static_cast<float>(sum[0] / kFullSphere), static_cast<float>(sum[1] / kFullSphere),
@@ -197,7 +198,7 @@ std::vector<FarCone> Environment::cones() const {
         const Rgb L = L_ * image_.texel(static_cast<int>(t.x), static_cast<int>(t.y));
         const double value = strength(L) * omega;
         const double excess = std::max(weight(t.x, t.y) - mean_weight_, 0.0f);
-        const auto octant = static_cast<std::size_t>((w.x > 0 ? 1 : 0) + (w.y > 0 ? 2 : 0) + (w.z > 0 ? 4 : 0));
+        const std::size_t octant = (w.x > 0 ? 1u : 0u) | (w.y > 0 ? 2u : 0u) | (w.z > 0 ? 4u : 0u);
         fluence[octant] += value;
         if (has_excess_ && excess > 0) partner[octant] += value * excess / weight(t.x, t.y);
         mean[octant] = mean[octant] + Vec3d(w) * value;
@@ -206,8 +207,7 @@ std::vector<FarCone> Environment::cones() const {
   for (std::size_t i = 0; i < 8; ++i) {
     const Vec3d axis = normalize(Vec3d(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1));
     const auto theta = static_cast<float>(std::min(octant_angle + reach + 1e-5, std::numbers::pi));
-    cones[i] = {DirectionCone::around(to_vec3(axis), theta),
-                fluence[i] > 0 ? to_vec3(mean[i] / fluence[i]) : Vec3{},
+    cones[i] = {DirectionCone::around(to_vec3(axis), theta), fluence[i] > 0 ? to_vec3(mean[i] / fluence[i]) : Vec3{},
                 static_cast<float>(fluence[i]), static_cast<float>(partner[i])};
   }
   return cones;

@@ -51,9 +51,9 @@ class Environment {
   Vec3 direction(Vec2 st) const;          ///< in light space; st.y linear in the cosine within a row
   Vec2 square(Vec3 w) const;              ///< st of a direction in light space, up to where it lies within its texel
   Texel texel_of(Vec2 st) const;
-  Vec3 to_light(Vec3 w) const;     ///< not normalised
+  Vec3 to_light(Vec3 w) const;  ///< not normalised
   Vec3 to_world(Vec3 w) const;
-  float stretch(Vec3 w) const;     ///< solid angle in light space per that in the world
+  float stretch(Vec3 w) const;  ///< solid angle in light space per that in the world
 
   Layout layout_ = Layout::constant;
   Transform to_world_;

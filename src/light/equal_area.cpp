@@ -13,8 +13,8 @@ Vec3 equal_area_square_to_sphere(Vec2 p) {
   const float r = 1 - std::abs(above);
   const float phi = (r > 0 ? (b - a) / r + 1 : 1) * (kPi / 4);
   const float sine = r * std::sqrt(std::max(0.0f, 2 - r * r));
-  return normalize({std::copysign(std::cos(phi) * sine, u), std::copysign(std::sin(phi) * sine, v),
-                    std::copysign(1 - r * r, above)});
+  return normalize(
+      {std::copysign(std::cos(phi) * sine, u), std::copysign(std::sin(phi) * sine, v), std::copysign(1 - r * r, above)});
 }
 
 Vec2 equal_area_sphere_to_square(Vec3 w) {

@@ -22,7 +22,7 @@ struct ClusterBounds {
   static ClusterBounds from(const LightBounds& bounds);
 };
 
-/// Importance of a cluster for a point, in the unit of intensity / length^2 (ALGORITHMS: see README).
+/// Importance of a cluster for a point, in the unit of intensity / length^2.
 /// [Conty Estevez and Kulla 2018, eq. 3], with the distance kept above half the cluster's radius.
 double importance(const ClusterBounds& cluster, bool two_sided, const PointQuery& query);
 

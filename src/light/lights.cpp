@@ -18,11 +18,16 @@ double Lights::Parts::power(LightId light) const {
   const Reference r = lights[light];
   const double disk = kPi * scene_radius * scene_radius;
   switch (r.kind) {
-    case Kind::point: return strength(points[r.index].power());
-    case Kind::spot: return strength(spots[r.index].power());
-    case Kind::distant: return strength(distants[r.index].irradiance()) * disk;
-    case Kind::environment: return strength(environments[r.index].mean_radiance()) * 4 * kPi * disk;
-    case Kind::emitter: return emitters[r.index].power(r.primitive);
+    case Kind::point:
+      return strength(points[r.index].power());
+    case Kind::spot:
+      return strength(spots[r.index].power());
+    case Kind::distant:
+      return strength(distants[r.index].irradiance()) * disk;
+    case Kind::environment:
+      return strength(environments[r.index].mean_radiance()) * 4 * kPi * disk;
+    case Kind::emitter:
+      return emitters[r.index].power(r.primitive);
   }
   return 0;
 }
@@ -52,9 +57,12 @@ float Lights::pmf(const PointQuery& query, LightId light) const {
 std::optional<LightSample> Lights::sample(LightId light, Vec3 p, Vec2 u, bool mis_partner) const {
   const Parts::Reference r = parts_->lights[light];
   switch (r.kind) {
-    case Kind::point: return delta_sample(parts_->points[r.index].arrival(p));
-    case Kind::spot: return delta_sample(parts_->spots[r.index].arrival(p));
-    case Kind::distant: return delta_sample(parts_->distants[r.index].arrival());
+    case Kind::point:
+      return delta_sample(parts_->points[r.index].arrival(p));
+    case Kind::spot:
+      return delta_sample(parts_->spots[r.index].arrival(p));
+    case Kind::distant:
+      return delta_sample(parts_->distants[r.index].arrival());
     case Kind::environment: {
       const auto s = parts_->environments[r.index].sample(u, mis_partner);
       if (!s || is_black(s->L)) return std::nullopt;
@@ -83,9 +91,7 @@ Rgb Lights::emitted(LightId light, const EmitterHit& hit, Vec3 wo) const {
   return parts_->emitters[r.index].radiance(parts_->maps, r.primitive, hit.uv, hit.ng, wo);
 }
 
-Rgb Lights::environment(LightId light, Vec3 w) const {
-  return parts_->environments[parts_->lights[light].index].radiance(w);
-}
+Rgb Lights::environment(LightId light, Vec3 w) const { return parts_->environments[parts_->lights[light].index].radiance(w); }
 
 float Lights::environment_pdf(LightId light, Vec3 w, bool mis_partner) const {
   return parts_->environments[parts_->lights[light].index].pdf(w, mis_partner);

@@ -87,8 +87,8 @@ class Lights {
   /// Radiance that leaves the emitter at `hit` along `wo`. Opacity is not in it: a hit has passed that test.
   Rgb emitted(LightId light, const EmitterHit& hit, Vec3 wo) const;
 
-  std::span<const LightId> infinite() const;  ///< lights that rays leaving the scene see
-  Rgb environment(LightId light, Vec3 w) const;  ///< radiance arriving from direction `w`
+  std::span<const LightId> infinite() const;                             ///< lights that rays leaving the scene see
+  Rgb environment(LightId light, Vec3 w) const;                          ///< radiance arriving from direction `w`
   float environment_pdf(LightId light, Vec3 w, bool mis_partner) const;  ///< 1/sr, of sample() giving `w`
 
   /// The light that is primitive 0 of the emitter shape (in the order given to build_lights); primitive i follows at +i.

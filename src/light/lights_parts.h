@@ -28,7 +28,7 @@ struct Lights::Parts {
   std::vector<SpotEmitter> spots;
   std::vector<DistantEmitter> distants;
   std::vector<Environment> environments;
-  std::vector<Emitter> emitters;  ///< by emitter shape
+  std::vector<Emitter> emitters;     ///< by emitter shape
   std::vector<LightId> first_light;  ///< of each emitter shape
   std::vector<LightId> infinite;
   EmissionMaps maps;

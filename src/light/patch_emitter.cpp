@@ -35,8 +35,7 @@ Corners corner_areas(const Form& f) {
 
 }  // namespace
 
-PatchEmitter::PatchEmitter(const BilinearMesh& mesh, const Transform& to_world, bool reverse_orientation,
-                           bool with_uvs) {
+PatchEmitter::PatchEmitter(const BilinearMesh& mesh, const Transform& to_world, bool reverse_orientation, bool with_uvs) {
   const bool flip = reverse_orientation != to_world.swaps_handedness();
   const std::size_t count = mesh.indices.size() / 4;
   for (std::size_t i = 0; i < 4 * count; ++i) positions_.push_back(to_world.point(mesh.positions[mesh.indices[i]]));
@@ -64,10 +63,8 @@ PatchEmitter::Form PatchEmitter::form(std::uint32_t i, Vec3 observer) const {
 
 double PatchEmitter::area(std::uint32_t i) const {
   // Gauss-Legendre, 4 x 4 points: exact for planar convex patches, whose normal's length is affine.
-  constexpr std::array<double, 4> x{0.069431844202973712, 0.330009478207571868, 0.669990521792428132,
-                                    0.930568155797026288};
-  constexpr std::array<double, 4> w{0.173927422568726929, 0.326072577431273071, 0.326072577431273071,
-                                    0.173927422568726929};
+  constexpr std::array<double, 4> x{0.069431844202973712, 0.330009478207571868, 0.669990521792428132, 0.930568155797026288};
+  constexpr std::array<double, 4> w{0.173927422568726929, 0.326072577431273071, 0.326072577431273071, 0.173927422568726929};
   const Form f = form(i, {});
   double area = 0;
   for (std::size_t a = 0; a < 4; ++a)
@@ -118,8 +115,8 @@ std::optional<EmitterSample> PatchEmitter::sample(std::uint32_t i, Vec3 p, Vec2 
   if (!(length(n) > 0)) return std::nullopt;
   const auto pdf = solid_angle_density(bilinear_pdf(s, t, weights) / length(n), x, n);
   if (!pdf) return std::nullopt;
-  return EmitterSample{to_vec3(normalize(x)), static_cast<float>(length(x)), to_vec3(normalize(outward(i, n))),
-                       uv(i, s, t), *pdf};
+  return EmitterSample{to_vec3(normalize(x)), static_cast<float>(length(x)), to_vec3(normalize(outward(i, n))), uv(i, s, t),
+                       *pdf};
 }
 
 float PatchEmitter::pdf(std::uint32_t i, Vec3 p, Vec3 hit) const {

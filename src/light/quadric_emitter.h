@@ -35,7 +35,7 @@ class QuadricEmitter {
   Vec2 uv(Vec3d object_p) const;
   Vec3d to_world(Vec3d p) const;
   Vec3d to_object(Vec3d p) const;
-  Vec3d world_normal(Vec3d n) const;  ///< by the inverse transpose, not normalised
+  Vec3d world_normal(Vec3d n) const;              ///< by the inverse transpose, not normalised
   double world_area_scale(Vec3d object_n) const;  ///< world area per object area
   std::optional<double> cone_height(Vec3d to_center) const;
   EmitterSample cone_sample(Vec3d to_center, double h, Vec3 p, Vec2 u) const;
@@ -44,11 +44,11 @@ class QuadricEmitter {
   Kind kind_;
   double radius_ = 1, inner_radius_ = 0, z_min_ = -1, z_max_ = 1, phi_max_;
   Transform::Matrix map_, inverse_;
-  Bounds3 box_;  ///< in the world
-  double determinant_;        ///< absolute, of the linear part
-  double sign_;               ///< of the outer normal against the object's own
+  Bounds3 box_;         ///< in the world
+  double determinant_;  ///< absolute, of the linear part
+  double sign_;         ///< of the outer normal against the object's own
   double object_area_, area_, projected_area_;
-  double cone_radius_ = 0;    ///< in the world; 0: no cone sampling
+  double cone_radius_ = 0;  ///< in the world; 0: no cone sampling
 };
 
 }  // namespace tyndall

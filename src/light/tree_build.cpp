@@ -102,9 +102,8 @@ std::optional<Split> find_split(Range lights) {
 std::size_t partition(Range lights) {
   if (lights.size() == 2) return 1;
   if (const auto split = find_split(lights)) {
-    const auto middle = std::partition(lights.begin(), lights.end(), [&](const TreeLight& light) {
-      return split->buckets.of(light) <= split->last;
-    });
+    const auto middle = std::partition(lights.begin(), lights.end(),
+                                       [&](const TreeLight& light) { return split->buckets.of(light) <= split->last; });
     const auto count = static_cast<std::size_t>(middle - lights.begin());
     if (count > 0 && count < lights.size()) return count;
   }

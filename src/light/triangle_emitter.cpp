@@ -13,8 +13,7 @@ bool by_solid_angle(double solid_angle) { return solid_angle > kSmallest && soli
 
 }  // namespace
 
-TriangleEmitter::TriangleEmitter(const TriangleMesh& mesh, const Transform& to_world, bool reverse_orientation,
-                                 bool with_uvs) {
+TriangleEmitter::TriangleEmitter(const TriangleMesh& mesh, const Transform& to_world, bool reverse_orientation, bool with_uvs) {
   const bool flip = reverse_orientation != to_world.swaps_handedness();
   const std::size_t count = mesh.indices.size() / 3;
   positions_.reserve(3 * count);

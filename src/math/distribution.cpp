@@ -68,8 +68,7 @@ AliasTable::Sample AliasTable::sample(double u) const {
   return {index, entries_[index].pmf};
 }
 
-PiecewiseConstant1D::PiecewiseConstant1D(std::span<const float> weights)
-    : density_(weights.size()), cdf_(weights.size() + 1) {
+PiecewiseConstant1D::PiecewiseConstant1D(std::span<const float> weights) : density_(weights.size()), cdf_(weights.size() + 1) {
   const std::size_t n = weights.size();
   for (const float w : weights) total_ += usable(w);
   const double sum = total_ > 0 ? total_ : static_cast<double>(n);
@@ -119,9 +118,7 @@ PiecewiseConstant2D::Sample PiecewiseConstant2D::sample(Vec2 u) const {
   return {{column.x, row.x}, row.pdf * column.pdf, column.cell, row.cell};
 }
 
-float PiecewiseConstant2D::pdf(Vec2 p) const {
-  return rows_.pdf(p.y) * columns_[cell_of(p.y, columns_.size())].pdf(p.x);
-}
+float PiecewiseConstant2D::pdf(Vec2 p) const { return rows_.pdf(p.y) * columns_[cell_of(p.y, columns_.size())].pdf(p.x); }
 
 std::size_t PiecewiseConstant2D::memory_bytes() const {
   std::size_t bytes = rows_.memory_bytes() + columns_.capacity() * sizeof(PiecewiseConstant1D);

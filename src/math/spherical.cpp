@@ -53,9 +53,7 @@ namespace {
 
 /// Interior angle at a corner of the projected rectangle at depth z: acos(-xy / sqrt((x^2+z^2)(y^2+z^2))), with the
 /// sine written out so that no digits are lost near 0 and pi. `x` and `y` are measured outward from the rectangle.
-double corner_angle(double x, double y, double z) {
-  return std::atan2(std::abs(z) * std::sqrt(x * x + y * y + z * z), -x * y);
-}
+double corner_angle(double x, double y, double z) { return std::atan2(std::abs(z) * std::sqrt(x * x + y * y + z * z), -x * y); }
 
 }  // namespace
 
@@ -97,8 +95,7 @@ SphericalRectangle::Sample SphericalRectangle::sample(Vec2 u) const {
   const double h = h0 + u.y * (h1 - h0);
   const double y = std::clamp(h * std::sqrt(d2) / std::sqrt(std::max(1e-300, (1 - h) * (1 + h))), y0_, y1_);
 
-  return {x_ * x + y_ * y + z_ * z0_,
-          {static_cast<float>((x - x0_) / length_x_), static_cast<float>((y - y0_) / length_y_)}};
+  return {x_ * x + y_ * y + z_ * z0_, {static_cast<float>((x - x0_) / length_x_), static_cast<float>((y - y0_) / length_y_)}};
 }
 
 std::optional<double> sphere_cone_height(double distance, double radius) {

@@ -24,7 +24,7 @@ class SphericalTriangle {
 
  private:
   Vec3d a_, b_, c_;
-  Vec3d normal_;  ///< (b - a) x (c - a)
+  Vec3d normal_;   ///< (b - a) x (c - a)
   double volume_;  ///< |a . normal_|: six times that of the tetrahedron over the triangle
   double solid_angle_;
 };

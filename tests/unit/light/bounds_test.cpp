@@ -17,7 +17,7 @@ LightBounds oriented(float theta_o, float theta_e) {
 }
 
 TEST_CASE("the orientation measure of known cones") {
-  CHECK(orientation_measure(oriented(0, kPi / 2)) == doctest::Approx(kPi));      // one normal, cosine emission
+  CHECK(orientation_measure(oriented(0, kPi / 2)) == doctest::Approx(kPi));        // one normal, cosine emission
   CHECK(orientation_measure(oriented(kPi, kPi / 2)) == doctest::Approx(4 * kPi));  // every direction
   CHECK(orientation_measure(oriented(0, 0)) == doctest::Approx(0));
   LightBounds both = oriented(0, kPi / 2);

@@ -17,12 +17,23 @@ DirectionCone random_cone(Rng& rng) {
 DirectionCone partner_of(const DirectionCone& a, Rng& rng) {
   DirectionCone b = random_cone(rng);
   switch (rng.next() % 6) {
-    case 0: b.axis = a.axis; break;
-    case 1: b.axis = -a.axis; break;
-    case 2: b.axis.x = std::nextafter(a.axis.x, 2.0f), b.axis.y = a.axis.y, b.axis.z = a.axis.z; break;
-    case 3: b.axis = normalize(-a.axis + test::random_in_cube(rng, 1e-6f)); break;
-    case 4: b.axis = normalize(a.axis + test::random_in_cube(rng, 1e-4f)); break;
-    default: break;
+    case 0:
+      b.axis = a.axis;
+      break;
+    case 1:
+      b.axis = -a.axis;
+      break;
+    case 2:
+      b.axis.x = std::nextafter(a.axis.x, 2.0f), b.axis.y = a.axis.y, b.axis.z = a.axis.z;
+      break;
+    case 3:
+      b.axis = normalize(-a.axis + test::random_in_cube(rng, 1e-6f));
+      break;
+    case 4:
+      b.axis = normalize(a.axis + test::random_in_cube(rng, 1e-4f));
+      break;
+    default:
+      break;
   }
   return b;
 }

@@ -32,7 +32,8 @@ TEST_CASE("a spot light: full inside, nothing outside, smoothstep between") {
   CHECK(E(19.9) == doctest::Approx(3));
   CHECK(E(40.1) == 0);
   CHECK(E(120) == 0);
-  const double c = (std::cos(30 * kPi / 180) - std::cos(40 * kPi / 180)) / (std::cos(20 * kPi / 180) - std::cos(40 * kPi / 180));
+  const double c =
+      (std::cos(30 * kPi / 180) - std::cos(40 * kPi / 180)) / (std::cos(20 * kPi / 180) - std::cos(40 * kPi / 180));
   CHECK(E(30) == doctest::Approx(3 * c * c * (3 - 2 * c)).epsilon(1e-4));
 }
 

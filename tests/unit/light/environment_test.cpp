@@ -12,9 +12,9 @@
 namespace tyndall {
 namespace {
 
-/// A sky with a gradient, a black patch, noise and a sun ten thousand times as bright.
-Rgb sky(int x, int y) {
-  if (x == 9 && y == 3) return {10'000, 9'000, 8'000};
+/// A sky with a gradient, a black patch, noise and, unless it is overcast, a sun ten thousand times as bright.
+Rgb sky(int x, int y, bool overcast = false) {
+  if (x == 9 && y == 3 && !overcast) return {10'000, 9'000, 8'000};
   if (x < 3 && y > 10) return {};
   const float noise = static_cast<float>(hash(std::uint64_t(x), std::uint64_t(y)) >> 40) * 0x1p-24f;
   return Rgb(0.2f, 0.3f, 0.5f) * (0.5f + noise) + Rgb(0.05f * y, 0, 0);
@@ -63,7 +63,8 @@ TEST_CASE("the equal-area mapping keeps areas, inverts, and is continuous where 
   CHECK(equal_area_square_to_sphere({0.5f, 0.5f}) == Vec3{0, 0, 1});
   CHECK(equal_area_square_to_sphere({1, 0.5f}).x == doctest::Approx(1));
   CHECK(equal_area_square_to_sphere({0.5f, 1}).y == doctest::Approx(1));
-  for (const Vec2 corner : {Vec2{0, 0}, Vec2{1, 0}, Vec2{0, 1}, Vec2{1, 1}}) CHECK(equal_area_square_to_sphere(corner).z == doctest::Approx(-1));
+  for (const Vec2 corner : {Vec2{0, 0}, Vec2{1, 0}, Vec2{0, 1}, Vec2{1, 1}})
+    CHECK(equal_area_square_to_sphere(corner).z == doctest::Approx(-1));
   for (const float z : {1.0f, -1.0f})
     for (const float tiny : {0.0f, 1e-20f, 1e-7f, 1e-4f}) {
       const Vec3 w = normalize(Vec3{tiny, -tiny, z});
@@ -71,8 +72,9 @@ TEST_CASE("the equal-area mapping keeps areas, inverts, and is continuous where 
     }
 }
 
-void check_map(int width, int height, const Transform& to_world) {
-  const test::ScratchMap map("chi_" + std::to_string(width), width, height, sky);
+void check_map(int width, int height, const Transform& to_world, bool overcast) {
+  const auto texel = [&](int x, int y) { return sky(x, y, overcast); };
+  const test::ScratchMap map("chi_" + std::to_string(width), width, height, texel);
   const Environment e(map_light(map.path(), to_world), {});
   const Transform to_light = to_world.inverse();
 
@@ -82,21 +84,21 @@ void check_map(int width, int height, const Transform& to_world) {
   for (int i = 0; i < 20'000; ++i) {
     const Vec3 w = test::random_direction(rng);
     const int t = texel_of(normalize(to_light.vector(w)), width, height);
-    if (e.radiance(w) != Rgb(2, 1, 0.5f) * sky(t % width, t / width)) ++different;
+    if (e.radiance(w) != Rgb(2, 1, 0.5f) * texel(t % width, t / width)) ++different;
   }
   CHECK(different < 20);
 
   // The mean luminance decides what compensation leaves.
   double mean_luminance = 0;
   for (int t = 0; t < width * height; ++t)
-    mean_luminance += luminance(sky(t % width, t / width)) * texel_solid_angle(t / width, width, height) / (4 * kPi);
+    mean_luminance += luminance(texel(t % width, t / width)) * texel_solid_angle(t / width, width, height) / (4 * kPi);
 
   for (const bool partner : {false, true}) {
     CAPTURE(partner);
     std::vector<double> weights, counts(std::size_t(width * height));
     double total = 0;
     for (int t = 0; t < width * height; ++t) {
-      const double lum = luminance(sky(t % width, t / width));
+      const double lum = luminance(texel(t % width, t / width));
       weights.push_back((partner ? std::max(lum - mean_luminance, 0.0) : lum) * texel_solid_angle(t / width, width, height));
       total += weights.back();
     }
@@ -110,7 +112,8 @@ void check_map(int width, int height, const Transform& to_world) {
       const int t = texel_of(normalize(to_light.vector(s->wi)), width, height);
       counts[std::size_t(t)] += 1;
       if (i % 16 == 0 && weights[std::size_t(t)] > 0 && to_world.is_identity())
-        CHECK(s->pdf == doctest::Approx(weights[std::size_t(t)] / total / texel_solid_angle(t / width, width, height)).epsilon(0.02));
+        CHECK(s->pdf ==
+              doctest::Approx(weights[std::size_t(t)] / total / texel_solid_angle(t / width, width, height)).epsilon(0.02));
     }
     double statistic = 0, rest = 0, rest_expected = 0;
     int bins = 0;
@@ -133,21 +136,41 @@ void check_map(int width, int height, const Transform& to_world) {
     for (int i = 0; i < kSteps; ++i)
       for (int j = 0; j < 2 * kSteps; ++j) {
         const double z = 1 - 2 * (i + 0.5) / kSteps, phi = kPi * (j + 0.5) / kSteps, r = std::sqrt(1 - z * z);
-        integral += e.pdf({float(r * std::cos(phi)), float(r * std::sin(phi)), float(z)}, partner) * 4 * kPi / (2.0 * kSteps * kSteps);
+        integral +=
+            e.pdf({float(r * std::cos(phi)), float(r * std::sin(phi)), float(z)}, partner) * 4 * kPi / (2.0 * kSteps * kSteps);
       }
     CHECK(integral == doctest::Approx(1).epsilon(0.03));
   }
 }
 
 TEST_CASE("maps are sampled in proportion to their luminance, with and without compensation") {
-  check_map(16, 16, {});
-  check_map(32, 16, {});
+  for (const bool overcast : {false, true}) {
+    check_map(16, 16, {}, overcast);
+    check_map(32, 16, {}, overcast);
+  }
+}
+
+TEST_CASE("within large texels directions are uniform") {
+  for (const int width : {4, 8}) {
+    const test::ScratchMap map("coarse", width, 4, [](int x, int y) { return Rgb(0.2f + float((3 * x + 5 * y) % 7)); });
+    const Environment e(map_light(map.path()), {});
+    for (const bool partner : {false, true}) {
+      const auto result = test::chi_squared_test(
+          [&](const test::Uniform& random) -> std::optional<Vec3> {
+            const float x = random(), y = random();
+            const auto s = e.sample({x, y}, partner);
+            return s ? std::optional(s->wi) : std::nullopt;
+          },
+          [&](Vec3 w) { return e.pdf(w, partner); }, {.samples = 40'000, .theta_bins = 12, .phi_bins = 24, .alpha = 1e-5});
+      CHECK_MESSAGE(result.passed, width, " ", partner, " ", result.summary());
+    }
+  }
 }
 
 TEST_CASE("maps are sampled alike under rotations, mirrors and stretching") {
   const Transform mirrored = Transform::scale(-1, 1, 1) * Transform::rotate(-90, 1, 0, 0) * Transform::rotate(33, 0, 0, 1);
-  check_map(16, 16, mirrored);
-  check_map(32, 16, mirrored);
+  check_map(16, 16, mirrored, true);
+  check_map(32, 16, mirrored, true);
   // Under a map that is no rotation the density follows the change of solid angle.
   const test::ScratchMap map("stretched", 8, 8, [](int, int) { return Rgb(1); });
   const Environment e(map_light(map.path(), Transform::scale(1, 2, 0.5)), {});
@@ -189,7 +212,7 @@ TEST_CASE("a black environment is harmless, a map of another shape is refused wi
 
 TEST_CASE("the cones add up to the map, and each holds the light of its part") {
   for (const int width : {16, 32}) {
-    const test::ScratchMap map("cones", width, 16, sky);
+    const test::ScratchMap map("cones", width, 16, [](int x, int y) { return sky(x, y); });
     const Environment e(map_light(map.path(), Transform::rotate(40, 1, 2, 3)), {});
     double fluence = 0;
     Vec3d flux;

@@ -59,7 +59,8 @@ Oracle random_light(Rng& rng) {
 /// Near the horizon and the light's plane as often as anywhere else.
 PointQuery random_query(const Oracle& l, Rng& rng) {
   PointQuery q;
-  q.p = rng.uniform() < 0.5f ? test::random_in_cube(rng, 2) : l.a + test::random_in_cube(rng, std::pow(10.0f, -4 * rng.uniform()));
+  q.p = rng.uniform() < 0.5f ? test::random_in_cube(rng, 2)
+                             : l.a + test::random_in_cube(rng, std::pow(10.0f, -4 * rng.uniform()));
   q.n = test::random_direction(rng);
   if (rng.uniform() < 0.3f) {  // the light just about touches the horizon
     const Vec3 to_light = normalize(l.a - q.p);
@@ -122,8 +123,7 @@ TEST_CASE("importance of a small far light is its irradiance") {
 
 TEST_CASE("importance of a wide spot does not vanish inside its cone") {
   const ClusterBounds b = ClusterBounds::from(test::spot_bounds({}, {0, 0, 1}, 0, kPi, 1));
-  for (const float z : {1.0f, 0.0f, -0.5f, -0.999f})
-    CHECK(importance(b, false, {{std::sqrt(1 - z * z), 0, z}, {}}) > 0);
+  for (const float z : {1.0f, 0.0f, -0.5f, -0.999f}) CHECK(importance(b, false, {{std::sqrt(1 - z * z), 0, z}, {}}) > 0);
 }
 
 TEST_CASE("importance at a light without extent is 0, within a cluster it is finite") {

@@ -100,19 +100,16 @@ inline std::vector<LightCase> light_cases() {
   add("on a line", 300, [](std::size_t i) { return point_bounds({i / 300.0f, 0, 0}, 1); });
   add("two places", 300, [](std::size_t i) { return point_bounds({i % 2 ? 1.0f : -1.0f, 0, 0}, 1); });
   add("a chain of halved distances", 120, [](std::size_t i) { return point_bounds({std::ldexp(1.0f, -int(i)), 0, 0}, 1); });
-  add("radii over thirty decades", 300, [&](std::size_t) {
-    return point_bounds(random_direction(rng) * std::pow(10.0f, 30 * rng.uniform() - 15), 1);
-  });
-  add("powers over sixty decades", 300, [&](std::size_t) {
-    return point_bounds(random_in_cube(rng), std::pow(10.0f, 60 * rng.uniform() - 30));
-  });
+  add("radii over thirty decades", 300,
+      [&](std::size_t) { return point_bounds(random_direction(rng) * std::pow(10.0f, 30 * rng.uniform() - 15), 1); });
+  add("powers over sixty decades", 300,
+      [&](std::size_t) { return point_bounds(random_in_cube(rng), std::pow(10.0f, 60 * rng.uniform() - 30)); });
   add("a ceiling", 1000, [](std::size_t i) {
     const float x = float(i % 32) / 16 - 1, y = float(i / 32) / 16 - 1, s = 0.02f;
     return triangle_bounds({x, y, 1}, {x, y + s, 1}, {x + s, y, 1}, false, 1);
   });
-  add("at the ends of the float range", 50, [&](std::size_t i) {
-    return point_bounds(random_in_cube(rng) * (i % 2 ? 1e38f : 1e-38f), 1);
-  });
+  add("at the ends of the float range", 50,
+      [&](std::size_t i) { return point_bounds(random_in_cube(rng) * (i % 2 ? 1e38f : 1e-38f), 1); });
   return cases;
 }
 
@@ -127,12 +124,24 @@ inline std::vector<PointQuery> queries_for(const std::vector<LightBounds>& light
     PointQuery q;
     const LightBounds& light = lights[rng.next() % lights.size()];
     switch (i % 6) {
-      case 0: q.p = center + half * random_in_cube(rng); break;
-      case 1: q.p = light.box.min; break;
-      case 2: q.p = center; break;
-      case 3: q.p = light.box.center() + random_in_cube(rng, 1e-6f); break;
-      case 4: q.p = center + random_direction(rng) * (10 * length(half) + 1); break;
-      default: q.p = center + half * random_in_cube(rng, 3); break;
+      case 0:
+        q.p = center + half * random_in_cube(rng);
+        break;
+      case 1:
+        q.p = light.box.min;
+        break;
+      case 2:
+        q.p = center;
+        break;
+      case 3:
+        q.p = light.box.center() + random_in_cube(rng, 1e-6f);
+        break;
+      case 4:
+        q.p = center + random_direction(rng) * (10 * length(half) + 1);
+        break;
+      default:
+        q.p = center + half * random_in_cube(rng, 3);
+        break;
     }
     q.n = random_direction(rng);
     if (i % 7 == 0) q.n = {0, 0, 1};

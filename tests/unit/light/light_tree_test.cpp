@@ -135,7 +135,8 @@ TEST_CASE("lights are chosen with their probability") {
 
 TEST_CASE("scaling the scene by powers of two changes no probability") {
   for (const auto& c : test::light_cases()) {
-    if (c.lights.size() > 1000 || c.name.find("range") != std::string::npos || c.name.find("decades") != std::string::npos) continue;
+    if (c.lights.size() > 1000 || c.name.find("range") != std::string::npos || c.name.find("decades") != std::string::npos)
+      continue;
     CAPTURE(c.name);
     const LightTree tree(test::numbered(c.lights));
     const auto leaves = leaves_of(tree, c.lights.size());

@@ -21,7 +21,10 @@ Shape emissive(decltype(Shape::kind) kind, Rgb L, const Transform& t = {}) {
 }
 
 TriangleMesh quad(float half, float z) {
-  return {{{-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z}}, {}, {{0, 0}, {1, 0}, {1, 1}, {0, 1}}, {0, 1, 2, 0, 2, 3}};
+  return {{{-half, -half, z}, {half, -half, z}, {half, half, z}, {-half, half, z}},
+          {},
+          {{0, 0}, {1, 0}, {1, 1}, {0, 1}},
+          {0, 1, 2, 0, 2, 3}};
 }
 
 /// Lights of shapes alone, each placed by its own transform.
@@ -52,17 +55,19 @@ TEST_CASE("irradiance of emitters with a closed form") {
   const double d = 2.0;
   CHECK(irradiance(lights_of({emissive(Sphere{}, Rgb(3), moved)}), p, normalize(center - p), 20'000) ==
         doctest::Approx(kPi * 3 * 0.25 / (d * d)).epsilon(2e-3));
-  CHECK(irradiance(lights_of({emissive(Disk{0, 2, 0, 360}, Rgb(3), Transform::rotate(180, 1, 0, 0))}), {0, 0, -1.5f}, {0, 0, 1}, 100'000) ==
-        doctest::Approx(kPi * 3 * 4 / (4 + 2.25)).epsilon(6e-3));
+  CHECK(irradiance(lights_of({emissive(Disk{0, 2, 0, 360}, Rgb(3), Transform::rotate(180, 1, 0, 0))}), {0, 0, -1.5f}, {0, 0, 1},
+                   100'000) == doctest::Approx(kPi * 3 * 4 / (4 + 2.25)).epsilon(6e-3));
 
   // Under a corner of an a x b rectangle at height h: (L/2)(A atan B + C atan D), A = a/sqrt(a^2+h^2), B = b/sqrt(a^2+h^2), ...
   const double a = 2, b = 1.5, h = 0.8, ra = std::sqrt(a * a + h * h), rb = std::sqrt(b * b + h * h);
   const double expected = 0.5 * 3 * (a / ra * std::atan(b / ra) + b / rb * std::atan(a / rb));
   const BilinearMesh rectangle{{{0, 0, 0}, {2, 0, 0}, {0, 1.5f, 0}, {2, 1.5f, 0}}, {}, {}, {0, 1, 2, 3}};
   const TriangleMesh triangles{{{0, 0, 0}, {2, 0, 0}, {0, 1.5f, 0}, {2, 1.5f, 0}}, {}, {}, {0, 1, 2, 2, 1, 3}};
-  CHECK(irradiance(lights_of({emissive(rectangle, Rgb(3))}), {0, 0, 0.8f}, {0, 0, -1}, 60'000) == doctest::Approx(expected).epsilon(5e-3));
+  CHECK(irradiance(lights_of({emissive(rectangle, Rgb(3))}), {0, 0, 0.8f}, {0, 0, -1}, 60'000) ==
+        doctest::Approx(expected).epsilon(5e-3));
   for (const LightStrategy s : {LightStrategy::uniform, LightStrategy::power, LightStrategy::tree_binary})
-    CHECK(irradiance(lights_of({emissive(triangles, Rgb(3))}, {s}), {0, 0, 0.8f}, {0, 0, -1}, 100'000) == doctest::Approx(expected).epsilon(8e-3));
+    CHECK(irradiance(lights_of({emissive(triangles, Rgb(3))}, {s}), {0, 0, 0.8f}, {0, 0, -1}, 100'000) ==
+          doctest::Approx(expected).epsilon(8e-3));
 }
 
 TEST_CASE("an ellipsoid's irradiance is the integral over the directions that meet it") {
@@ -77,12 +82,15 @@ TEST_CASE("an ellipsoid's irradiance is the integral over the directions that me
       const double a = dot(w, w), half_b = dot(o, w), c = dot(o, o) - 1;
       if (half_b < 0 && half_b * half_b > a * c) expected += 5 * z * 2 * kPi / (double(kSteps) * kSteps);
     }
-  CHECK(irradiance(lights_of({emissive(Sphere{}, Rgb(5), t)}), {0, 0, 0}, {0, 0, 1}, 300'000) == doctest::Approx(expected).epsilon(5e-3));
+  CHECK(irradiance(lights_of({emissive(Sphere{}, Rgb(5), t)}), {0, 0, 0}, {0, 0, 1}, 300'000) ==
+        doctest::Approx(expected).epsilon(5e-3));
 }
 
 TEST_CASE("ids run through the scene's lights, then the primitives of the shapes in order") {
   Scene scene;
-  scene.lights = {{PointLight{{0, 0, 5}, Rgb(1)}, {}}, {InfiniteLight{}, {}}, {DistantLight{{0, 0, -1}, Rgb(2)}, {}},
+  scene.lights = {{PointLight{{0, 0, 5}, Rgb(1)}, {}},
+                  {InfiniteLight{}, {}},
+                  {DistantLight{{0, 0, -1}, Rgb(2)}, {}},
                   {SpotLight{{}, Rgb(1), 30, 25}, {}}};
   const std::vector<Shape> shapes{emissive(quad(1, 0), Rgb(1)), emissive(Sphere{}, Rgb(2)), emissive(quad(1, 3), Rgb(0))};
   const std::vector<EmitterShape> placed{{&shapes[0], {}}, {&shapes[1], Transform::translate(5, 0, 0)}, {&shapes[2], {}}};
@@ -199,16 +207,20 @@ TEST_CASE("exhaustive: every light has pmf 1") {
 struct Zoo {
   Zoo() : map("zoo", 16, 16, [](int x, int y) { return Rgb(x == 3 && y == 5 ? 500.0f : 0.1f * y); }) {
     Rng rng(31);
-    scene.lights = {{PointLight{{2, 2, 2}, {1, 2, 3}}, {}}, {PointLight{{2, 2, 2}, Rgb(0)}, {}},
+    scene.lights = {{PointLight{{2, 2, 2}, {1, 2, 3}}, {}},
+                    {PointLight{{2, 2, 2}, Rgb(0)}, {}},
                     {SpotLight{Transform::translate(-2, 0, 2) * Transform::scale(1, 2, 1), Rgb(4), 50, 10}, {}},
-                    {DistantLight{{0.2f, 0.3f, -1}, Rgb(1)}, {}}, {InfiniteLight{}, {}}};
+                    {DistantLight{{0.2f, 0.3f, -1}, Rgb(1)}, {}},
+                    {InfiniteLight{}, {}}};
     InfiniteLight infinite;
     infinite.path = map.path();
     infinite.to_world = Transform::rotate(77, 1, 2, 0);
     scene.lights.push_back({infinite, {}});
-    shapes = {emissive(quad(0.5f, -2), Rgb(3)), emissive(Sphere{0.4f, -0.4f, 0.4f, 360}, Rgb(1), Transform::translate(0, 3, 0)),
+    shapes = {emissive(quad(0.5f, -2), Rgb(3)),
+              emissive(Sphere{0.4f, -0.4f, 0.4f, 360}, Rgb(1), Transform::translate(0, 3, 0)),
               emissive(Sphere{0.4f, -0.1f, 0.4f, 200}, Rgb(1), Transform::translate(0, -3, 0) * Transform::scale(-1, 2, 0.5)),
-              emissive(Disk{}, Rgb(1), Transform::translate(3, 0, -1)), emissive(Cylinder{0.2f, 0, 2, 360}, Rgb(2)),
+              emissive(Disk{}, Rgb(1), Transform::translate(3, 0, -1)),
+              emissive(Cylinder{0.2f, 0, 2, 360}, Rgb(2)),
               emissive(TriangleMesh{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}, {}, {}, {0, 1, 2}}, Rgb(1)),
               emissive(BilinearMesh{{{4, 0, 0}, {5, 0, 1}, {4, 1, 0}, {5, 1, -1}}, {}, {}, {0, 1, 2, 3}}, Rgb(1))};
     shapes[4].emission->two_sided = true;

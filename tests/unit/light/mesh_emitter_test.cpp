@@ -94,7 +94,8 @@ TEST_CASE("emissive patches that are no rectangles are sampled as their density 
   }};
   int i = 0;
   for (const auto& shape : shapes)
-    for (const auto& [t, what] : {std::pair{kPlain, " plain"}, std::pair{kSkewed, " skewed"}, std::pair{kMirrored, " mirrored"}})
+    for (const auto& [t, what] :
+         {std::pair{kPlain, " plain"}, std::pair{kSkewed, " skewed"}, std::pair{kMirrored, " mirrored"}})
       for (const Vec3 p : {Vec3{0.5f, 0.4f, 2}, Vec3{3, 1, -2}})
         test::check_emitter(patch("shape " + std::to_string(i++ / 6) + what, shape, t), p, normalize(Vec3{0.5f, 0.5f, 0} - p));
 }

@@ -36,8 +36,7 @@ test::EmitterUnderTest quadric(std::string name, const Shape& shape, bool cone) 
   const auto e = std::make_shared<QuadricEmitter>(shape, shape.to_world, true);
   // The parametrisation runs so that its normal is the shape's own; mirrors and reversal turn it.
   const double sign = shape.reverse_orientation ? -1 : 1;
-  return {std::move(name), [=](Vec3 p, Vec2 u) { return e->sample(p, u); },
-          [=](Vec3 p, Vec3 hit) { return e->pdf(p, hit); },
+  return {std::move(name), [=](Vec3 p, Vec2 u) { return e->sample(p, u); }, [=](Vec3 p, Vec3 hit) { return e->pdf(p, hit); },
           [=](double u, double v) -> std::optional<test::SurfacePoint> {
             const double h = 1e-5;
             const auto at = [&](double a, double b) { return mapped(shape.to_world, object_point(shape, a, b)); };
@@ -47,7 +46,8 @@ test::EmitterUnderTest quadric(std::string name, const Shape& shape, bool cone) 
           cone};
 }
 
-Shape shape_of(std::variant<TriangleMesh, BilinearMesh, Sphere, Disk, Cylinder> kind, const Transform& t = {}, bool reverse = false) {
+Shape shape_of(std::variant<TriangleMesh, BilinearMesh, Sphere, Disk, Cylinder> kind, const Transform& t = {},
+               bool reverse = false) {
   Shape s;
   s.kind = std::move(kind);
   s.to_world = t;
@@ -62,7 +62,8 @@ const Transform kSheared = kStretched * Transform::rotate(30, 0, 1, 0) * Transfo
 
 TEST_CASE("whole spheres are sampled over the cone they are seen under") {
   const Sphere unit;
-  for (const auto& [t, what] : {std::pair{Transform(), "plain"}, std::pair{kTurned * Transform::scale(0.5, 0.5, 0.5), "turned"}})
+  for (const auto& [t, what] :
+       {std::pair{Transform(), "plain"}, std::pair{kTurned * Transform::scale(0.5, 0.5, 0.5), "turned"}})
     for (const Vec3 p : {Vec3{0, 0, 3}, Vec3{1.5f, -1.2f, 0.4f}, Vec3{40, 20, 10}, Vec3{1.5f, 0.5f, -0.2f}})
       test::check_emitter(quadric(what, shape_of(unit, t), true), p, normalize(Vec3{0.1f, 0.2f, 0.3f} - p), 8, 60);
 }

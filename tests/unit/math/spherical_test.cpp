@@ -49,13 +49,13 @@ constexpr std::size_t kWideTriangles = 5;  // those that bins of directions can 
 TEST_CASE("spherical triangles: samples are uniform over the solid angle") {
   for (const Triangle& t : std::span(kTriangles).first(kWideTriangles)) {
     const SphericalTriangle s(t.a, t.b, t.c);
-    const auto result = test::chi_squared_test(
-        [&](const test::Uniform& random) { return to_vec3(s.sample(next_2d(random))); },
-        [&](Vec3 w) { return inside(Vec3d(w), t.a, t.b, t.c, 2e-7) ? 1 / s.solid_angle() : 0; },
-        {.samples = 50'000,
-         .axis = to_vec3(normalize(normalize(t.a) + normalize(t.b) + normalize(t.c))),
-         .theta_power = 3,
-         .alpha = test::sidak(1e-3, kWideTriangles)});
+    const auto result =
+        test::chi_squared_test([&](const test::Uniform& random) { return to_vec3(s.sample(next_2d(random))); },
+                               [&](Vec3 w) { return inside(Vec3d(w), t.a, t.b, t.c, 2e-7) ? 1 / s.solid_angle() : 0; },
+                               {.samples = 50'000,
+                                .axis = to_vec3(normalize(normalize(t.a) + normalize(t.b) + normalize(t.c))),
+                                .theta_power = 3,
+                                .alpha = test::sidak(1e-3, kWideTriangles)});
     CHECK_MESSAGE(result.passed, t.name, ": ", result.summary());
     CHECK_MESSAGE(result.density_integral == doctest::Approx(1).epsilon(0.01), t.name);
   }
@@ -151,8 +151,8 @@ TEST_CASE("spherical rectangles: each part of one gets samples in proportion to 
       for (int j = 0; j < kCuts; ++j) {
         const Vec3d a = r.corner + r.x * (double(i) / kCuts) + r.y * (double(j) / kCuts);
         const Vec3d x = r.x / kCuts, y = r.y / kCuts;
-        const double omega = SphericalTriangle(a, a + x, a + x + y).solid_angle() +
-                             SphericalTriangle(a, a + x + y, a + y).solid_angle();
+        const double omega =
+            SphericalTriangle(a, a + x, a + x + y).solid_angle() + SphericalTriangle(a, a + x + y, a + y).solid_angle();
         probability.push_back(omega / whole.solid_angle());
         sum += omega;
       }
