@@ -19,11 +19,12 @@ float position(float kelvin) { return std::log(kelvin / BlackbodyTable::kMin); }
 BlackbodyTable::BlackbodyTable() {
   nodes_.resize(kIntervals + 3);
   const float step = position(kMax) / kIntervals;
+  auto node = nodes_.begin();
   for (int i = -1; i <= kIntervals + 1; ++i) {
     const float kelvin = kMin * std::exp(static_cast<float>(i) * step);
     // exp(kScale / T) overflows where rgb underflows: nothing to see there.
     const float lift = kScale / kelvin;
-    nodes_[static_cast<std::size_t>(i + 1)] = lift < 80 ? blackbody_rgb(kelvin) * std::exp(lift) : Rgb{};
+    *node++ = lift < 80 ? blackbody_rgb(kelvin) * std::exp(lift) : Rgb{};
   }
 }
 

@@ -54,6 +54,7 @@ UniformOptics sum_of(MediaView media) {
 /// The distance is drawn from the exponential of one channel and weighted by the density over all channels:
 /// p(t) = sum_c P_c sigma_c exp(-sigma_c t), P_c proportional to |beta_c|. Emission along the whole interval is
 /// added in closed form, whether the path collides or not.
+// NOLINTNEXTLINE(readability-function-size): as free_flight
 Flight homogeneous_flight(MediaView media, double t0, double t1, Rgb beta, float u_first, Rng& rng) {
   const UniformOptics m = sum_of(media);
   const double length = t1 - t0;

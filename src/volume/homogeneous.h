@@ -22,6 +22,7 @@ struct UniformOptics {
 bool all_homogeneous(MediaView media);
 UniformOptics sum_of(MediaView media);
 
+/// `beta` with its largest channel 1.
 Flight homogeneous_flight(MediaView media, double t0, double t1, Rgb beta, float u_first, Rng& rng);
 
 }  // namespace tyndall

@@ -8,7 +8,7 @@
 namespace tyndall {
 
 Rgb PlacedGrid::rgb_at(Vec3 p) const {
-  float v[BrickGrid::kMaxChannels];
+  float v[kMaxChannels];
   grid.lookup(to_local.point(p), v);
   return {v[0], v[1], v[2]};
 }
@@ -18,10 +18,14 @@ Rgb EmissionField::at(Vec3 p) const {
   const float f = scale ? factor * scale->at(p) : factor;
   if (!(f > 0)) return {};
   switch (kind) {
-    case Kind::constant: return Le * f;
-    case Kind::blackbody: return (*table)((values->at(p) - temperature_offset) * temperature_scale) * f;
-    case Kind::rgb_grid: return values->rgb_at(p) * f;
-    case Kind::none: break;
+    case Kind::constant:
+      return Le * f;
+    case Kind::blackbody:
+      return (*table)((values->at(p) - temperature_offset) * temperature_scale) * f;
+    case Kind::rgb_grid:
+      return values->rgb_at(p) * f;
+    case Kind::none:
+      break;
   }
   return {};
 }
@@ -42,11 +46,12 @@ Coefficients ParticipatingMedium::at(Vec3 p) const {
     const Vec3d local = m.density.to_local.point(p);
     if (!m.clip.contains(local)) return result;
     if (m.kind == MediumData::Kind::cloud) {
-      const float d = cloud_density(m.cloud, {static_cast<float>(local[0]), static_cast<float>(local[1]), static_cast<float>(local[2])});
+      const float d =
+          cloud_density(m.cloud, {static_cast<float>(local[0]), static_cast<float>(local[1]), static_cast<float>(local[2])});
       result.sigma_a = m.optics.sigma_a * d;
       result.sigma_s = m.optics.sigma_s * d;
     } else {
-      float values[BrickGrid::kMaxChannels];
+      float values[kMaxChannels];
       m.density.grid.lookup(local, values);
       m.scale_by(values, result.sigma_a, result.sigma_s);
     }
@@ -74,7 +79,7 @@ Bounds3 ParticipatingMedium::bounds() const { return data_->bounds; }
 float ParticipatingMedium::sigma_maj() const {
   const MediumData& m = *data_;
   if (m.kind != MediumData::Kind::grid) return max_component(m.optics.sigma_a + m.optics.sigma_s);
-  float values[BrickGrid::kMaxChannels];
+  float values[kMaxChannels];
   for (int c = 0; c < m.density.grid.channels(); ++c) values[c] = m.density.grid.range(c).max;
   Rgb sigma_a, sigma_s;
   m.scale_by(values, sigma_a, sigma_s);

@@ -22,9 +22,7 @@ struct BuildContext {
   [[noreturn]] void fail(const std::string& what) const { throw Error(medium.where, name() + ": " + what); }
 };
 
-Box3d box_of(const Bounds3& b) {
-  return {{{b.min.x, b.min.y, b.min.z}}, {{b.max.x, b.max.y, b.max.z}}};
-}
+Box3d box_of(const Bounds3& b) { return {{{b.min.x, b.min.y, b.min.z}}, {{b.max.x, b.max.y, b.max.z}}}; }
 
 Box3d intersect(const Box3d& a, const Box3d& b) {
   Box3d r;
@@ -95,7 +93,8 @@ class CellGrid {
     const Vec3 e = bounds.extent();
     if (!(e.x > 0 && e.y > 0 && e.z > 0)) context.fail("its box p0 p1 has no volume; give it two different corners");
     if (nx < 1 || ny < 1 || nz < 1) context.fail("nx, ny and nz must be at least 1");
-    const Transform cells = Transform::translate(-0.5, -0.5, -0.5) * Transform::scale(nx / double{e.x}, ny / double{e.y}, nz / double{e.z}) *
+    const Transform cells = Transform::translate(-0.5, -0.5, -0.5) *
+                            Transform::scale(nx / double{e.x}, ny / double{e.y}, nz / double{e.z}) *
                             Transform::translate(-bounds.min.x, -bounds.min.y, -bounds.min.z);
     world_to_index_ = cells * context.medium.to_world.inverse();
   }
@@ -119,17 +118,19 @@ class CellGrid {
   PlacedGrid place(std::vector<std::vector<float>> planes, const std::string& what, bool negative_to_zero = true) const {
     for (const std::vector<float>& plane : planes)
       if (plane.size() != count())
-        context_.fail("has " + std::to_string(plane.size()) + " values of " + what + "; nx*ny*nz is " + std::to_string(count()));
+        context_.fail("has " + std::to_string(plane.size()) + " values of " + what + "; nx*ny*nz is " +
+                      std::to_string(count()));
     return place(DenseSource(size_, std::move(planes)), what, negative_to_zero);
   }
   PlacedGrid place(const DenseSource& source, const std::string& what, bool negative_to_zero, const Index3& first = {}) const {
     const VoxelRules rules{negative_to_zero, context_.options.sanitize, std::nullopt};
     const VoxelReport found = inspect(source, rules);
     if (found.non_finite > 0 && !rules.sanitize)
-      context_.fail(std::to_string(found.non_finite) + " values of " + what + " are NaN or infinite; --sanitize sets them to 0");
+      context_.fail(std::to_string(found.non_finite) + " values of " + what +
+                    " are NaN or infinite; --sanitize sets them to 0");
     if (found.negative > 0 && negative_to_zero)
-      context_.notes.push_back("warning: " + context_.name() + ": " + std::to_string(found.negative) + " negative values of " + what +
-                               " (lowest " + std::to_string(found.lowest) + ") were set to 0");
+      context_.notes.push_back("warning: " + context_.name() + ": " + std::to_string(found.negative) + " negative values of " +
+                               what + " (lowest " + std::to_string(found.lowest) + ") were set to 0");
     PlacedGrid placed;
     placed.grid = build_brick_grid(source, {rules, context_.options.float_bricks});
     Vec3d offset = to_vec3d(placed.grid.origin());
@@ -172,7 +173,8 @@ void build(const UniformGridMedium& uniform, const BuildContext& context, Medium
     emission.Le = uniform.Le;
     emission.kind = EmissionField::Kind::constant;
   }
-  if (emission.kind != EmissionField::Kind::none && !uniform.Le_scale.empty()) emission.scale = cells.place({uniform.Le_scale}, "Lescale");
+  if (emission.kind != EmissionField::Kind::none && !uniform.Le_scale.empty())
+    emission.scale = cells.place({uniform.Le_scale}, "Lescale");
 }
 
 /// Three planes of `values`; of ones in and around the box when there are none.
@@ -185,7 +187,8 @@ void append_planes(const std::vector<Rgb>& values, const std::array<int, 3>& siz
     for (int z = 0; z < size[2] && !values.empty(); ++z)
       for (int y = 0; y < size[1]; ++y)
         for (int x = 0; x < size[0]; ++x)
-          plane[(static_cast<std::size_t>(z + 1) * std::size_t(padded[1]) + static_cast<std::size_t>(y + 1)) * std::size_t(padded[0]) +
+          plane[(static_cast<std::size_t>(z + 1) * std::size_t(padded[1]) + static_cast<std::size_t>(y + 1)) *
+                    std::size_t(padded[0]) +
                 static_cast<std::size_t>(x + 1)] = values[from++][c];
     planes.push_back(std::move(plane));
   }
@@ -195,7 +198,8 @@ void build(const RgbGridMedium& rgb, const BuildContext& context, MediumData& da
   const CellGrid cells(context, rgb.bounds, rgb.nx, rgb.ny, rgb.nz);
   for (const std::vector<Rgb>* values : {&rgb.sigma_a, &rgb.sigma_s, &rgb.Le})
     if (!values->empty() && values->size() != cells.count())
-      context.fail("has " + std::to_string(values->size()) + " colours in a grid; nx*ny*nz is " + std::to_string(cells.count()));
+      context.fail("has " + std::to_string(values->size()) + " colours in a grid; nx*ny*nz is " +
+                   std::to_string(cells.count()));
 
   // One layer more on every side: where a coefficient is not given it is 1 right up to the faces of the box.
   const std::array<int, 3> padded{rgb.nx + 2, rgb.ny + 2, rgb.nz + 2};

@@ -23,10 +23,10 @@ struct PlacedGrid {
 /// The radiance scale Le of a medium. Factors that are absent count as 1.
 struct EmissionField {
   enum class Kind { none, constant, blackbody, rgb_grid } kind = Kind::none;
-  Rgb Le;                             ///< constant: the colour
-  float factor = 1;                   ///< multiplies everything
-  std::optional<PlacedGrid> scale;    ///< multiplies everything, point by point
-  std::optional<PlacedGrid> values;   ///< blackbody: temperatures; rgb_grid: Le
+  Rgb Le;                                               ///< constant: the colour
+  float factor = 1;                                     ///< multiplies everything
+  std::optional<PlacedGrid> scale;                      ///< multiplies everything, point by point
+  std::optional<PlacedGrid> values;                     ///< blackbody: temperatures; rgb_grid: Le
   float temperature_scale = 1, temperature_offset = 0;  ///< kelvin = (value - offset) * scale
   std::optional<BlackbodyTable> table;
 
@@ -35,11 +35,11 @@ struct EmissionField {
 
 struct MediumData {
   enum class Kind { homogeneous, grid, cloud } kind = Kind::homogeneous;
-  MediumOptics optics;     ///< at density 1; rgbgrid: sigma_a and sigma_s are 1 and the grid has six channels
-  PlacedGrid density;      ///< grid: 1 channel, 3 (density per colour) or 6 (sigma_a then sigma_s)
-  Box3d clip;              ///< local coordinates beyond which the medium ends: grid, cloud
-  CloudMedium cloud;       ///< local coordinates are medium space
-  float cloud_mean = 0.5f; ///< of the density, roughly; any value is correct
+  MediumOptics optics;      ///< at density 1; rgbgrid: sigma_a and sigma_s are 1 and the grid has six channels
+  PlacedGrid density;       ///< grid: 1 channel, 3 (density per colour) or 6 (sigma_a then sigma_s)
+  Box3d clip;               ///< local coordinates beyond which the medium ends: grid, cloud
+  CloudMedium cloud;        ///< local coordinates are medium space
+  float cloud_mean = 0.5f;  ///< of the density, roughly; any value is correct
   EmissionField emission;
   Bounds3 bounds;
 

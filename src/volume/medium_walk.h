@@ -4,7 +4,9 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <tuple>
 
+#include "volume/grid_ray.h"
 #include "volume/medium_data.h"
 #include "volume/phase_mix.h"
 
@@ -14,8 +16,9 @@ namespace tyndall {
 enum class WalkMode { majorant, residual };
 
 /// A node of the grid's tree is split further only while rate * length exceeds this: below it, walking the children
-/// costs more than the look-ups it would save.
-inline constexpr float kRefineDepth = 1.0f;
+/// costs more than the look-ups it would save. Finer pieces lower the variance of residual tracking too.
+template <WalkMode Mode>
+inline constexpr float kRefineDepth = Mode == WalkMode::majorant ? 1.0f : 0.125f;
 
 /// Sigma and emission at a point, in 1/world unit and radiance/world unit.
 struct LocalOptics {
@@ -24,28 +27,24 @@ struct LocalOptics {
 };
 
 /// Tiles [t0, t1] of a ray with pieces, in order: next() moves to the first or next one, then t(), t_end(), rate()
-/// and control() describe it and optics_at() reads inside it. Positions are in double precision: t is preserved by the
-/// map to index space, and a far origin or a huge grid costs no accuracy. Never allocates.
-///
-/// The position is kept as integer cell coordinates which advance across exactly one face a step, so that rays in
-/// faces, along axes, from corners and to infinity end after at most one step for each face passed, whatever the
-/// rounding of t. Look-ups inside a brick are clamped to it, so that no rounding leaves the range of its majorant.
-template <WalkMode mode>
+/// and control() describe it and optics_at() reads inside it. Never allocates. Look-ups inside a brick are clamped
+/// to it, so that no rounding leaves the range of its majorant.
+template <WalkMode Mode>
 class MediumWalk {
  public:
-  MediumWalk(const MediumData& medium, const Ray& ray, double t0, double t1) : medium_(&medium), ray_(&ray), t_(t0), t_end_(t0), limit_(t1) {
+  MediumWalk(const MediumData& medium, const Ray& ray, double t0, double t1)
+      : medium_(&medium), ray_(&ray), t_(t0), t_end_(t0), limit_(t1) {
     if (medium.kind == MediumData::Kind::homogeneous) {
       inside_end_ = t1;
       return;
     }
-    const Vec3d o = medium.density.to_local.point(ray.o), d = medium.density.to_local.vector(ray.d);
-    for (int i = 0; i < 3; ++i) {
-      o_[i] = o[i];
-      d_[i] = d[i];
-      inverse_[i] = 1 / d[i];
+    top_sigma_ = max_component(medium.optics.sigma_a + medium.optics.sigma_s);
+    local_ = GridRay(medium.density.to_local, ray);
+    std::tie(inside_begin_, inside_end_) = local_.clip(medium.clip, t0, t1);
+    if (medium.kind == MediumData::Kind::grid && inside_begin_ < inside_end_) {
+      local_.enter(medium.density.grid, medium.clip, inside_begin_);
+      max_steps_ += local_.most_steps();
     }
-    clip_to(medium.clip);
-    if (medium.kind == MediumData::Kind::grid && inside_begin_ < inside_end_) enter();
   }
 
   /// Move to the next piece; false at the end.
@@ -53,13 +52,15 @@ class MediumWalk {
     t_ = t_end_;
     if (t_ >= limit_) return false;
     ++steps_;
-    if (t_ < inside_begin_) return pass(std::min(inside_begin_, limit_));
-    if (t_ >= inside_end_) return pass(limit_);
-    if (steps_ > max_steps_) return pass(limit_);
+    if (t_ >= inside_end_ || steps_ > max_steps_) return pass(limit_);
+    if (t_ < inside_begin_) return pass(inside_begin_);
     switch (medium_->kind) {
-      case MediumData::Kind::homogeneous: return uniform(medium_->optics.sigma_a + medium_->optics.sigma_s, limit_, Rgb{1.0f}, 0);
-      case MediumData::Kind::cloud: return next_cloud();
-      case MediumData::Kind::grid: break;
+      case MediumData::Kind::homogeneous:
+        return next_uniform(1, 0);
+      case MediumData::Kind::cloud:
+        return next_uniform(medium_->cloud_mean, std::max(medium_->cloud_mean, 1 - medium_->cloud_mean));
+      case MediumData::Kind::grid:
+        break;
     }
     return next_node();
   }
@@ -71,25 +72,22 @@ class MediumWalk {
   std::uint64_t steps() const { return steps_; }
   bool capped() const { return steps_ > max_steps_; }  ///< the safety limit of steps ended the walk: a defect
 
-  /// Inside the current piece, of non-zero rate or control.
+  /// Inside the current piece, of non-zero rate.
   LocalOptics optics_at(double t, bool with_emission) {
     LocalOptics result;
     switch (medium_->kind) {
       case MediumData::Kind::homogeneous:
-        result.sigma_a = medium_->optics.sigma_a;
-        result.sigma_s = medium_->optics.sigma_s;
+        scale_by(1, result);
         break;
-      case MediumData::Kind::cloud: {
-        const Vec3 p{static_cast<float>(o_[0] + t * d_[0]), static_cast<float>(o_[1] + t * d_[1]), static_cast<float>(o_[2] + t * d_[2])};
-        const float density = cloud_density(medium_->cloud, p);
-        result.sigma_a = medium_->optics.sigma_a * density;
-        result.sigma_s = medium_->optics.sigma_s * density;
+      case MediumData::Kind::cloud:
+        scale_by(cloud_density(medium_->cloud, medium_point(t)), result);
         break;
-      }
-      case MediumData::Kind::grid: read_grid(t, result); break;
+      case MediumData::Kind::grid:
+        read_grid(t, result);
+        break;
     }
     if (with_emission && medium_->emission.kind != EmissionField::Kind::none && !is_black(result.sigma_a))
-      result.emission = result.sigma_a * medium_->emission.at(ray_->o + ray_->d * static_cast<float>(t));
+      result.emission = result.sigma_a * medium_->emission.at(ray_->at(static_cast<float>(t)));
     last_sigma_s_ = result.sigma_s;
     return result;
   }
@@ -112,192 +110,127 @@ class MediumWalk {
     return true;
   }
 
-  bool uniform(Rgb sigma_t, double until, Rgb control, float spread) {
-    t_end_ = until;
-    if constexpr (mode == WalkMode::majorant) {
-      rate_ = max_component(sigma_t);
-    } else {
-      rate_ = spread * max_component(sigma_t);
-      control_ = sigma_t * control;
-    }
+  /// One piece up to the end of the medium: density in [0, 1] if `spread`, else 1.
+  bool next_uniform(float control, float spread) {
+    const Rgb sigma_t = medium_->optics.sigma_a + medium_->optics.sigma_s;
+    t_end_ = inside_end_;
+    rate_ = max_component(sigma_t) * (Mode == WalkMode::majorant ? 1 : spread);
+    if constexpr (Mode == WalkMode::residual) control_ = sigma_t * control;
     return true;
   }
 
-  bool next_cloud() {
-    const float mean = medium_->cloud_mean;
-    return uniform(medium_->optics.sigma_a + medium_->optics.sigma_s, std::min(inside_end_, limit_), Rgb{mean}, std::max(mean, 1 - mean));
-  }
-
-  /// The part of the ray in the box; none when begin >= end.
-  void clip_to(const Box3d& box) {
-    inside_begin_ = t_;
-    inside_end_ = box.empty() ? -kInf : limit_;
-    for (int i = 0; i < 3; ++i) {
-      if (d_[i] == 0) {
-        if (!(o_[i] >= box.lo[i] && o_[i] <= box.hi[i])) inside_end_ = -kInf;
-        continue;
-      }
-      const double a = (box.lo[i] - o_[i]) * inverse_[i], b = (box.hi[i] - o_[i]) * inverse_[i];
-      inside_begin_ = std::max(inside_begin_, std::min(a, b));
-      inside_end_ = std::min(inside_end_, std::max(a, b));
-    }
-    if (!(inside_begin_ < inside_end_)) inside_end_ = inside_begin_ = -kInf;
-  }
-
-  void enter() {
-    const Box3d& box = medium_->clip;
-    for (int i = 0; i < 3; ++i) {
-      first_[i] = static_cast<std::int64_t>(std::floor(box.lo[i]));
-      last_[i] = std::max(first_[i], static_cast<std::int64_t>(std::ceil(box.hi[i])) - 1);
-      cell_[i] = std::clamp(static_cast<std::int64_t>(std::floor(o_[i] + inside_begin_ * d_[i])), first_[i], last_[i]);
-    }
-    level_ = medium_->density.grid.root_level();
-    stack_[level_] = medium_->density.grid.root();
-    // Twice the faces of bricks that a line can pass.
-    for (int i = 0; i < 3; ++i) max_steps_ += static_cast<std::uint64_t>((last_[i] - first_[i]) / 4 + 2);
-  }
-
-  /// The node that holds cell_, found from the deepest ancestor it shares with the last one; splits while that pays.
+  /// The node at the ray's cell, split while that pays.
   bool next_node() {
     const BrickGrid& grid = medium_->density.grid;
-    std::uint32_t node = stack_[level_];
-    for (;;) {
-      const double exit = exit_of(level_);
-      if (node == BrickGrid::kNone) {
-        pass(exit);
-        break;
-      }
-      set_rate(grid.ranges(node));
-      if (level_ == 0 || grid.node(node).mask == 0 || rate_ * (std::min(exit, inside_end_) - t_) <= kRefineDepth) {
-        t_end_ = exit;
-        node_ = node;
-        break;
-      }
-      const Index3 cell{cell_[0], cell_[1], cell_[2]};
-      node = grid.child(node, level_--, cell);
-      stack_[level_] = node;
+    double exit = local_.exit(t_);
+    while (local_.node() != BrickGrid::kNone && !grid.node(local_.node()).is_leaf() &&
+           variation(grid.ranges(local_.node())) * (std::min(exit, inside_end_) - t_) > kRefineDepth<Mode>) {
+      local_.descend(grid);
+      exit = local_.exit(t_);
     }
-    node_level_ = level_;
-    for (int i = 0; i < 3; ++i) node_lo_[i] = cell_[i] & ~(BrickGrid::extent(level_) - 1);
-    if (t_end_ < inside_end_)
-      leave();
+    if (local_.node() == BrickGrid::kNone)
+      pass(exit);
     else
-      t_end_ = inside_end_;
+      set_rate(grid.ranges(local_.node()), std::min(exit, inside_end_) - t_);
+
+    t_end_ = std::min(exit, inside_end_);
+    node_ = local_.node();
+    node_level_ = local_.level();
+    node_corner_ = local_.corner();
+    if (t_end_ < inside_end_ && !local_.leave(grid, t_end_)) inside_end_ = t_end_;
     return true;
   }
 
-  /// Where the ray leaves the node of `level` around cell_; remembers through which axis.
-  double exit_of(int level) {
-    const std::int64_t size = BrickGrid::extent(level);
-    double exit = kInf;
-    for (int i = 0; i < 3; ++i) {
-      if (d_[i] == 0) continue;
-      const std::int64_t lo = cell_[i] & ~(size - 1);
-      const double t = (static_cast<double>(d_[i] > 0 ? lo + size : lo) - o_[i]) * inverse_[i];
-      if (t < exit) {
-        exit = t;
-        exit_axis_ = i;
-      }
-    }
-    return std::max(exit, t_);
+  /// What splitting a node would make smaller: its majorant, or how far sigma_t varies in it.
+  float variation(std::span<const ValueRange> ranges) const {
+    const auto span_of = [](const ValueRange& r) { return Mode == WalkMode::majorant ? r.max : r.max - r.min; };
+    if (ranges.size() == 1) return span_of(ranges[0]) * top_sigma_;
+    float values[kMaxChannels] = {};
+    for (std::size_t c = 0; c < ranges.size(); ++c) values[c] = span_of(ranges[c]);
+    return max_component(extinction(values));
   }
 
-  /// Move cell_ across the exit face; the other two coordinates follow the ray but stay in the node's range.
-  void leave() {
-    const std::int64_t size = BrickGrid::extent(level_);
-    const Index3 before{cell_[0], cell_[1], cell_[2]};
-    bool outside = false;
-    for (int i = 0; i < 3; ++i) {
-      const std::int64_t lo = node_lo_[i];
-      if (i == exit_axis_) {
-        cell_[i] = d_[i] > 0 ? lo + size : lo - 1;
-        outside = cell_[i] < first_[i] || cell_[i] > last_[i];
-      } else {
-        const auto at = static_cast<std::int64_t>(std::floor(o_[i] + t_end_ * d_[i]));
-        cell_[i] = std::clamp(at, std::max(lo, first_[i]), std::min(lo + size - 1, last_[i]));
+  /// Rate and control of a node that the ray crosses in `length`.
+  void set_rate(std::span<const ValueRange> ranges, double length) {
+    rate_ = variation(ranges);
+    if constexpr (Mode == WalkMode::residual) {
+      const float mean_share = rate_ == 0 ? 1.0f : std::exp(-static_cast<float>(rate_ * length));
+      if (ranges.size() == 1) {
+        const float c = control_value(ranges[0], mean_share);
+        rate_ = spread(ranges[0], c) * top_sigma_;
+        control_ = (medium_->optics.sigma_a + medium_->optics.sigma_s) * c;
+        return;
       }
+      float values[kMaxChannels] = {};
+      for (std::size_t c = 0; c < ranges.size(); ++c) values[c] = control_value(ranges[c], mean_share);
+      control_ = extinction(values);
+      for (std::size_t c = 0; c < ranges.size(); ++c) values[c] = spread(ranges[c], values[c]);
+      rate_ = max_component(extinction(values));
     }
-    if (outside) {
-      inside_end_ = t_end_;
-      return;
-    }
-    // Back up to the deepest node that holds both cells.
-    const auto moved = static_cast<std::uint64_t>((before[0] ^ cell_[0]) | (before[1] ^ cell_[1]) | (before[2] ^ cell_[2]));
-    const int root = medium_->density.grid.root_level();
-    while (level_ < root && (moved >> (BrickGrid::kBrickLog2 + 2 * level_)) != 0) ++level_;
   }
-
-  void set_rate(std::span<const ValueRange> ranges) {
-    const MediumOptics& optics = medium_->optics;
-    if (ranges.size() == 1) {
-      const float top = max_component(optics.sigma_a + optics.sigma_s);
-      if constexpr (mode == WalkMode::majorant) {
-        rate_ = ranges[0].max * top;
-      } else {
-        rate_ = spread(ranges[0]) * top;
-        control_ = (optics.sigma_a + optics.sigma_s) * ranges[0].mean;
-      }
-      return;
-    }
-    float values[BrickGrid::kMaxChannels];
+  Rgb extinction(const float* values) const {
     Rgb a, s;
-    for (std::size_t c = 0; c < ranges.size(); ++c) values[c] = mode == WalkMode::majorant ? ranges[c].max : spread(ranges[c]);
     medium_->scale_by(values, a, s);
-    rate_ = max_component(a + s);
-    if constexpr (mode == WalkMode::residual) {
-      for (std::size_t c = 0; c < ranges.size(); ++c) values[c] = ranges[c].mean;
-      medium_->scale_by(values, a, s);
-      control_ = a + s;
-    }
+    return a + s;
   }
-  /// Bound on |value - mean|, with room for the rounding of the subtraction at the other end.
-  static float spread(const ValueRange& r) {
+
+  /// The mean where values differ little along the ray, the minimum where they differ by optical depths: there some
+  /// rays pass beside what is dense, and a control above their density makes weights of up to 2 a look-up. The blend
+  /// by exp(-depth of the difference) halves the variance of either on sparse smoke.
+  static float control_value(const ValueRange& r, float mean_share) {
+    return r.min == r.max ? r.mean : r.min + (r.mean - r.min) * mean_share;
+  }
+  /// Bound on |value - control|, with room for the rounding of the subtraction at the other end.
+  static float spread(const ValueRange& r, float control) {
     if (r.min == r.max) return 0;
-    return std::max(r.max - r.mean, r.mean - r.min) + 0x1p-22f * r.max;
+    return std::max(r.max - control, control - r.min) + 0x1p-22f * r.max;
+  }
+
+  void scale_by(float density, LocalOptics& result) const {
+    result.sigma_a = medium_->optics.sigma_a * density;
+    result.sigma_s = medium_->optics.sigma_s * density;
+  }
+  Vec3 medium_point(double t) const {
+    const Vec3d p = local_.at(t);
+    return {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])};
   }
 
   void read_grid(double t, LocalOptics& result) {
     const BrickGrid& grid = medium_->density.grid;
-    const double p[3] = {o_[0] + t * d_[0], o_[1] + t * d_[1], o_[2] + t * d_[2]};
-    std::int64_t lo[3] = {node_lo_[0], node_lo_[1], node_lo_[2]};
+    const Vec3d p = local_.at(t);
+    Index3 corner = node_corner_;
     std::uint32_t leaf = node_;
-    if (grid.node(node_).mask != 0) {
+    if (!grid.node(node_).is_leaf()) {
       const std::int64_t size = BrickGrid::extent(node_level_);
       Index3 cell;
       for (std::size_t i = 0; i < 3; ++i) {
-        cell[i] = std::clamp(static_cast<std::int64_t>(std::floor(p[i])), lo[i], lo[i] + size - 1);
-        lo[i] = cell[i] & ~std::int64_t{7};
+        cell[i] = std::clamp(static_cast<std::int64_t>(p.v[i]), corner[i], corner[i] + size - 1);
+        corner[i] = cell[i] & ~std::int64_t{7};
       }
       leaf = grid.leaf(node_, node_level_, cell);
       if (leaf == BrickGrid::kNone) return;
     }
-    const auto x = static_cast<float>(p[0] - static_cast<double>(lo[0])), y = static_cast<float>(p[1] - static_cast<double>(lo[1])),
-               z = static_cast<float>(p[2] - static_cast<double>(lo[2]));
-    if (grid.channels() == 1) {
-      const float density = grid.scalar_in_leaf(leaf, x, y, z);
-      result.sigma_a = medium_->optics.sigma_a * density;
-      result.sigma_s = medium_->optics.sigma_s * density;
-      return;
-    }
-    float values[BrickGrid::kMaxChannels];
-    grid.lookup_in_leaf(leaf, x, y, z, values);
+    const auto offset = [&](std::size_t i) { return static_cast<float>(p.v[i] - static_cast<double>(corner[i])); };
+    const BrickStore& bricks = grid.bricks();
+    const std::uint32_t brick = grid.node(leaf).first;
+    if (bricks.channels() == 1) return scale_by(bricks.lookup(brick, offset(0), offset(1), offset(2)), result);
+    float values[kMaxChannels];
+    bricks.lookup_all(brick, offset(0), offset(1), offset(2), values);
     medium_->scale_by(values, result.sigma_a, result.sigma_s);
   }
 
   const MediumData* medium_;
   const Ray* ray_;
-  double o_[3], d_[3], inverse_[3];  // of the ray in local coordinates
   double t_, t_end_, limit_;
   double inside_begin_ = -kInf, inside_end_ = -kInf;  // where the medium can be anything but empty
-  float rate_ = 0;
+  float rate_ = 0, top_sigma_ = 0;
   Rgb control_, last_sigma_s_;
-
-  std::int64_t cell_[3], first_[3], last_[3];  // the cell in which the next piece begins, and the range of cells
-  std::int64_t node_lo_[3];                    // lower corner of the current piece's node
-  std::uint32_t node_ = BrickGrid::kNone;
-  int node_level_ = 0, level_ = 0, exit_axis_ = 0;
   std::uint64_t steps_ = 0, max_steps_ = 16;
-  std::uint32_t stack_[BrickGrid::kMaxLevel + 1];  // ancestors of cell_ from the root down to level_
+
+  GridRay local_;         // already at the piece after the current one
+  Index3 node_corner_{};  // of the current piece's node
+  std::uint32_t node_ = BrickGrid::kNone;
+  int node_level_ = 0;
 };
 
 }  // namespace tyndall

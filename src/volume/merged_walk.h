@@ -13,15 +13,15 @@ namespace tyndall {
 
 /// The pieces of each medium, cut where any of them ends; rates, controls and coefficients add. Same interface as
 /// MediumWalk. Allocates only for more than kInline media.
-template <WalkMode mode>
+template <WalkMode Mode>
 class MergedWalk {
  public:
   MergedWalk(std::span<const ParticipatingMedium* const> media, const Ray& ray, double t0, double t1)
       : count_(media.size()), t_(t0), t_end_(t0), limit_(t1) {
-    walks_ = reinterpret_cast<MediumWalk<mode>*>(inline_);
+    walks_ = reinterpret_cast<MediumWalk<Mode>*>(inline_);
     if (count_ > kInline) {
-      heap_ = std::make_unique<std::byte[]>(count_ * sizeof(MediumWalk<mode>));
-      walks_ = reinterpret_cast<MediumWalk<mode>*>(heap_.get());
+      heap_ = std::make_unique<std::byte[]>(count_ * sizeof(MediumWalk<Mode>));
+      walks_ = reinterpret_cast<MediumWalk<Mode>*>(heap_.get());
     }
     for (std::size_t i = 0; i < count_; ++i) std::construct_at(walks_ + i, media[i]->data(), ray, t0, t1);
   }
@@ -35,7 +35,7 @@ class MergedWalk {
     rate_ = 0;
     control_ = {};
     for (std::size_t i = 0; i < count_; ++i) {
-      MediumWalk<mode>& walk = walks_[i];
+      MediumWalk<Mode>& walk = walks_[i];
       while (walk.t_end() <= t_ && walk.next()) ++steps_;
       t_end_ = std::min(t_end_, walk.t_end());
       rate_ += walk.rate();
@@ -79,26 +79,27 @@ class MergedWalk {
 
  private:
   static constexpr std::size_t kInline = 4;
-  static_assert(std::is_trivially_destructible_v<MediumWalk<mode>>);
+  static_assert(std::is_trivially_destructible_v<MediumWalk<Mode>>);
 
   std::size_t count_;
-  MediumWalk<mode>* walks_;
+  MediumWalk<Mode>* walks_;
   double t_, t_end_, limit_;
   float rate_ = 0;
   Rgb control_;
   std::uint64_t steps_ = 0;
   std::unique_ptr<std::byte[]> heap_;
-  alignas(MediumWalk<mode>) std::byte inline_[kInline * sizeof(MediumWalk<mode>)];
+  alignas(MediumWalk<Mode>) std::byte inline_[kInline * sizeof(MediumWalk<Mode>)];
 };
 
 /// Call body(walk) with the walk that suits `media`, which must not be empty.
-template <WalkMode mode, typename Body>
-decltype(auto) with_walk(std::span<const ParticipatingMedium* const> media, const Ray& ray, double t0, double t1, const Body& body) {
+template <WalkMode Mode, typename Body>
+decltype(auto) with_walk(std::span<const ParticipatingMedium* const> media, const Ray& ray, double t0, double t1,
+                         const Body& body) {
   if (media.size() == 1) {
-    MediumWalk<mode> walk(media[0]->data(), ray, t0, t1);
+    MediumWalk<Mode> walk(media[0]->data(), ray, t0, t1);
     return body(walk);
   }
-  MergedWalk<mode> walk(media, ray, t0, t1);
+  MergedWalk<Mode> walk(media, ray, t0, t1);
   return body(walk);
 }
 

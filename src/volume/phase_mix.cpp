@@ -56,7 +56,7 @@ std::optional<PhaseMix::MixSample> PhaseMix::sample(Vec3 wo, Rgb beta, float uc,
   if (!(mass > 0)) return std::nullopt;
 
   float rest = uc * mass;
-  const Lobe* chosen = nullptr;
+  const Lobe* chosen = lobes_.begin();
   for (const Lobe& lobe : lobes_) {
     const float m = lobe_mass(lobe, beta);
     if (m == 0) continue;

@@ -24,7 +24,7 @@ using namespace kernel;
 /// Throughput relative to the largest channel at the start, so that products neither under- nor overflow.
 Rgb normalised(Rgb beta) {
   const float top = std::max({std::abs(beta.r), std::abs(beta.g), std::abs(beta.b)});
-  return top > 0 ? beta * (1 / top) : Rgb{};
+  return top > 0 ? Rgb{beta.r / top, beta.g / top, beta.b / top} : Rgb{};
 }
 
 bool any_emissive(MediaView media) {
@@ -33,9 +33,9 @@ bool any_emissive(MediaView media) {
 
 /// State of a flight between its tentative collisions.
 struct FlightState {
-  Rgb beta;            // normalised
+  Rgb beta;  // normalised
   bool emissive;
-  float depth;         // optical depth of the majorant still to go
+  float depth;  // optical depth of the majorant still to go
   Flight flight;
 };
 
@@ -113,25 +113,26 @@ void fly(Walk& walk, FlightState& state, Rng& rng, TrackingStats& stats) {
 /// Sum of emission and product of (1 - sigma_t / M) over tentative collisions: ratio tracking [Novak et al. 2014].
 template <typename Walk>
 void gather(Walk& walk, bool emissive, EmissionTransmittance& result, Rng& rng, TrackingStats& stats) {
-  for_each_collision(walk, rng, stats, [&](double t, float rate) {
+  for_each_collision(walk, result.transmittance, rng, stats, [&](double t, float rate) {
     const LocalOptics at = walk.optics_at(t, emissive);
     const Rgb sigma_t = at.sigma_a + at.sigma_s;
     count_lookup(max_component(sigma_t), rate, stats);
     result.emitted += result.transmittance * at.emission * (1 / rate);
     result.transmittance *= Rgb{1.0f} - sigma_t * (1 / rate);
-    return roulette(result.transmittance, rng);
   });
 }
 
 }  // namespace
 
-Flight free_flight(MediaView media, const Ray& ray, float t0, float t1, Rgb beta, float u_first, Rng& rng, TrackingStats& stats) {
+// NOLINTNEXTLINE(readability-function-size): one caller, once a span; a struct would be filled to be emptied
+Flight free_flight(MediaView media, const Ray& ray, float t0, float t1, Rgb beta, float u_first, Rng& rng,
+                   TrackingStats& stats) {
   FlightState state{normalised(beta), false, 0, {}};
   state.flight.t = t1;
   if (media.empty() || !(t0 < t1) || is_black(state.beta)) return state.flight;
   if (all_homogeneous(media)) {
     ++stats.segments;
-    return homogeneous_flight(media, t0, t1, beta, u_first, rng);
+    return homogeneous_flight(media, t0, t1, state.beta, u_first, rng);
   }
   // A channel without throughput stays without: its weights mean nothing and must not overflow.
   state.flight.weight = {state.beta.r == 0 ? 0.0f : 1.0f, state.beta.g == 0 ? 0.0f : 1.0f, state.beta.b == 0 ? 0.0f : 1.0f};
@@ -144,6 +145,7 @@ Flight free_flight(MediaView media, const Ray& ray, float t0, float t1, Rgb beta
   return state.flight;
 }
 
+// NOLINTNEXTLINE(readability-function-size): as free_flight
 EmissionTransmittance emission_and_transmittance(MediaView media, const Ray& ray, float t0, float t1, Rng& rng,
                                                  TrackingStats& stats) {
   EmissionTransmittance result{{}, Rgb{1.0f}};

@@ -29,10 +29,10 @@ struct TrackingStats {
 /// How a path fares along one interval.
 struct Flight {
   bool collided = false;
-  float t = 0;           ///< of the collision; the end of the interval if there was none
-  Rgb weight{1.0f};      ///< multiplies the throughput. All zero after a collision: absorbed, the path ends
-  Rgb emission;          ///< add throughput (from before the interval) * this to the path's radiance
-  PhaseMix phase;        ///< when collided and not absorbed
+  float t = 0;       ///< of the collision; the end of the interval if there was none
+  Rgb weight{1.0f};  ///< multiplies the throughput. All zero after a collision: absorbed, the path ends
+  Rgb emission;      ///< add throughput (from before the interval) * this to the path's radiance
+  PhaseMix phase;    ///< when collided and not absorbed
 };
 
 /// Sample the next collision in [t0, t1], t1 may be infinite. Survival biasing: a collision always scatters and

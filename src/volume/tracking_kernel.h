@@ -12,6 +12,8 @@ namespace tyndall::kernel {
 
 /// Weights below this are left to Russian roulette.
 inline constexpr float kRouletteBelow = 0.01f;
+/// ... but only once in so many look-ups: it saves time in thick media, and only adds noise to short walks.
+inline constexpr std::uint64_t kRouletteEvery = 16;
 /// Look-ups of one walk after which it is given up and counted. A path through an optical depth of 1e7 needs fewer.
 inline constexpr std::uint64_t kMaxLookups = std::uint64_t{1} << 26;
 
@@ -36,6 +38,7 @@ class LoopGuard {
     ++stats.caps_hit;
     return true;
   }
+  bool roulette_is_due() const { return count_ % kRouletteEvery == 0; }
 
  private:
   std::uint64_t count_ = 0;
@@ -53,9 +56,9 @@ inline bool roulette(Rgb& T, Rng& rng) {
   return true;
 }
 
-/// Poisson points of density rate() along the walk: body(t, rate) for each, until it returns false.
+/// Poisson points of density rate() along the walk: body(t, rate) for each, which scales down T; ends when that is 0.
 template <typename Walk, typename Body>
-void for_each_collision(Walk& walk, Rng& rng, TrackingStats& stats, const Body& body) {
+void for_each_collision(Walk& walk, Rgb& T, Rng& rng, TrackingStats& stats, const Body& body) {
   LoopGuard guard;
   float depth = exponential(rng);
   while (walk.next()) {
@@ -69,7 +72,13 @@ void for_each_collision(Walk& walk, Rng& rng, TrackingStats& stats, const Body& 
         break;
       }
       t += step;
-      if (!body(t, rate) || guard.spent(stats)) return;
+      body(t, rate);
+      if (is_black(T)) return;
+      if (guard.spent(stats)) {
+        T = {};
+        return;
+      }
+      if (guard.roulette_is_due() && !roulette(T, rng)) return;
       depth = exponential(rng);
     }
   }

@@ -14,12 +14,11 @@ using namespace kernel;
 template <typename Walk>
 Rgb ratio_tracking(Walk& walk, Rng& rng, TrackingStats& stats) {
   Rgb T{1.0f};
-  for_each_collision(walk, rng, stats, [&](double t, float rate) {
+  for_each_collision(walk, T, rng, stats, [&](double t, float rate) {
     const LocalOptics at = walk.optics_at(t, false);
     const Rgb sigma_t = at.sigma_a + at.sigma_s;
     count_lookup(max_component(sigma_t), rate, stats);
     T *= Rgb{1.0f} - sigma_t * (1 / rate);
-    return roulette(T, rng);
   });
   return T;
 }
@@ -28,19 +27,15 @@ Rgb ratio_tracking(Walk& walk, Rng& rng, TrackingStats& stats) {
 template <typename Walk>
 Rgb delta_tracking(Walk& walk, Rng& rng, TrackingStats& stats) {
   Rgb T{1.0f};
-  for_each_collision(walk, rng, stats, [&](double t, float rate) {
+  for_each_collision(walk, T, rng, stats, [&](double t, float rate) {
     const LocalOptics at = walk.optics_at(t, false);
     const Rgb sigma_t = at.sigma_a + at.sigma_s;
     count_lookup(max_component(sigma_t), rate, stats);
     const Rgb null = Rgb{rate} - sigma_t;
     const float real_mass = sum(absolute(T) * sigma_t), null_mass = sum(absolute(T * null));
     const float total = real_mass + null_mass;
-    if (rng.uniform() * total < real_mass || null_mass == 0) {
-      T = {};
-      return false;
-    }
-    T *= null * (total / (rate * null_mass));
-    return true;
+    const bool real = rng.uniform() * total < real_mass || null_mass == 0;
+    T = real ? Rgb{} : T * null * (total / (rate * null_mass));
   });
   return T;
 }
@@ -48,18 +43,34 @@ Rgb delta_tracking(Walk& walk, Rng& rng, TrackingStats& stats) {
 /// exp(-control) of one piece in the exponent; an empty piece may be infinitely long.
 float control_depth(float control, double length) { return control > 0 ? static_cast<float>(control * length) : 0.0f; }
 
-/// T = exp(-int c) E[prod (1 - (sigma_t - c) / M_r)], c the mean of the piece and M_r >= |sigma_t - c|: residual
-/// ratio tracking [Novak et al. 2014] with a control for each piece.
+/// State of a residual walk: T * exp(-depth) is the estimate so far.
+struct Residual {
+  Rgb T{1.0f}, depth;
+  Rgb value() const { return T * exp(depth * -1.0f); }
+
+  /// On the whole estimate; T alone may be large where controls took most.
+  bool survives_roulette(Rng& rng) {
+    const float left = max_abs(value());
+    if (left >= kRouletteBelow) return true;
+    if (rng.uniform() * kRouletteBelow >= left) return false;
+    T *= kRouletteBelow / left;
+    return true;
+  }
+};
+
+/// T = exp(-int c) E[prod (1 - (sigma_t - c) / M_r)], M_r >= |sigma_t - c|: residual ratio tracking
+/// [Novak et al. 2014] with a control c for each piece, chosen by MediumWalk.
 template <typename Walk>
 Rgb residual_ratio_tracking(Walk& walk, Rng& rng, TrackingStats& stats) {
+  constexpr float kThick = 4.6f;  // -ln kRouletteBelow
   LoopGuard guard;
-  Rgb T{1.0f}, depth;
+  Residual state;
   float next = exponential(rng);
   while (walk.next()) {
     const float rate = walk.rate();
     const double length = walk.t_end() - walk.t();
     const Rgb c = walk.control();
-    depth += Rgb{control_depth(c.r, length), control_depth(c.g, length), control_depth(c.b, length)};
+    state.depth += Rgb{control_depth(c.r, length), control_depth(c.g, length), control_depth(c.b, length)};
     if (!(rate > 0)) continue;
 
     double t = walk.t();
@@ -72,23 +83,20 @@ Rgb residual_ratio_tracking(Walk& walk, Rng& rng, TrackingStats& stats) {
       t += step;
       const Rgb excess = walk.excess_at(t);
       count_lookup(max_abs(excess), rate, stats);
-      T *= Rgb{1.0f} - excess * (1 / rate);
+      state.T *= Rgb{1.0f} - excess * (1 / rate);
       if (guard.spent(stats)) return {};
       next = exponential(rng);
+      if (guard.roulette_is_due() && !state.survives_roulette(rng)) return {};
     }
-
-    // Roulette on what is left after this piece; T alone may be large where the control took most.
-    Rgb left = T * exp(depth * -1.0f);
-    const float before = max_abs(left);
-    if (before >= kRouletteBelow) continue;
-    if (!roulette(left, rng)) return {};
-    T *= kRouletteBelow / before;
+    // Where the control takes most, few look-ups are made. Media that are exact (rate 0) never come here.
+    if (std::min({state.depth.r, state.depth.g, state.depth.b}) > kThick && !state.survives_roulette(rng)) return {};
   }
-  return T * exp(depth * -1.0f);
+  return state.value();
 }
 
 }  // namespace
 
+// NOLINTNEXTLINE(readability-function-size): as free_flight
 Rgb transmittance(TransmittanceStrategy strategy, MediaView media, const Ray& ray, float t0, float t1, Rng& rng,
                   TrackingStats& stats) {
   if (media.empty() || !(t0 < t1)) return Rgb{1.0f};
@@ -104,7 +112,8 @@ Rgb transmittance(TransmittanceStrategy strategy, MediaView media, const Ray& ra
     });
   }
   return with_walk<WalkMode::majorant>(media, ray, t0, t1, [&](auto& walk) {
-    const Rgb T = strategy == TransmittanceStrategy::ratio ? ratio_tracking(walk, rng, stats) : delta_tracking(walk, rng, stats);
+    const Rgb T =
+        strategy == TransmittanceStrategy::ratio ? ratio_tracking(walk, rng, stats) : delta_tracking(walk, rng, stats);
     finish(walk, stats);
     return T;
   });

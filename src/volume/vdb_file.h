@@ -16,10 +16,10 @@ namespace tyndall {
 struct VolumeGridEntry {
   enum class Values { scalar, vector, other } values = Values::other;
   std::string name;
-  std::string type;         ///< "float", "vec3s", "PointDataGrid" ...
-  std::string grid_class;   ///< "fog volume", "level set", "unknown" ...
+  std::string type;        ///< "float", "vec3s", "PointDataGrid" ...
+  std::string grid_class;  ///< "fog volume", "level set", "unknown" ...
   bool level_set = false;
-  bool linear = true;       ///< its map is affine
+  bool linear = true;  ///< its map is affine
 };
 
 /// A grid's voxels and where they lie. Must not outlive its file.

@@ -69,8 +69,9 @@ class GridLoader {
     placed.grid = build_brick_grid(*grid.source, {rules, options_.float_bricks});
     if (placed.grid.empty()) note(use.role + " grid " + quoted(entry(index).name) + " is empty");
     const Index3& origin = placed.grid.origin();
-    placed.to_local = Affine::of(index_to_world.inverse())
-                          .minus({{static_cast<double>(origin[0]), static_cast<double>(origin[1]), static_cast<double>(origin[2])}});
+    placed.to_local =
+        Affine::of(index_to_world.inverse())
+            .minus({{static_cast<double>(origin[0]), static_cast<double>(origin[1]), static_cast<double>(origin[2])}});
     return placed;
   }
 
@@ -78,7 +79,8 @@ class GridLoader {
   void note(const std::string& what) { notes_.push_back(std::filesystem::path(path_).filename().string() + ": " + what); }
   std::string listing() const {
     std::string names;
-    for (const VolumeGridEntry& grid : file_->grids()) names += (names.empty() ? "" : ", ") + quoted(grid.name) + " (" + grid.type + ")";
+    for (const VolumeGridEntry& grid : file_->grids())
+      names += (names.empty() ? "" : ", ") + quoted(grid.name) + " (" + grid.type + ")";
     return names.empty() ? "no grids" : names;
   }
 
@@ -121,7 +123,9 @@ class GridLoader {
     if (grid.values == VolumeGridEntry::Values::vector && !use.vectors)
       fail(who + " is of type " + grid.type + "; it must hold one number a voxel");
     if (grid.level_set && !use.level_set)
-      fail(who + " is a level set, a surface; convert it to a fog volume (OpenVDB's sdfToFogVolume, Houdini's VDB Convert) or mesh it");
+      fail(who +
+           " is a level set, a surface; convert it to a fog volume (OpenVDB's sdfToFogVolume, Houdini's VDB Convert) or mesh "
+           "it");
     if (!grid.linear) fail(who + " has a frustum transform; resample it to a linear one");
   }
 
@@ -147,7 +151,8 @@ class GridLoader {
 };
 
 std::size_t density_index(GridLoader& loader, const VdbMedium& vdb) {
-  if (const auto found = loader.find(vdb.density_grid, stand_ins(vdb.density_grid, vdb.density_grid_given, kDensityAliases))) return *found;
+  if (const auto found = loader.find(vdb.density_grid, stand_ins(vdb.density_grid, vdb.density_grid_given, kDensityAliases)))
+    return *found;
   if (vdb.density_grid_given) loader.fail("has no grid " + quoted(vdb.density_grid) + "; it holds " + loader.listing());
   if (const auto only = loader.only_fog()) return *only;
   loader.fail("has no grid called density, smoke or fog; name one with \"string gridname\" of: " + loader.listing());
@@ -155,7 +160,8 @@ std::size_t density_index(GridLoader& loader, const VdbMedium& vdb) {
 
 }  // namespace
 
-VdbGrids load_vdb_grids(const Medium& medium, const VdbMedium& vdb, const MediumBuildOptions& options, std::vector<std::string>& notes) {
+VdbGrids load_vdb_grids(const Medium& medium, const VdbMedium& vdb, const MediumBuildOptions& options,
+                        std::vector<std::string>& notes) {
   GridLoader loader(medium, vdb.path, options, notes);
   VdbGrids grids;
   const std::size_t density = density_index(loader, vdb);

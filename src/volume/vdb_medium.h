@@ -18,6 +18,7 @@ struct VdbGrids {
 };
 
 /// Throws Error (scene). Appends to `notes` which grids were chosen and what was changed in them.
-VdbGrids load_vdb_grids(const Medium& medium, const VdbMedium& vdb, const MediumBuildOptions& options, std::vector<std::string>& notes);
+VdbGrids load_vdb_grids(const Medium& medium, const VdbMedium& vdb, const MediumBuildOptions& options,
+                        std::vector<std::string>& notes);
 
 }  // namespace tyndall

@@ -131,7 +131,8 @@ class NanoReader {
   }
   static std::uint64_t unzip(const std::vector<char>& packed, char* out, std::uint64_t room) {
     uLongf size = room;
-    const int status = uncompress(reinterpret_cast<Bytef*>(out), &size, reinterpret_cast<const Bytef*>(packed.data()), packed.size());
+    const int status =
+        uncompress(reinterpret_cast<Bytef*>(out), &size, reinterpret_cast<const Bytef*>(packed.data()), packed.size());
     return status == Z_OK ? size : 0;
   }
   static std::uint64_t unblosc(const std::vector<char>& packed, char* out, std::uint64_t room) {
@@ -150,7 +151,8 @@ class NanoReader {
     std::memcpy(&version, &head.mVersion, 4);
     check_version(version);
     if (head.mGridSize != blob.bytes.size()) fail("holds a grid whose size differs from the file's header; it is damaged");
-    if (!std::memchr(head.mGridName, 0, nanovdb::GridData::MaxNameSize)) fail("holds a grid whose name has no end; it is damaged");
+    if (!std::memchr(head.mGridName, 0, nanovdb::GridData::MaxNameSize))
+      fail("holds a grid whose name has no end; it is damaged");
   }
 
   const std::string& path_;

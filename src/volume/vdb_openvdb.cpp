@@ -61,7 +61,8 @@ class TreeSource : public VoxelSource {
     for (openvdb::Index i = 0; i < kLeafVoxels; ++i) {
       const openvdb::Index x = i >> 6, y = i >> 3 & 7, z = i & 7;  // OpenVDB: z fastest
       const std::array<float, 6> value = channels_of(data[i]);
-      for (int c = 0; c < channels(); ++c) out[c * kLeafVoxels + static_cast<int>(z << 6 | y << 3 | x)] = value[static_cast<std::size_t>(c)];
+      for (int c = 0; c < channels(); ++c)
+        out[c * kLeafVoxels + static_cast<int>(z << 6 | y << 3 | x)] = value[static_cast<std::size_t>(c)];
     }
   }
 
@@ -127,7 +128,9 @@ class OpenVdbFile : public VolumeFile {
   const std::vector<VolumeGridEntry>& grids() const override { return entries_; }
 
   Rows properties() const override {
-    Rows rows{{"file version", std::to_string(file_version_)}, {"written by library", version_}, {"grids", std::to_string(grids_.size())}};
+    Rows rows{{"file version", std::to_string(file_version_)},
+              {"written by library", version_},
+              {"grids", std::to_string(grids_.size())}};
     if (metadata_) add_metadata(*metadata_, rows);
     return rows;
   }
@@ -146,7 +149,9 @@ class OpenVdbFile : public VolumeFile {
       result.clip = source->clip();
       result.source = std::move(source);
     });
-    if (!result.source) throw Error(Failure::scene, path_ + ": grid \"" + entries_[index].name + "\" of type " + entries_[index].type + " cannot be used");
+    if (!result.source)
+      throw Error(Failure::scene,
+                  path_ + ": grid \"" + entries_[index].name + "\" of type " + entries_[index].type + " cannot be used");
     return result;
   }
 
@@ -156,11 +161,14 @@ class OpenVdbFile : public VolumeFile {
               {"class", entries_[index].grid_class},
               {"voxel size", text(grid.voxelSize())},
               {"transform", printable(grid.transform().mapType())}};
-    if (entries_[index].linear) rows.emplace_back("index to world", text(grid.transform().baseMap()->getAffineMap()->getMat4()));
+    if (entries_[index].linear)
+      rows.emplace_back("index to world", text(grid.transform().baseMap()->getAffineMap()->getMat4()));
     const openvdb::CoordBBox box = grid.evalActiveVoxelBoundingBox();
     if (grid.activeVoxelCount() > 0) {
       rows.emplace_back("index bounds", text(box.min()) + " .. " + text(box.max()));
-      rows.emplace_back("world bounds", box_text(grid.transform().indexToWorld(openvdb::BBoxd(box.min().asVec3d() - 0.5, box.max().asVec3d() + 0.5))));
+      rows.emplace_back(
+          "world bounds",
+          box_text(grid.transform().indexToWorld(openvdb::BBoxd(box.min().asVec3d() - 0.5, box.max().asVec3d() + 0.5))));
     } else {
       rows.emplace_back("world bounds", "empty");
     }

@@ -26,8 +26,8 @@ struct VoxelBox {
 struct VoxelBlock {
   static constexpr std::uint32_t kConstant = std::numeric_limits<std::uint32_t>::max();
   VoxelBox box;
-  std::uint32_t leaf = kConstant;   ///< what read_leaf() is asked for
-  std::array<float, 6> value{};     ///< of a constant box, one a channel
+  std::uint32_t leaf = kConstant;  ///< what read_leaf() is asked for
+  std::array<float, 6> value{};    ///< of a constant box, one a channel
 };
 
 /// Where voxels come from. Those in no block are 0; where blocks overlap, the later one in the list counts.
@@ -58,16 +58,16 @@ class DenseSource : public VoxelSource {
 
 /// What to do with voxels that are no valid amount.
 struct VoxelRules {
-  bool negative_to_zero = true;   ///< densities; temperatures keep their sign
-  bool sanitize = false;          ///< NaN and infinity to 0
-  std::optional<VoxelBox> clip;   ///< voxels outside read 0
+  bool negative_to_zero = true;  ///< densities; temperatures keep their sign
+  bool sanitize = false;         ///< NaN and infinity to 0
+  std::optional<VoxelBox> clip;  ///< voxels outside read 0
 };
 
 /// What is wrong with the voxels of a source, within the clip box.
 struct VoxelReport {
   std::int64_t negative = 0, non_finite = 0;
-  float lowest = 0;                 ///< most negative value
-  Index3 first_non_finite{};        ///< in block order
+  float lowest = 0;           ///< most negative value
+  Index3 first_non_finite{};  ///< in block order
 };
 VoxelReport inspect(const VoxelSource& source, const VoxelRules& rules);
 

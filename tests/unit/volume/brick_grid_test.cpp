@@ -46,7 +46,7 @@ TEST_CASE("look-ups agree with the dense oracle, anywhere in index space, for on
       double worst = 0;
       for (int i = 0; i < 20000; ++i) {
         const Vec3d p = random_local(grid, rng);
-        float values[BrickGrid::kMaxChannels];
+        float values[kMaxChannels];
         grid.lookup(p, values);
         for (int c = 0; c < channels; ++c)
           worst = std::max(worst, std::abs(values[c] - source.lookup(index_point(grid, p), c)) / bound(10.0 * (c + 1)));
@@ -64,7 +64,8 @@ TEST_CASE("float bricks hold voxels exactly") {
     Vec3d p = random_local(grid, rng, 0);
     for (double& x : p.v) x = std::round(x);
     const Vec3d index = index_point(grid, p);
-    const Index3 at{static_cast<std::int64_t>(index[0]), static_cast<std::int64_t>(index[1]), static_cast<std::int64_t>(index[2])};
+    const Index3 at{static_cast<std::int64_t>(index[0]), static_cast<std::int64_t>(index[1]),
+                    static_cast<std::int64_t>(index[2])};
     different += grid.lookup(p) != static_cast<float>(source.voxel(at)) ? 1 : 0;
   }
   CHECK(different == 0);
@@ -128,7 +129,7 @@ TEST_CASE("ranges of every node bound what interpolation gives") {
       for (int level = grid.root_level(); node != BrickGrid::kNone; --level) {
         const ValueRange r = grid.ranges(node)[0];
         violations += value < r.min || value > r.max ? 1 : 0;
-        if (grid.node(node).mask == 0) break;
+        if (grid.node(node).is_leaf()) break;
         node = grid.child(node, level, cell);
       }
     }

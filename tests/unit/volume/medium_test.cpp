@@ -2,7 +2,10 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 
 #include "support/test_media.h"
 #include "tyndall/color.h"
@@ -15,8 +18,9 @@ using namespace tyndall;
 
 namespace {
 
-const Transform kTransforms[] = {Transform(), Transform::translate(3, -2, 10) * Transform::rotate(50, 1, -2, 0.5) * Transform::scale(2, 0.3, -1),
-                                 Transform::scale(-1, -1, -1) * Transform::translate(0.5, 0.25, 0)};
+const Transform kTransforms[] = {
+    Transform(), Transform::translate(3, -2, 10) * Transform::rotate(50, 1, -2, 0.5) * Transform::scale(2, 0.3, -1),
+    Transform::scale(-1, -1, -1) * Transform::translate(0.5, 0.25, 0)};
 
 ParticipatingMedium built(const decltype(Medium::kind)& kind, const Transform& to_world, const MediumOptics& optics,
                           std::vector<std::string>* notes = nullptr, MediumBuildOptions options = {}) {
@@ -54,7 +58,9 @@ double sampled_grid(const std::vector<float>& values, const int n[3], const Boun
   return sum;
 }
 
-Vec3 random_in(const Bounds3& box, Rng& rng) { return box.min + box.extent() * Vec3{rng.uniform(), rng.uniform(), rng.uniform()}; }
+Vec3 random_in(const Bounds3& box, Rng& rng) {
+  return box.min + box.extent() * Vec3{rng.uniform(), rng.uniform(), rng.uniform()};
+}
 
 }  // namespace
 
@@ -86,13 +92,17 @@ TEST_CASE("uniformgrid reads as pbrt's, whatever the transform") {
       const double d = sampled_grid(uniform.density, n, uniform.bounds, p);
       // Where the transform and back lands on the other side of a face of the box the value jumps.
       bool near_face = false;
-      for (int a = 0; a < 3; ++a) near_face = near_face || std::min(std::abs(p[a] - uniform.bounds.min[a]), std::abs(p[a] - uniform.bounds.max[a])) < 1e-5f;
+      for (int a = 0; a < 3; ++a)
+        near_face =
+            near_face || std::min(std::abs(p[a] - uniform.bounds.min[a]), std::abs(p[a] - uniform.bounds.max[a])) < 1e-5f;
       if (near_face) continue;
       worst = std::max({worst, std::abs(k.sigma_a.b - 3 * d), std::abs(k.sigma_s.g - 5 * d)});
       if (d > 0) {
         outside += medium.bounds().contains(world) ? 0 : 1;
         const float kelvin = static_cast<float>(sampled_grid(uniform.temperature, n, uniform.bounds, p));
-        const Rgb expected = kelvin > 100 ? blackbody_rgb(kelvin) * static_cast<float>(0.5 * sampled_grid(uniform.Le_scale, n, uniform.bounds, p)) : Rgb{};
+        const Rgb expected = kelvin > 100 ? blackbody_rgb(kelvin) *
+                                                static_cast<float>(0.5 * sampled_grid(uniform.Le_scale, n, uniform.bounds, p))
+                                          : Rgb{};
         worst_Le = std::max(worst_Le, std::abs(double{k.Le.g} - expected.g) / 50);
       }
     }
@@ -179,6 +189,22 @@ TEST_CASE("cloud: density in [0,1], only inside its box, noise by Perlin's value
     if (!inside && length(p) > 1.8f) CHECK(k.sigma_s.r == 0);
   }
   CHECK(sum > 0);
+
+  // Around a lattice point noise is its gradient: pbrt's choice of 12 edge directions, 4 of them twice as likely.
+  std::map<std::array<int, 3>, int> counts;
+  constexpr int kSide = 40;
+  for (int i = 0; i < kSide * kSide * kSide; ++i) {
+    const Vec3 at{static_cast<float>(i % kSide), static_cast<float>(i / kSide % kSide),
+                  static_cast<float>(i / (kSide * kSide))};
+    const auto slope = [&](Vec3 d) { return static_cast<int>(std::lround(perlin_noise(at + d * 0.01f) / 0.01f)); };
+    ++counts[{slope({1, 0, 0}), slope({0, 1, 0}), slope({0, 0, 1})}];
+  }
+  CHECK(counts.size() == 12);
+  const std::array<int, 3> twice[] = {{1, 1, 0}, {-1, 1, 0}, {0, 1, -1}, {0, -1, -1}};
+  for (const auto& [gradient, count] : counts) {
+    const double share = std::find(std::begin(twice), std::end(twice), gradient) == std::end(twice) ? 1 / 16.0 : 2 / 16.0;
+    CHECK(count == doctest::Approx(share * kSide * kSide * kSide).epsilon(0.1));
+  }
   for (const float huge : {1e9f, 3e38f, -1e20f}) CHECK(std::isfinite(perlin_noise({huge, huge, -huge})));
 }
 
@@ -189,7 +215,8 @@ TEST_CASE("the black-body table errs by less than 1e-4 of the largest channel") 
     const Rgb exact = blackbody_rgb(kelvin), got = table(kelvin);
     const float top = max_component(exact);
     if (top < 1e-30f) continue;
-    worst = std::max({worst, std::abs(double{exact.r} - got.r) / top, std::abs(double{exact.g} - got.g) / top, std::abs(double{exact.b} - got.b) / top});
+    worst = std::max({worst, std::abs(double{exact.r} - got.r) / top, std::abs(double{exact.g} - got.g) / top,
+                      std::abs(double{exact.b} - got.b) / top});
   }
   CHECK(worst < 1e-4);
   CHECK(is_black(table(100)));

@@ -31,10 +31,10 @@ struct Tiling {
 };
 
 /// Walk the ray, check that the pieces tile [t0, t1] and that their rates bound what is inside.
-template <WalkMode mode>
+template <WalkMode Mode>
 Tiling walk_along(const ParticipatingMedium& medium, const Ray& ray, double t0, double t1, Rng& rng) {
   Tiling result;
-  MediumWalk<mode> walk(medium.data(), ray, t0, t1);
+  MediumWalk<Mode> walk(medium.data(), ray, t0, t1);
   double at = t0;
   while (walk.next()) {
     ++result.pieces;
@@ -48,11 +48,11 @@ Tiling walk_along(const ParticipatingMedium& medium, const Ray& ray, double t0, 
         const Vec3d p = medium.data().density.to_local.point(ray.o), d = medium.data().density.to_local.vector(ray.d);
         const Vec3d q{{p[0] + t * d[0], p[1] + t * d[1], p[2] + t * d[2]}};
         const float density = medium.data().clip.contains(q) ? medium.data().density.grid.lookup(q) : 0;
-        if (mode == WalkMode::majorant) result.missed += density > 1e-5f ? 1 : 0;
+        if (Mode == WalkMode::majorant) result.missed += density > 1e-5f ? 1 : 0;
         continue;
       }
       const LocalOptics optics = walk.optics_at(t, false);
-      if constexpr (mode == WalkMode::majorant) {
+      if constexpr (Mode == WalkMode::majorant) {
         result.violations += max_component(optics.sigma_a + optics.sigma_s) > walk.rate() ? 1 : 0;
       } else {
         const Rgb e = walk.excess_at(t);
@@ -126,8 +126,9 @@ TEST_CASE("pieces tile rays through rotated, stretched, mirrored and far-off gri
     for (const Transform& base : transforms) {
       // Bring the far corner back to the origin, so that the world stays within reach of floats.
       const Transform transform = base * Transform::translate(-double(corner[0]), -double(corner[1]), -double(corner[2]));
-      const double size = std::cbrt(std::abs(1 / length(transform.inverse().vector({1, 0, 0})) / length(transform.inverse().vector({0, 1, 0})) /
-                                             length(transform.inverse().vector({0, 0, 1}))));
+      const double size =
+          std::cbrt(std::abs(1 / length(transform.inverse().vector({1, 0, 0})) / length(transform.inverse().vector({0, 1, 0})) /
+                             length(transform.inverse().vector({0, 0, 1}))));
       const ParticipatingMedium medium = medium_of(source, transform, {Rgb{static_cast<float>(0.2 / size)}, Rgb{0.0f}, 0});
       int gaps = 0, violations = 0, capped = 0, missed = 0;
       double difference = 0;
@@ -146,7 +147,8 @@ TEST_CASE("pieces tile rays through rotated, stretched, mirrored and far-off gri
         while (walk.next()) {
           if (walk.rate() == 0) continue;
           const double t = walk.t() + 0.5 * (walk.t_end() - walk.t());
-          difference += std::abs(walk.optics_at(t, false).sigma_a.r - medium.at(ray.at(static_cast<float>(t))).sigma_a.r) * size / 300;
+          difference +=
+              std::abs(walk.optics_at(t, false).sigma_a.r - medium.at(ray.at(static_cast<float>(t))).sigma_a.r) * size / 300;
         }
       }
       CHECK(gaps == 0);
@@ -160,7 +162,8 @@ TEST_CASE("pieces tile rays through rotated, stretched, mirrored and far-off gri
 
 TEST_CASE("merged pieces tile the ray, rates and coefficients add") {
   const auto first = medium_of(test::random_voxels(8, {0, 0, 0}), {}, {Rgb{0.1f, 0.2f, 0.3f}, Rgb{0.1f}, 0.5f});
-  const auto second = medium_of(test::random_voxels(9, {16, -8, 0}), Transform::scale(0.7, 0.7, 0.7), {Rgb{0.4f}, Rgb{0.1f}, -0.5f});
+  const auto second =
+      medium_of(test::random_voxels(9, {16, -8, 0}), Transform::scale(0.7, 0.7, 0.7), {Rgb{0.4f}, Rgb{0.1f}, -0.5f});
   const auto fog = test::homogeneous({Rgb{0.01f}, Rgb{0.02f}, 0});
   std::vector<const ParticipatingMedium*> media{&first, &second, &fog};
   Rng rng(3);

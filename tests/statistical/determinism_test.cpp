@@ -1,0 +1,109 @@
+/// Equal scenes, settings and seeds give equal bits, whatever the number of threads; other seeds give other noise.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "report/block_test.h"
+#include "support/measure.h"
+#include "support/scene_text.h"
+#include "tyndall/io.h"
+
+using namespace tyndall;
+using namespace tyndall::test;
+
+namespace {
+
+constexpr Bounds3 kBox{{-1, -1, -1}, {1, 1, 1}};
+
+View camera() { return {.eye = {1.6f, 1.2f, -3.2f}, .look = {0, -0.1f, 0}, .fov_degrees = 42, .resolution = 40, .max_depth = 8}; }
+
+std::vector<std::string> scenes() {
+  Grid grid{kBox, 4, 4, 4, {}};
+  for (int i = 0; i < 64; ++i) grid.density.push_back(0.1f * float(i % 11));
+  const Coefficients smoke{.sigma_a = {0.2f, 0.1f, 0.4f}, .sigma_s = {2, 1, 0.6f}, .g = 0.5f, .Le = {0.1f, 0, 0}};
+  const std::string lights = point_light({1.5f, 2, -1.5f}, 6) + emitting_square({-1.2f, 0.8f, 1.4f}, 0.5f, 4) + environment(0.15f);
+  const std::string ball = block("Material \"coateddiffuse\"\nShape \"sphere\" \"float radius\" 0.6\n");
+  return {view(camera()) + lights + diffuse_plane(1.8f, 4, 0.6f) + uniform_grid("m", smoke, grid) + medium_box("m", "", kBox),
+          view(camera()) + lights + diffuse_plane(1.8f, 4, 0.6f) + ball,
+          view(camera()) + lights + ball + homogeneous("m", smoke) + medium_box("m", "", kBox)};
+}
+
+bool same_bits(const Image& a, const Image& b) {
+  if (a.channels.size() != b.channels.size()) return false;
+  for (std::size_t i = 0; i < a.channels.size(); ++i) {
+    const auto &u = a.channels[i].values, &v = b.channels[i].values;
+    if (a.channels[i].name != b.channels[i].name || u.size() != v.size()) return false;
+    if (std::memcmp(u.data(), v.data(), u.size() * sizeof(float)) != 0) return false;
+  }
+  return a.attributes == b.attributes;
+}
+
+}  // namespace
+
+TEST_CASE("the same bits for 1, 2 and 4 threads, and for every repetition") {
+  std::vector<std::string> aovs;
+  for (const std::string_view name : aov_names()) aovs.emplace_back(name);
+  for (const std::string& scene : scenes()) {
+    for (const LightStrategy lights : {LightStrategy::tree_binary, LightStrategy::power}) {
+      const Image one = Subject(scene, {.lights = lights, .threads = 1}).render(9, 5, aovs);
+      for (const int threads : {1, 2, 4}) {
+        CAPTURE(threads);
+        CHECK(same_bits(one, Subject(scene, {.lights = lights, .threads = threads}).render(9, 5, aovs)));
+      }
+      CHECK_FALSE(same_bits(one, Subject(scene, {.lights = lights, .threads = 1}).render(9, 6, aovs)));
+    }
+  }
+}
+
+TEST_CASE("a crop has the bits of the whole picture") {
+  Scene scene = read_scene_text(scenes()[0], "test.pbrt").scene;
+  const Image whole = Subject(scene, {}).render(4, 1);
+  scene.film.crop = {7, 11, 29, 32};
+  const Image crop = Subject(scene, {}).render(4, 1);
+  REQUIRE(crop.data == scene.film.crop);
+  bool same = true;
+  for (int y = 0; y < crop.height(); ++y) {
+    for (int x = 0; x < crop.width(); ++x) same = same && crop.rgb(x, y) == whole.rgb(x + 7, y + 11);
+  }
+  CHECK(same);
+}
+
+// All the statistics of these tests rest on it: pixels, and renders with different seeds, are independent.
+TEST_CASE("the spread between renders is what the spread between pixels says") {
+  const std::string scene = view({.eye = {0.1f, 0.2f, -2}, .look = {0.1f, 0.2f, 0}, .max_depth = 3}) + environment(1) +
+                            homogeneous("m", {.sigma_a = Rgb(0.3f), .sigma_s = Rgb(0.7f)}) + medium_box("m", "", kBox);
+  Subject subject(scene);
+  Moments means, pixels;
+  constexpr int kRenders = 200;
+  for (int i = 0; i < kRenders; ++i) {
+    const Image image = subject.render(4, 1000 + i);
+    Moments mean;
+    for (const float v : image.find("R")->values) {
+      mean.add(v);
+      pixels.add(v);
+    }
+    means.add(mean.estimate().mean);
+  }
+  // Both estimate the variance of the mean of everything; the first with 199 degrees of freedom.
+  const double ratio = means.estimate().variance / pixels.estimate().variance;
+  CHECK(std::abs(ratio - 1) < 4 * std::sqrt(2.0 / (kRenders - 1)));
+}
+
+TEST_CASE("the Variance AOV is the variance of a pixel's mean") {
+  for (const std::string& scene : scenes()) {
+    Subject subject(scene);
+    MeanImageBuilder spread;
+    Moments claimed;
+    constexpr int kRenders = 24, kSpp = 32;
+    for (int i = 0; i < kRenders; ++i) {
+      const Image image = subject.render(kSpp, 100 + i, {"Variance"});
+      spread.add(image);
+      claimed.add(image_mean(mean_image(image, 1), 1).variance);
+    }
+    const Estimate truth = image_mean(spread.result(), 1), claim = claimed.estimate();
+    const double between = truth.variance * kRenders;  // of one render's image mean
+    const double error = between * std::sqrt(2 / truth.dof) + claim.standard_error();
+    CHECK(std::abs(claim.mean - between) < 4 * error);
+  }
+}

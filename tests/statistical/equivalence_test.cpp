@@ -1,0 +1,89 @@
+/// One picture made in several ways: forms of a medium, strategies of choosing lights, estimators of transmittance.
+#include <doctest/doctest.h>
+
+#include "support/agreement.h"
+#include "support/constant_vdb.h"
+#include "support/scene_text.h"
+
+using namespace tyndall;
+using namespace tyndall::test;
+
+namespace {
+
+constexpr Bounds3 kBox{{-1, -1, -1}, {1, 1, 1}};
+constexpr Coefficients kSmoke{.sigma_a = {0.2f, 0.1f, 0.4f}, .sigma_s = {1.5f, 1, 0.6f}, .g = 0.5f};
+
+View camera() { return {.eye = {1.6f, 1.2f, -3.2f}, .look = {0, -0.1f, 0}, .fov_degrees = 42, .resolution = 24, .max_depth = 12}; }
+
+std::string lights() { return point_light({1.5f, 2, -1.5f}, 6) + emitting_square({-1.2f, 0.8f, 1.4f}, 0.5f, 4) + environment(0.15f); }
+
+std::string room() { return view(camera()) + lights() + diffuse_plane(1.8f, 4, 0.6f); }
+
+/// Density with holes, 0 .. 1.
+Grid wispy_grid() {
+  Grid grid{kBox, 9, 8, 7, {}};
+  for (int i = 0; i < 9 * 8 * 7; ++i) {
+    const int x = i % 9, y = i / 9 % 8, z = i / 72;
+    const float r2 = float((x - 4) * (x - 4) + (y - 3) * (y - 3) + (z - 3) * (z - 3));
+    grid.density.push_back((x * 7 + y * 5 + z * 3) % 4 == 0 ? 0.0f : std::max(0.0f, 1 - r2 / 20));
+  }
+  return grid;
+}
+
+/// Many lights of all kinds and sizes, in smoke and around it, one behind a wall.
+std::string many_lights() {
+  std::string text = view(camera()) + diffuse_plane(1.8f, 4, 0.6f) + environment(0.05f) + distant_light({1, -1, 2}, 0.3f);
+  for (int i = 0; i < 24; ++i) {
+    const float a = 0.7f * i;
+    text += point_light({1.7f * std::cos(a), -1.4f + 0.13f * i, 1.5f * std::sin(a)}, 0.02f * (1 + i % 5));
+  }
+  for (int i = 0; i < 6; ++i) text += emitting_square({-1.5f + 0.6f * i, 1.3f, 1.2f}, 0.03f * (1 + i), 3.0f + i);
+  text += "LightSource \"spot\" \"point3 from\" [0 2.5 -2] \"point3 to\" [0 0 0] \"float coneangle\" 25 \"rgb I\" [8 6 4]\n";
+  text += block("Translate 0.5 -0.9 0.9\nAreaLightSource \"diffuse\" \"rgb L\" [5 2 1]\nShape \"sphere\" \"float radius\" 0.1\n");
+  return text + uniform_grid("m", kSmoke, wispy_grid()) + medium_box("m", "", kBox);
+}
+
+}  // namespace
+
+TEST_CASE("constant density: homogeneous, grid of samples, grid of voxels, and two halves") {
+  const Grid constant{{{-3, -3, -3}, {3, 3, 3}}, 2, 2, 2, std::vector<float>(8, 1.0f)};  // samples at +-1.5: 1 within
+  Coefficients half = kSmoke;
+  half.sigma_a = kSmoke.sigma_a * 0.5f;
+  half.sigma_s = kSmoke.sigma_s * 0.5f;
+  const ConstantVdb file({{-1.3f, -1.3f, -1.3f}, {1.3f, 1.3f, 1.3f}}, 0.1f);
+  const std::string box = medium_box("m", "", kBox);
+  check_same("constant",
+             {{"homogeneous", room() + homogeneous("m", kSmoke) + box},
+              {"uniformgrid", room() + uniform_grid("m", kSmoke, constant) + box},
+              {"vdb", room() + vdb("m", kSmoke, file.path()) + box},
+              {"two halves", room() + homogeneous("a", half) + uniform_grid("b", half, constant) +
+                                 medium_box("a", "", kBox) + medium_box("b", "", kBox)}});
+}
+
+TEST_CASE("a wispy grid in one piece and as two overlapping halves with different phase functions") {
+  Coefficients half = kSmoke;
+  half.sigma_a = kSmoke.sigma_a * 0.5f;
+  half.sigma_s = kSmoke.sigma_s * 0.5f;
+  check_same("wispy halves",
+             {{"one", room() + uniform_grid("m", kSmoke, wispy_grid()) + medium_box("m", "", kBox)},
+              {"two", room() + uniform_grid("a", half, wispy_grid()) + uniform_grid("b", half, wispy_grid()) +
+                          medium_box("a", "", kBox) + medium_box("b", "", kBox)}});
+}
+
+TEST_CASE("light strategies") {
+  const std::string scene = many_lights();
+  check_same("lights", {{"exhaustive", scene, {.lights = LightStrategy::exhaustive}},
+                        {"power", scene, {.lights = LightStrategy::power}},
+                        {"uniform", scene, {.lights = LightStrategy::uniform}},
+                        {"tree-binary", scene, {.lights = LightStrategy::tree_binary}}});
+}
+
+TEST_CASE("transmittance estimators") {
+  Coefficients dense = kSmoke;
+  dense.sigma_a = kSmoke.sigma_a * 3;
+  dense.sigma_s = kSmoke.sigma_s * 3;
+  const std::string scene = room() + uniform_grid("m", dense, wispy_grid()) + medium_box("m", "", kBox);
+  check_same("transmittance", {{"residual", scene, {.transmittance = TransmittanceStrategy::residual}},
+                               {"ratio", scene, {.transmittance = TransmittanceStrategy::ratio}},
+                               {"delta", scene, {.transmittance = TransmittanceStrategy::delta}}});
+}

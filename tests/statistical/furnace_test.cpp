@@ -1,0 +1,103 @@
+/// Furnaces: where every ray sees the same radiance, nothing in a medium may change it.
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "report/block_test.h"
+#include "support/agreement.h"
+#include "support/scene_text.h"
+#include "support/transport_oracles.h"
+
+using namespace tyndall;
+using namespace tyndall::test;
+
+namespace {
+
+constexpr Bounds3 kBox{{-1, -1, -1}, {1, 1, 1}};
+constexpr Agreement kFurnace{.d = 0.002};
+
+/// Lumps and holes of density 0 .. 1 on 6 x 5 x 4 samples; a quarter of them are empty.
+Grid lumpy_grid() {
+  Grid grid{kBox, 6, 5, 4, {}};
+  for (int i = 0; i < 6 * 5 * 4; ++i) {
+    const double v = std::fmod(i * 0.6180339887 + 0.37 * (i % 7), 1.0);
+    grid.density.push_back(v < 0.25 ? 0.0f : float(v * v));
+  }
+  return grid;
+}
+
+/// The box from a corner, so that the view holds empty rays, grazing ones and long ones.
+View perspective() { return {.eye = {2.2f, 1.8f, -2.6f}, .look = {0, 0, 0}, .fov_degrees = 35, .resolution = 16}; }
+
+/// Three rays through the lumps.
+constexpr std::array<Ray, 3> kRays{
+    {{{0.2f, 0.1f, -2}, {0, 0, 1}}, {{-2, -0.3f, 0.4f}, {0.96f, 0.28f, 0}}, {{1.5f, 1.5f, 1.5f}, {-0.6f, -0.48f, -0.64f}}}};
+
+std::string looking_along(const Ray& ray) { return view({.eye = ray.o, .look = ray.at(1)}); }
+
+}  // namespace
+
+TEST_CASE("F1: scattering without absorption inside uniform radiance changes no pixel") {
+  const std::string scene = view(perspective()) + environment(1) +
+                            uniform_grid("m", {.sigma_s = {6, 4, 8}, .g = 0.9f}, lumpy_grid()) + medium_box("m", "", kBox);
+  check_agrees("F1 g=0.9, lumpy grid", scene, {1.0, 1.0, 1.0}, kFurnace);
+
+  Subject subject(scene);
+  const Measured m = measure(subject, {.excess = [](const MeanImage& image) {
+                                         return image_mean(image, 0).variance / (0.0005 * 0.0005);
+                                       }});
+  MeanImage white = m.image;
+  for (auto& channel : white.channels) {
+    for (Estimate& e : channel) e = {1, 0, 1};
+  }
+  const auto pixels = block_test(m.image, white);
+  const BlockDifference& w = worst(pixels);
+  CHECK_MESSAGE(w.welch.p > sidak(1e-3, double(pixels.size())), "pixel ", w.x, ",", w.y, " is off by ",
+                w.welch.difference, ", ", w.welch.t, " standard errors");
+}
+
+TEST_CASE("F1: a homogeneous medium, backward scattering, a diffuse white plane inside") {
+  const std::string scene = view(perspective()) + environment(1) + homogeneous("m", {.sigma_s = {2, 1, 3}, .g = -0.6f}) +
+                            medium_box("m", "", kBox) + diffuse_plane(0.1f, 0.5f, 1);
+  check_agrees("F1 with a white plane", scene, {1.0, 1.0, 1.0}, kFurnace);
+}
+
+TEST_CASE("F2: an absorbing and emitting slab adds 1 - exp(-tau) and lets T through") {
+  const Grid grid = lumpy_grid();
+  constexpr double kBackground = 0.25;
+  for (const Ray& ray : kRays) {
+    const double depth = optical_depth(grid, ray, 0, 6);
+    CAPTURE(depth);
+    REQUIRE(depth > 0.1);
+    const Rgb sigma_a{1, 2.5f, 0.4f};
+    Expected expected;
+    for (int k = 0; k < 3; ++k) {
+      const double T = std::exp(-depth * sigma_a[k]);
+      expected[k] = 1 - T + T * kBackground;
+    }
+    check_agrees("F2 tau=" + number(depth), looking_along(ray) + environment(kBackground) +
+                 uniform_grid("m", {.sigma_a = sigma_a, .Le = Rgb(1.0f)}, grid) + medium_box("m", "", kBox), expected, kFurnace);
+  }
+}
+
+TEST_CASE("thermal equilibrium: as hot as its surroundings, a medium is invisible") {
+  const Coefficients warm{.sigma_a = {1, 2, 0.5f}, .sigma_s = {3, 2, 4}, .g = 0.9f, .Le = Rgb(1.0f)};
+  check_agrees("equilibrium, lumpy grid",
+               view(perspective()) + environment(1) + uniform_grid("m", warm, lumpy_grid()) + medium_box("m", "", kBox),
+               {1.0, 1.0, 1.0}, kFurnace);
+  check_agrees("equilibrium, homogeneous",
+               view(perspective()) + environment(1) + homogeneous("m", warm) + medium_box("m", "", kBox), {1.0, 1.0, 1.0},
+               kFurnace);
+}
+
+TEST_CASE("transmittance of empty, thin and opaque grids") {
+  const Grid grid = lumpy_grid();
+  const double depth = optical_depth(grid, kRays[0], 0, 6);
+  for (const float scale : {0.0f, 1e-3f, 1.0f, 5.0f}) {
+    check_agrees("T at sigma_t=" + number(scale), looking_along(kRays[0]) + environment(1) +
+                 uniform_grid("m", {.sigma_a = Rgb(scale)}, grid) + medium_box("m", "", kBox),
+                 grey(std::exp(-scale * depth)));
+  }
+  check_vanishes("T at sigma_t=1e4", looking_along(kRays[0]) + environment(1) +
+                 uniform_grid("m", {.sigma_a = Rgb(1e4f)}, grid) + medium_box("m", "", kBox), 1e-6);
+}

@@ -1,0 +1,118 @@
+/// Estimators of transmittance against integration along the ray, and against each other.
+#include <doctest/doctest.h>
+
+#include <array>
+#include <string>
+
+#include "support/test_media.h"
+
+using namespace tyndall;
+using test::Moments;
+
+namespace {
+
+struct Line {
+  std::string name;
+  std::vector<const ParticipatingMedium*> media;
+  Ray ray;
+  float t0, t1;
+};
+
+constexpr TransmittanceStrategy kStrategies[] = {TransmittanceStrategy::residual, TransmittanceStrategy::ratio,
+                                                 TransmittanceStrategy::delta};
+
+/// Largest deviation over channels in standard errors; events rarer than `slack` are beyond the sample.
+double deviation(TransmittanceStrategy strategy, const Line& line, const test::LineIntegrals& exact, int count,
+                 TrackingStats& stats) {
+  std::array<Moments, 3> moments;
+  Rng rng(17);
+  for (int i = 0; i < count; ++i) {
+    const Rgb T = transmittance(strategy, line.media, line.ray, line.t0, line.t1, rng, stats);
+    for (int c = 0; c < 3; ++c) moments[static_cast<std::size_t>(c)].add(T[c]);
+  }
+  double worst = 0;
+  for (int c = 0; c < 3; ++c) {
+    const double T = exact.transmittance(c);
+    worst = std::max(worst, moments[static_cast<std::size_t>(c)].deviation(T, 2e-5 * T + 3.0 / count * 0.1));
+  }
+  return worst;
+}
+
+void check_all(const Line& line, int count) {
+  const test::LineIntegrals exact = test::integrate_line(line.media, line.ray, line.t0, line.t1);
+  TrackingStats stats;
+  for (const TransmittanceStrategy strategy : kStrategies) {
+    const double worst = deviation(strategy, line, exact, count, stats);
+    CHECK_MESSAGE(worst < 4, line.name << ", " << name_of(strategy) << ": " << worst << " standard errors");
+  }
+  CHECK(stats.majorant_violations == 0);
+  CHECK(stats.caps_hit == 0);
+}
+
+const Ray kDiagonal{{-1.3f, -0.9f, -1.1f}, normalize({1.1f, 0.8f, 0.9f})};
+
+}  // namespace
+
+TEST_CASE("residual, ratio and delta tracking agree with the integral for optical depths from 1e-6 to 50") {
+  for (const float depth : {1e-6f, 1e-3f, 0.1f, 1.0f, 4.0f, 10.0f, 50.0f}) {
+    const auto clumpy = test::clumpy({Rgb{0.3f * depth}, Rgb{0.4f * depth}, 0}, 3);
+    const auto fog = test::homogeneous({Rgb{0.05f * depth}, Rgb{0.1f * depth}, 0});
+    check_all({"clumpy at " + std::to_string(depth), {&clumpy}, kDiagonal, 0, 4}, 40000);
+    check_all({"clumpy and fog at " + std::to_string(depth), {&clumpy, &fog}, kDiagonal, 0.2f, 3}, 20000);
+  }
+}
+
+TEST_CASE("channels and overlapping, rotated and stretched media are estimated without bias") {
+  const auto red = test::clumpy({{0.1f, 1.0f, 3.0f}, {0.4f, 0.2f, 1.0f}, 0.3f}, 5);
+  const Transform turned = Transform::rotate(40, 1, 1, 0) * Transform::scale(0.8, -0.5, 1.2);
+  const auto blue = test::clumpy({{2.0f, 0.3f, 0.0f}, {0.0f, 0.2f, 0.0f}, -0.3f}, 6, {}, turned);
+  const auto fog = test::homogeneous({{0.0f, 0.1f, 0.3f}, {0.0f, 0.0f, 0.2f}, 0});
+  check_all({"one", {&red}, kDiagonal, 0, 4}, 60000);
+  check_all({"two", {&red, &blue}, kDiagonal, 0, 4}, 60000);
+  check_all({"three", {&red, &blue, &fog}, kDiagonal, 0, 4}, 60000);
+  check_all({"one twice", {&red, &red}, kDiagonal, 0, 4}, 60000);
+}
+
+TEST_CASE("homogeneous media are exact, at any depth and to infinity") {
+  TrackingStats stats;
+  Rng rng(1);
+  for (const float sigma : {0.0f, 1e-30f, 1e-6f, 1.0f, 1e6f})
+    for (const float length : {1e-6f, 1.0f, 1e6f, kInfinity}) {
+      const auto fog = test::homogeneous({{sigma, 0, sigma / 2}, {0, 0, sigma / 2}, 0});
+      const ParticipatingMedium* media[] = {&fog};
+      const Rgb T = transmittance(TransmittanceStrategy::ratio, media, kDiagonal, 0, length, rng, stats);
+      const double expected = sigma == 0 ? 1 : std::exp(-double{sigma} * length);
+      CHECK(T.r == doctest::Approx(expected));
+      CHECK(T.g == 1);
+      CHECK(T.b == T.r);
+    }
+  CHECK(stats.lookups == 0);
+}
+
+TEST_CASE("a constant grid is as exact as a homogeneous medium under residual tracking, but for its faces") {
+  const auto constant = test::grid({32, -1, 1}, {Rgb{1.0f}, Rgb{9.0f}, 0}, [](int) { return 1.0f; });
+  const ParticipatingMedium* media[] = {&constant};
+  Rng rng(2);
+  TrackingStats stats;
+  // Through bricks that the fading outermost layer does not reach, and too dense to be lumped with those it does.
+  const Ray ray{{-0.96f, 0.1f, 0.2f}, {1, 0, 0}};
+  for (int i = 0; i < 100; ++i)
+    CHECK(transmittance(TransmittanceStrategy::residual, media, ray, 0, 1.46f, rng, stats).g ==
+          doctest::Approx(std::exp(-10 * 1.46)).epsilon(1e-5));
+  CHECK(stats.lookups == 0);
+}
+
+TEST_CASE("residual tracking spends less and varies less than ratio, and ratio less than delta tracking") {
+  const auto clumpy = test::clumpy({Rgb{0.6f}, Rgb{0.8f}, 0}, 3);
+  const ParticipatingMedium* media[] = {&clumpy};
+  double errors[3];
+  for (int s = 0; s < 3; ++s) {
+    Moments moments;
+    Rng rng(4);
+    TrackingStats stats;
+    for (int i = 0; i < 20000; ++i) moments.add(transmittance(kStrategies[s], media, kDiagonal, 0, 4, rng, stats).g);
+    errors[s] = moments.standard_error();
+  }
+  CHECK(errors[0] < errors[1]);
+  CHECK(errors[1] < errors[2]);
+}

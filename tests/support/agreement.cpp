@@ -1,0 +1,135 @@
+#include "support/agreement.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "report/block_test.h"
+
+namespace tyndall::test {
+namespace {
+
+constexpr double kErrors = 4;       // standard errors that a difference may have
+constexpr double kResolution = 6.5;  // standard errors in d
+constexpr std::array<const char*, 3> kChannel{"R", "G", "B"};
+
+double budget(const Agreement& how) { return nightly() ? 10 * how.seconds : how.seconds; }
+
+/// Factor by which the variance of a mean is above that of the wanted standard error.
+double excess(const Estimate& e, double wanted_error) {
+  return e.variance == 0 ? 0 : e.variance / (wanted_error * wanted_error);
+}
+
+void print(const std::string& name, const char* channel, double value, const WelchResult& w, const Measured& m) {
+  const double off = w.difference / value, error = w.standard_error / std::abs(value);
+  std::printf("  %-46s %s %-12.7g off by %+.3f %%, standard error %.3f %%, ", name.c_str(), channel, value, 100 * off, 100 * error);
+  if (error < 1e-5) {
+    std::printf("z none ");
+  } else {
+    std::printf("z %+.2f", off / error);
+  }
+  std::printf("  (%.3g spp in %d, %.1f s)\n", m.spp, m.renders, m.seconds);
+  std::fflush(stdout);
+}
+
+struct Tolerance {
+  double d, rounding;
+};
+
+void check_faults(const std::string& name, const Subject& subject) {
+  CHECK_MESSAGE(subject.faults().empty(), name, ": ", subject.faults());
+}
+
+void check_difference(const std::string& name, int channel, double value, const WelchResult& w, const Measured& m,
+                      Tolerance tolerance) {
+  print(name, kChannel[channel], value, w, m);
+  CAPTURE(name);
+  CAPTURE(kChannel[channel]);
+  // A difference of the last bits of a float is none.
+  const double exempt = std::max(tolerance.rounding, 1e-5 * std::abs(value));
+  const bool within = std::abs(w.difference) <= kErrors * w.standard_error + exempt;
+  CHECK_MESSAGE(within, name, " ", kChannel[channel], ": ", value + w.difference, " instead of ", value, ", ", w.t,
+                " standard errors");
+  CHECK_MESSAGE(w.standard_error <= tolerance.d / kResolution * std::abs(value), name, ": not precise enough after ", m.seconds,
+                " s and ", m.spp, " samples a pixel");
+}
+
+}  // namespace
+
+double required_precision() { return nightly() ? 0.003 : 0.01; }
+
+void check_agrees(const std::string& name, const std::string& scene, const Expected& expected, const Agreement& how) {
+  const double d = how.d.value_or(required_precision());
+  Subject subject(scene, how.variant);
+  const Measured m = measure(subject, {.excess = [&](const MeanImage& image) {
+                                         double worst = 0;
+                                         for (int k = 0; k < 3; ++k) {
+                                           if (!expected[k]) continue;
+                                           const double error = d / kResolution * std::abs(*expected[k]);
+                                           worst = std::max(worst, excess(image_mean(image, k), error));
+                                         }
+                                         return worst;
+                                       },
+                                       .seconds = budget(how),
+                                       .stream = stream_of(name)});
+  for (int k = 0; k < 3; ++k) {
+    if (!expected[k]) continue;
+    const Estimate exact{*expected[k], 0, 1};
+    check_difference(name, k, *expected[k], welch_test(image_mean(m.image, k), exact), m, {d, how.rounding});
+  }
+  check_faults(name, subject);
+}
+
+void check_vanishes(const std::string& name, const std::string& scene, double bound, const Agreement& how) {
+  Subject subject(scene, how.variant);
+  const Measured m = measure(
+      subject, {.excess = [&](const MeanImage& image) { return excess(image_mean(image, 0), bound / kErrors); },
+                .seconds = budget(how),
+                .stream = stream_of(name)});
+  const Estimate e = image_mean(m.image, 0);
+  std::printf("  %-44s   %.3g +- %.3g, bound %.3g  (%.3g spp, %.1f s)\n", name.c_str(), e.mean, e.standard_error(), bound,
+              m.spp, m.seconds);
+  CHECK_MESSAGE(std::abs(e.mean) <= bound + kErrors * e.standard_error(), name);
+  CHECK_MESSAGE(e.standard_error() <= bound / kErrors, name, ": not precise enough");
+  check_faults(name, subject);
+}
+
+void check_same(const std::string& name, const std::vector<Contender>& contenders, const Agreement& how) {
+  const double d = how.d.value_or(required_precision());
+  std::vector<Measured> measured;
+  for (const Contender& c : contenders) {
+    Subject subject(c.scene, c.variant);
+    measured.push_back(measure(subject, {.excess = [&](const MeanImage& image) {
+                                           double worst = 0;
+                                           for (int k = 0; k < 3; ++k) {
+                                             const Estimate e = image_mean(image, k);
+                                             // Each side may hold half of the variance.
+                                             worst = std::max(worst, 2 * excess(e, d / kResolution * e.mean));
+                                           }
+                                           return worst;
+                                         },
+                                         .seconds = budget(how),
+                                         .stream = stream_of(name + c.name)}));
+    check_faults(name + ", " + c.name, subject);
+  }
+
+  const std::size_t n = contenders.size();
+  const auto pairs = static_cast<double>(n * (n - 1) / 2);
+  for (std::size_t j = 1; j < n; ++j) {
+    for (std::size_t i = 0; i < j; ++i) {
+      const std::string title = name + ": " + contenders[j].name + " - " + contenders[i].name;
+      for (int k = 0; k < 3; ++k) {
+        const Estimate a = image_mean(measured[j].image, k), b = image_mean(measured[i].image, k);
+        check_difference(title, k, b.mean, welch_test(a, b), measured[j], {1.05 * d, 0});  // both errors are estimates
+      }
+      const auto blocks = block_test(block_means(measured[j].image, 8), block_means(measured[i].image, 8));
+      const BlockDifference& w = worst(blocks);
+      CHECK_MESSAGE(w.welch.p >= sidak(1e-3, pairs * double(blocks.size())), title, ": block ", w.x, ",", w.y,
+                    " differs by ", w.welch.t, " standard errors");
+    }
+  }
+}
+
+}  // namespace tyndall::test

@@ -1,0 +1,42 @@
+/// "Agrees at d": the standard error of the difference is at most d/6.5, and the difference is below 4 standard
+/// errors. A bias of d is then found with power 0.99, and a correct value is refused 6 times in 100,000.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "support/measure.h"
+
+namespace tyndall::test {
+
+/// 1 % per commit, 0.3 % nightly.
+double required_precision();
+
+struct Agreement {
+  std::optional<double> d = std::nullopt;  ///< required_precision() when absent
+  double rounding = 0;                     ///< of the expected value as printed: half its last digit
+  double seconds = 120;                    ///< for a scene; too long is a failure (10 times that nightly)
+  Variant variant = {};
+};
+
+/// Expected image means of R, G and B; what is absent is not looked at.
+using Expected = std::array<std::optional<double>, 3>;
+inline Expected grey(double value) { return {value, std::nullopt, std::nullopt}; }
+
+/// The image mean of `scene` agrees with `expected` at d. CHECKs, and prints what was measured in a line a channel.
+void check_agrees(const std::string& name, const std::string& scene, const Expected& expected, const Agreement& how = {});
+
+/// The image mean of `scene`, expected to be 0, is at most `bound` plus 4 standard errors, themselves at most bound / 4.
+void check_vanishes(const std::string& name, const std::string& scene, double bound, const Agreement& how = {});
+
+struct Contender {
+  std::string name, scene;
+  Variant variant = {};
+};
+/// All contenders render the same picture: image means pairwise at d, channel by channel, and their 8x8 blocks by
+/// Welch's test at family level 1e-3.
+void check_same(const std::string& name, const std::vector<Contender>& contenders, const Agreement& how = {});
+
+}  // namespace tyndall::test

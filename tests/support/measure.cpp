@@ -1,0 +1,111 @@
+#include "support/measure.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdlib>
+
+#include "tyndall/io.h"
+
+namespace tyndall::test {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+constexpr int kFewest = 4;   // renders that an error may rest on
+constexpr int kWanted = 12;  // renders that a measurement is cut into
+
+RenderSettings settings_of(const Scene& scene, const Variant& variant) {
+  RenderSettings settings = scene.settings;
+  settings.lights = variant.lights;
+  settings.transmittance = variant.transmittance;
+  settings.threads = variant.threads;
+  settings.reproducible = true;
+  return settings;
+}
+
+BuildSettings build_settings_of(const Variant& variant) {
+  BuildSettings settings;
+  settings.lights = variant.lights;
+  settings.threads = variant.threads;
+  return settings;
+}
+
+}  // namespace
+
+bool nightly() {
+  const char* value = std::getenv("TYNDALL_NIGHTLY");
+  return value != nullptr && std::string(value) == "1";
+}
+
+std::uint64_t base_seed() {
+  const char* value = std::getenv("TYNDALL_SEED");
+  return value != nullptr ? std::strtoull(value, nullptr, 10) : 1;
+}
+
+int stream_of(const std::string& name) {
+  std::uint32_t hash = 2166136261u;  // FNV-1a
+  for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619u;
+  return static_cast<int>(hash % 1'000'000);
+}
+
+Subject::Subject(const std::string& text, const Variant& variant, const std::string& folder)
+    : Subject(read_scene_text(text, "test.pbrt", folder).scene, variant) {}
+
+Subject::Subject(Scene scene, const Variant& variant)
+    : scene_(std::move(scene)), settings_(settings_of(scene_, variant)), world_(build(scene_, build_settings_of(variant))) {}
+
+Image Subject::render(int spp, std::uint64_t seed, const std::vector<std::string>& aovs) {
+  RenderSettings settings = settings_;
+  settings.spp = spp;
+  settings.seed = seed;
+  settings.aovs = aovs;
+  Rendering rendering = tyndall::render(world_, settings);
+  const RenderReport& r = rendering.report;
+  total_.rays += r.rays + r.shadow_rays;
+  total_.non_finite += r.non_finite;
+  total_.majorant_violations += r.majorant_violations;
+  total_.caps_hit += r.caps_hit;
+  total_.parity_errors += r.parity_errors;
+  return std::move(rendering.image);
+}
+
+std::string Subject::faults() const {
+  if (total_.non_finite + total_.majorant_violations + total_.caps_hit + total_.parity_errors == 0) return {};
+  return std::to_string(total_.non_finite) + " non-finite samples, " + std::to_string(total_.majorant_violations) +
+         " majorant violations, " + std::to_string(total_.caps_hit) + " caps hit and " +
+         std::to_string(total_.parity_errors) + " parity errors in " + std::to_string(total_.rays) + " rays";
+}
+
+Measured measure(Subject& subject, const Goal& goal) {
+  const auto start = Clock::now();
+  std::uint64_t seed = base_seed() * 10'000'000'000 + std::uint64_t(goal.stream) * 10'000;
+  int spp = goal.first_spp;
+  MeanImageBuilder builder;
+  Measured measured;
+  for (;;) {
+    builder.add(subject.render(spp, seed++));
+    measured.seconds = seconds_since(start);
+    measured.spp = double(spp) * builder.count();
+    measured.renders = builder.count();
+    const bool out_of_budget = measured.seconds > goal.seconds || measured.spp + spp > goal.max_spp;
+    if (builder.count() < kFewest && !out_of_budget) continue;
+
+    measured.image = builder.result();
+    const double excess = goal.excess(measured.image);
+    measured.reached = excess <= 1;
+    if (measured.reached || out_of_budget) return measured;
+
+    const double needed = builder.count() * std::max(excess, 1.0) / kWanted;  // in units of spp
+    const double room = goal.max_spp / double(spp) / kFewest;
+    if (builder.count() == kFewest && std::min(needed, room) >= 2) {
+      // A power of two, a factor of 16 at most: the first guess of the excess is a guess.
+      spp *= 1 << std::clamp(int(std::lround(std::log2(std::min(needed, room)))), 1, 4);
+      builder = {};
+    }
+  }
+}
+
+}  // namespace tyndall::test

@@ -1,0 +1,70 @@
+/// Rendering a scene until it is known well enough: independent renders with different seeds, whose spread is the error.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "report/mean_image.h"
+#include "tyndall/render.h"
+
+namespace tyndall::test {
+
+/// What a test changes of the scene's own settings.
+struct Variant {
+  LightStrategy lights = LightStrategy::tree_binary;
+  TransmittanceStrategy transmittance = TransmittanceStrategy::residual;
+  int threads = 0;
+};
+
+/// Builds a world and renders it as often as asked.
+class Subject {
+ public:
+  /// `text` is a scene; paths in it start at `folder`.
+  explicit Subject(const std::string& text, const Variant& variant = {}, const std::string& folder = TYNDALL_SOURCE_DIR);
+  Subject(Scene scene, const Variant& variant);
+
+  /// One render of `spp` samples a pixel; equal seeds give equal images.
+  Image render(int spp, std::uint64_t seed, const std::vector<std::string>& aovs = {});
+  /// Non-finite samples, majorant violations, caps hit and parity errors so far, as text; empty, as it must be: none.
+  std::string faults() const;
+  const Scene& scene() const { return scene_; }
+
+ private:
+  Scene scene_;
+  RenderSettings settings_;
+  World world_;
+  RenderReport total_;
+};
+
+/// When to stop.
+struct Goal {
+  /// Called with all renders so far: the factor by which their variance is still too large; at most 1: done.
+  std::function<double(const MeanImage&)> excess;
+  double seconds = 60;           ///< give up after this long
+  int first_spp = 16;            ///< samples a pixel of the first renders
+  int max_spp = 1 << 20;         ///< samples a pixel in all
+  /// Measurements of different streams use different seeds: to be compared, they must be independent.
+  int stream = 0;
+};
+
+struct Measured {
+  MeanImage image;
+  int renders = 0;
+  double spp = 0;  ///< a pixel, in all
+  double seconds = 0;
+  bool reached = false;  ///< the goal, before time and samples ran out
+};
+
+/// At least four renders. While the goal is many renders away, fewer and larger ones start afresh (Sobol points like
+/// company, and an error that rare events have not shown yet does not stop a measurement early).
+Measured measure(Subject& subject, const Goal& goal);
+
+/// A stream for each name.
+int stream_of(const std::string& name);
+
+bool nightly();            ///< TYNDALL_NIGHTLY=1: full precision, and what is too long for every commit
+std::uint64_t base_seed(); ///< TYNDALL_SEED, else 1
+
+}  // namespace tyndall::test
