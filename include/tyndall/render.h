@@ -59,7 +59,8 @@ struct Progress {
 
 /// A hand on a running render.
 struct RenderControl {
-  std::function<void(const Progress&)> progress;  ///< called a few times a second from one thread; may be empty
+  /// Called a few times a second by one thread at a time, which waits for it; may be empty. Must not throw.
+  std::function<void(const Progress&)> progress;
   const std::atomic<bool>* stop = nullptr;        ///< set it to end at the next pass end with what there is
 };
 
@@ -84,7 +85,8 @@ struct Rendering {
   RenderReport report;
 };
 
-/// Render `world`. The image depends on the scene, the settings and nothing else: not on threads or time
+/// Render `world`. What a scene file asks for is in its Scene::settings: pass these, changed as you like; the light
+/// strategy is the one that the World was built with. The image depends on the scene, the settings and nothing else: not on threads or time
 /// (but for the number of samples when `settings.time` is set).
 Rendering render(const World& world, const RenderSettings& settings, const RenderControl& control = {});
 

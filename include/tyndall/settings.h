@@ -22,7 +22,7 @@ struct RenderSettings {
   int max_depth = 5;             ///< scattering events a path, counted as pbrt's volpath; >= 0
   std::uint64_t seed = 0;
   int threads = 0;               ///< 0: all cores
-  LightStrategy lights = LightStrategy::tree_binary;
+  LightStrategy lights = LightStrategy::tree_binary;  ///< for BuildSettings: the World is built for it
   TransmittanceStrategy transmittance = TransmittanceStrategy::residual;
   std::vector<std::string> aovs{};  ///< names from aov_names()
   std::optional<PixelBounds> crop{};

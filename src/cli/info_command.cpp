@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/command.h"
+#include "cli/log.h"
 #include "tyndall/io.h"
 
 namespace tyndall::cli {
@@ -45,11 +46,11 @@ int run_info(const std::vector<std::string>& files, bool json) {
         print_text(d);
       }
     } catch (const Error& e) {
-      fmt::print(stderr, "tyndall: {}\n", e.what());
+      log("tyndall: {}\n", e.what());
       exit_code = static_cast<int>(e.failure());
     }
   }
-  if (json) fmt::print("{}\n", all.dump(2));
+  if (json) fmt::print("{}\n", all.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   return exit_code;
 }
 

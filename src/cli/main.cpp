@@ -1,10 +1,10 @@
-#include <fmt/core.h>
-
 #include <csignal>
+#include <cstdio>
 #include <exception>
 #include <new>
 
 #include "cli/command.h"
+#include "cli/log.h"
 #include "tyndall/error.h"
 #include "tyndall/render.h"
 
@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* kExitCodes =
     "Exit codes: 0 done, 1 run-time failure, 2 usage, 3 scene or asset, 4 output, 5 differs, 7 incomplete,\n"
-    "130/143 interrupted (the image so far is written).";
+    "130/143 interrupted (while rendering: the image so far is written).";
 
 int run(int argc, char** argv) {
   CLI::App app("Tyndall renders smoke, cloud and fire lit by many lights.", "tyndall");
@@ -27,7 +27,7 @@ int run(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
-    fmt::print(stderr, "tyndall: {}; see tyndall --help\n", e.what());
+    tyndall::cli::log("tyndall: {}; see tyndall --help\n", e.what());
     return static_cast<int>(tyndall::Failure::usage);
   }
   return exit_code;
@@ -41,14 +41,17 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);
 #endif
   try {
-    return run(argc, argv);
+    const int exit_code = run(argc, argv);
+    if (std::fflush(stdout) == 0) return exit_code;
+    tyndall::cli::log("tyndall: stdout could not be written\n");
+    return static_cast<int>(tyndall::Failure::output);
   } catch (const tyndall::Error& e) {
-    fmt::print(stderr, "tyndall: {}\n", e.what());
+    tyndall::cli::log("tyndall: {}\n", e.what());
     return static_cast<int>(e.failure());
   } catch (const std::bad_alloc&) {
-    fmt::print(stderr, "tyndall: out of memory; give the scene a smaller resolution, fewer lights or smaller volumes\n");
+    tyndall::cli::log("tyndall: out of memory; give the scene a smaller resolution, fewer lights or smaller volumes\n");
   } catch (const std::exception& e) {
-    fmt::print(stderr, "tyndall: {}\n", e.what());
+    tyndall::cli::log("tyndall: {}\n", e.what());
   }
   return static_cast<int>(tyndall::Failure::run_time);
 }

@@ -1,5 +1,7 @@
 #include "cli/progress_display.h"
 
+#include "cli/log.h"
+
 #include <fmt/core.h>
 #include <unistd.h>
 
@@ -27,22 +29,22 @@ ProgressDisplay::ProgressDisplay(const std::string& kind) : kind_(kind) {
 
 void ProgressDisplay::show(const Progress& p) {
   if (kind_ == "json") {
-    fmt::print(stderr, "{{\"samples\":{},\"fraction\":{:.4f},\"seconds\":{:.2f},\"remaining\":{:.2f}}}\n", p.samples_done,
+    log("{{\"samples\":{},\"fraction\":{:.4f},\"seconds\":{:.2f},\"remaining\":{:.2f}}}\n", p.samples_done,
                p.fraction, p.seconds, p.remaining);
   } else if (kind_ == "bar") {
     const int full = static_cast<int>(std::lround(p.fraction * kBarWidth));
-    fmt::print(stderr, "\r[{:=<{}}{: <{}}] {:3.0f}%  {} spp  {} left   ", "", full, "", kBarWidth - full,
+    log("\r[{:=<{}}{: <{}}] {:3.0f}%  {} spp  {} left   ", "", full, "", kBarWidth - full,
                100 * p.fraction, p.samples_done, duration(p.remaining));
     drawn_ = true;
   } else if (kind_ == "line" && p.seconds - last_line_ >= kLineSeconds) {
     last_line_ = p.seconds;
-    fmt::print(stderr, "{:.0f}%, {} spp, {} done, {} left\n", 100 * p.fraction, p.samples_done, duration(p.seconds),
+    log("{:.0f}%, {} spp, {} done, {} left\n", 100 * p.fraction, p.samples_done, duration(p.seconds),
                duration(p.remaining));
   }
 }
 
 void ProgressDisplay::finish() {
-  if (drawn_) fmt::print(stderr, "\r{: <{}}\r", "", kBarWidth + 40);
+  if (drawn_) log("\r{: <{}}\r", "", kBarWidth + 40);
   drawn_ = false;
 }
 

@@ -12,6 +12,10 @@ namespace tyndall::cli {
 class ProgressDisplay {
  public:
   explicit ProgressDisplay(const std::string& kind);
+  ~ProgressDisplay() { finish(); }
+  ProgressDisplay(const ProgressDisplay&) = delete;
+  ProgressDisplay& operator=(const ProgressDisplay&) = delete;
+
   void show(const Progress& progress);
   void finish();  ///< leaves the cursor on a fresh line
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "cli/command.h"
+#include "cli/log.h"
 #include "cli/progress_display.h"
 #include "cli/render_options.h"
 #include "cli/summary.h"
@@ -18,11 +19,15 @@ namespace {
 std::atomic<bool> stop_requested{false};
 volatile std::sig_atomic_t stop_signal = 0;
 
-/// First signal: end at the next pass with what there is. Second: end at once.
+constexpr char kStopping[] = "stopping after this pass; press again to quit at once and lose the image\n";
+
+/// First signal: end at the next pass with what there is. Second, of either kind: end at once.
 void on_signal(int signal) {
   stop_signal = signal;
   stop_requested.store(true, std::memory_order_relaxed);
-  std::signal(signal, SIG_DFL);
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
+  if (write(STDERR_FILENO, kStopping, sizeof kStopping - 1) < 0) return;
 }
 
 class Stopwatch {
@@ -43,7 +48,11 @@ void check_writable(const std::string& path) {
   namespace fs = std::filesystem;
   fs::path folder = fs::path(path).parent_path();
   if (folder.empty()) folder = ".";
-  if (!fs::is_directory(folder)) {
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored)) {
+    throw Error(Failure::output, path + ": is a folder; give a file name with -o");
+  }
+  if (!fs::is_directory(folder, ignored)) {
     throw Error(Failure::output, path + ": folder " + folder.string() + " does not exist; make it first");
   }
   if (access(folder.c_str(), W_OK) != 0) {
@@ -61,9 +70,9 @@ void write_image(const Image& image, const std::string& path) {
 
 void print_notes(const SceneFile& file, const World& world) {
   for (const Warning& w : file.warnings) {
-    fmt::print(stderr, "warning: {}{}{}\n", w.where.str(), w.where.file.empty() ? "" : ": ", w.message);
+    log("warning: {}{}{}\n", w.where.str(), w.where.file.empty() ? "" : ": ", w.message);
   }
-  for (const std::string& note : world.summary().notes) fmt::print(stderr, "note: {}\n", note);
+  for (const std::string& note : world.summary().notes) log("note: {}\n", note);
 }
 
 int run_render(const RenderOptions& options) {
@@ -95,9 +104,9 @@ int run_render(const RenderOptions& options) {
   write_image(rendering.image, summary.output);
   summary.write_seconds = watch.lap();
 
-  if (!options.quiet) fmt::print(stderr, "{}", as_text(summary));
+  if (!options.quiet) log_text(as_text(summary));
   if (options.json) fmt::print("{}\n", as_json(summary));
-  return stop_signal != 0 ? 128 + stop_signal : 0;
+  return rendering.report.stopped ? 128 + stop_signal : 0;
 }
 
 }  // namespace

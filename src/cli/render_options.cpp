@@ -1,5 +1,6 @@
 #include "cli/render_options.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <limits>
 #include <sstream>
@@ -20,6 +21,7 @@ std::string join(const std::vector<std::string_view>& names, const char* separat
 /// Integers separated by `separator`, all of the text.
 std::vector<int> integers(const std::string& text, char separator) {
   std::vector<int> values;
+  if (text.empty() || text.back() == separator) return {};
   std::istringstream stream(text);
   for (std::string part; std::getline(stream, part, separator);) {
     std::size_t used = 0;
@@ -42,27 +44,31 @@ std::vector<std::string> names_in(const std::string& list) {
   return names;
 }
 
-/// The crop keeps its share of the frame.
-void set_resolution(const std::string& text, Film& film) {
+/// Crops keep their share of the frame.
+void set_resolution(const std::string& text, Scene& scene) {
+  Film& film = scene.film;
   const auto size = integers(text, 'x');
   if (size.size() != 2 || size[0] < 1 || size[1] < 1 || size[0] > 65536 || size[1] > 65536) {
     bad("--resolution", text, "WxH in pixels, such as 960x540");
   }
-  const auto scale = [](int v, int from, int to) { return static_cast<int>(static_cast<std::int64_t>(v) * to / from); };
-  film.crop = {scale(film.crop.x0, film.width, size[0]), scale(film.crop.y0, film.height, size[1]),
-               scale(film.crop.x1, film.width, size[0]), scale(film.crop.y1, film.height, size[1])};
+  const auto down = [](std::int64_t v, int from, int to) { return static_cast<int>(v * to / from); };
+  const auto up = [](std::int64_t v, int from, int to) { return static_cast<int>((v * to + from - 1) / from); };
+  const auto scaled = [&](const PixelBounds& crop) {
+    return PixelBounds{down(crop.x0, film.width, size[0]), down(crop.y0, film.height, size[1]),
+                       up(crop.x1, film.width, size[0]), up(crop.y1, film.height, size[1])};
+  };
+  film.crop = scaled(film.crop);
+  if (scene.settings.crop) scene.settings.crop = scaled(*scene.settings.crop);
   film.width = size[0];
   film.height = size[1];
 }
 
 void set_samples(const RenderOptions& options, RenderSettings& settings) {
-  if (options.spp) {
-    settings.spp = *options.spp;
-    settings.time.reset();
-  }
-  if (options.time) settings.time = *options.time;
+  if (options.spp) settings.spp = *options.spp;
+  if (!options.time) return;
+  settings.time = *options.time;
   // A time limit alone leaves the number of samples open.
-  if (settings.time && !options.spp) settings.spp = std::numeric_limits<int>::max();
+  if (!options.spp) settings.spp = std::numeric_limits<int>::max();
 }
 
 }  // namespace
@@ -70,11 +76,11 @@ void set_samples(const RenderOptions& options, RenderSettings& settings) {
 void declare(CLI::App& command, RenderOptions& o) {
   command.add_option("scene", o.scene, "scene file, .pbrt or .pbrt.gz")->required();
   command.add_option("-o,--output", o.output, "image to write, .exr or .png [the Film's name, else SCENE.exr]; -o plume.exr");
-  command.add_option("--spp", o.spp, "samples a pixel [the Sampler's, else 64]; --spp 256")->check(CLI::Range(1, 1 << 30));
-  command.add_option("--time", o.time, "seconds to render for, at most; alone it sets the samples too [none]; --time 60")
+  command.add_option("--spp", o.spp, "samples a pixel, at most [the Sampler's, else 16]; --spp 256")->check(CLI::Range(1, 1 << 30));
+  command.add_option("--time", o.time, "seconds to render for, at most; without --spp the samples are as many as that gives [none]; --time 60")
       ->check(CLI::PositiveNumber);
   command.add_option("--threads", o.threads, "threads [0: one a core]; --threads 2")->check(CLI::Range(0, 4096));
-  command.add_option("--seed", o.seed, "of the random numbers [0]; --seed 7");
+  command.add_option("--seed", o.seed, "of the random numbers [0]; --seed 7")->check(CLI::NonNegativeNumber);
   command.add_option("--crop", o.crop, "pixels x0,x1,y0,y1 to render, ends excluded [the Film's]; --crop 0,480,0,270");
   command.add_option("--resolution", o.resolution, "frame size in pixels [the Film's]; --resolution 960x540");
   command.add_option("--max-depth", o.max_depth, "scattering events a path, at most [the Integrator's, else 5]; --max-depth 16")
@@ -111,7 +117,11 @@ void apply(const RenderOptions& o, Scene& scene) {
     s.transmittance = *strategy;
   }
   if (!o.aovs.empty()) s.aovs = names_in(o.aovs);
-  if (!o.resolution.empty()) set_resolution(o.resolution, scene.film);
+  for (const std::string& name : s.aovs) {
+    const auto known = aov_names();
+    if (std::find(known.begin(), known.end(), name) == known.end()) bad("--aov", name, join(known, ", "));
+  }
+  if (!o.resolution.empty()) set_resolution(o.resolution, scene);
   if (!o.crop.empty()) {
     const auto c = integers(o.crop, ',');
     if (c.size() != 4 || c[0] >= c[1] || c[2] >= c[3]) bad("--crop", o.crop, "x0,x1,y0,y1 with x0 < x1 and y0 < y1");
@@ -122,13 +132,15 @@ void apply(const RenderOptions& o, Scene& scene) {
 std::string output_path(const RenderOptions& options, const Scene& scene) {
   namespace fs = std::filesystem;
   std::string path = options.output;
-  if (path.empty() && !scene.film.filename.empty()) path = fs::path(scene.film.filename).filename();
+  const auto ending_of = [](const fs::path& p) { return p.extension().string(); };
+  const std::string named = fs::path(scene.film.filename).filename();
+  if (path.empty() && (ending_of(named) == ".exr" || ending_of(named) == ".png")) path = named;
   if (path.empty()) {
     fs::path name = fs::path(options.scene).filename();
     while (name.extension() == ".gz" || name.extension() == ".pbrt") name = name.stem();
     path = name.string() + ".exr";
   }
-  const std::string ending = fs::path(path).extension();
+  const std::string ending = ending_of(path);
   if (ending != ".exr" && ending != ".png") bad("output", path, "a name that ends in .exr or .png");
   return path;
 }

@@ -71,7 +71,7 @@ std::string as_json(const Summary& s) {
   j["bad_samples"] = nlohmann::json::array();
   for (const BadSample& b : r.bad_samples) j["bad_samples"].push_back({{"x", b.x}, {"y", b.y}, {"sample", b.sample}});
   j["notes"] = s.build.notes;
-  return j.dump(2);
+  return j.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 }  // namespace tyndall::cli

@@ -7,9 +7,10 @@
 namespace tyndall {
 namespace {
 
+/// As OpenEXR keeps matrices: for row vectors, the translation in the last row.
 std::array<float, 16> to_floats(const Transform::Matrix& m) {
   std::array<float, 16> out{};
-  for (int i = 0; i < 16; ++i) out[i] = static_cast<float>(m[i / 4][i % 4]);
+  for (int i = 0; i < 16; ++i) out[i] = static_cast<float>(m[i % 4][i / 4]);
   return out;
 }
 

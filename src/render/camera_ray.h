@@ -19,7 +19,7 @@ class CameraRays {
   /// Distance of world point `p` along the viewing axis.
   float depth(Vec3 p) const { return dot(p - center(), axis_); }
   const Transform& to_world() const { return to_world_; }
-  /// Camera space to normalised screen, row-major, for the image header.
+  /// World to camera space, and to the frame ([0,1]^2, y downward): for row vectors, as OpenEXR keeps matrices.
   std::array<float, 16> world_to_ndc() const;
   std::array<float, 16> world_to_camera() const;
 

@@ -1,7 +1,9 @@
 /// What one thread counts while it renders.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include "tyndall/render.h"
@@ -9,10 +11,20 @@
 
 namespace tyndall {
 
+inline constexpr std::size_t kBadSamplesKept = 16;
+
 struct Counters {
   std::uint64_t paths = 0, rays = 0, shadow_rays = 0, non_finite = 0, parity_errors = 0;
   TrackingStats tracking;
   std::vector<BadSample> bad_samples;
+
+  /// Keep the first few in the order of samples and pixels, whichever thread found them when.
+  void trim_bad_samples() {
+    const auto order = [](const BadSample& s) { return std::tuple(s.sample, s.y, s.x); };
+    std::sort(bad_samples.begin(), bad_samples.end(),
+              [&](const BadSample& a, const BadSample& b) { return order(a) < order(b); });
+    if (bad_samples.size() > kBadSamplesKept) bad_samples.resize(kBadSamplesKept);
+  }
 
   Counters& operator+=(const Counters& other) {
     paths += other.paths;
@@ -22,6 +34,7 @@ struct Counters {
     parity_errors += other.parity_errors;
     tracking += other.tracking;
     bad_samples.insert(bad_samples.end(), other.bad_samples.begin(), other.bad_samples.end());
+    if (!other.bad_samples.empty()) trim_bad_samples();
     return *this;
   }
 };

@@ -10,13 +10,14 @@ constexpr float kShadowEnd = 1 - 1e-4f;
 Rgb sample_light(const LightContext& context, const Vertex& vertex, Rgb beta, SelectedLight selected) {
   const auto light = context.world.lights.sample(selected.light, vertex.p(), context.sampler.next_2d(), true);
   if (!light || is_black(light->L) || !(light->pdf > 0)) return {};
+  const float density = selected.pmf * light->pdf;
+  if (!(density > 0)) return {};
   const Rgb f = vertex.eval(light->wi);
   if (is_black(f)) return {};
 
   const Vec3 origin = vertex.origin(context.world.geometry, light->wi);
   const Rgb T = visibility(context, vertex.media_toward(context.world.geometry, light->wi), origin, light->wi, light->distance);
   if (is_black(T)) return {};
-  const float density = selected.pmf * light->pdf;
   const float weight = light->delta ? 1.0f : mis_weight(density, vertex.pdf(light->wi, beta));
   return f * light->L * T * (weight / density);
 }
@@ -40,6 +41,7 @@ Rgb visibility(const LightContext& context, const MediaState& media, Vec3 origin
     T *= transmittance(context.transmittance, view, ray, interval->t0, interval->t1, rng, context.counters.tracking);
     if (is_black(T)) break;
   }
+  context.counters.parity_errors += walk.parity_errors();
   return T;
 }
 

@@ -21,11 +21,12 @@ struct LightContext {
 inline float mis_weight(float a, float b) {
   if (!(b > 0)) return 1;
   if (!(a > 0)) return 0;
+  if (a == b) return 0.5f;  // infinite both, perhaps
   const float ratio = b / a;  // may round to 0 or infinity; both give the right limit
   return 1 / (1 + ratio * ratio);
 }
 
-/// Fraction of light that gets from `origin` to `target` through media and past surfaces.
+/// Fraction of light that gets through media and past surfaces over `distance` from `origin` along `wi`.
 Rgb visibility(const LightContext& context, const MediaState& media, Vec3 origin, Vec3 wi, float distance);
 
 /// Unbiased estimate of the light scattered at `vertex` toward the path, weighted by MIS against scattered rays that

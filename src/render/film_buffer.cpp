@@ -121,6 +121,16 @@ void FilmBuffer::store_color(Image& image, const std::string& prefix, std::size_
   }
 }
 
+/// Albedo and transmittance: in the film's space, but white stays 1 whatever the space's white is.
+void FilmBuffer::store_ratio(Image& image, const std::string& prefix, std::size_t offset, int samples) const {
+  const std::size_t first = image.channels.size();
+  store_color(image, prefix, offset, samples);
+  const Rgb white = to_film_space(Rgb(1.0f));
+  for (int k = 0; k < 3; ++k) {
+    for (float& v : image.channels[first + k].values) v /= white[k];
+  }
+}
+
 void FilmBuffer::store_variance(Image& image, int samples) const {
   const std::size_t first = image.channels.size();
   for (const char* suffix : {"R", "G", "B"}) image.add_channel(std::string("Variance.") + suffix);
@@ -128,15 +138,14 @@ void FilmBuffer::store_variance(Image& image, int samples) const {
   const std::size_t pixels = image.channels[first].values.size();
   for (std::size_t i = 0; i < pixels; ++i) {
     const double* s = pixel(i);
-    Rgb a, b;
+    Rgb difference;  // in double first: the halves are nearly equal
     for (int k = 0; k < 3; ++k) {
-      a[k] = static_cast<float>(s[kEven + k] / even);
-      b[k] = static_cast<float>(odd > 0 ? s[kOdd + k] / odd : 0.0);
+      difference[k] = static_cast<float>(s[kEven + k] / even - (odd > 0 ? s[kOdd + k] / odd : 0.0));
     }
     // E[(a-b)^2] = v/even + v/odd for a variance of v a sample, so the mean of all has (a-b)^2 even odd / samples^2.
     // A single sample says nothing of its variance; its square stands in as a value that promises nothing.
     const float factor = odd > 0 ? static_cast<float>(even) * odd / (static_cast<float>(samples) * samples) : 1.0f;
-    const Rgb d = to_film_space(a) - to_film_space(b);
+    const Rgb d = to_film_space(difference);
     for (int k = 0; k < 3; ++k) image.channels[first + k].values[i] = d[k] * d[k] * factor;
   }
 }
@@ -144,9 +153,8 @@ void FilmBuffer::store_variance(Image& image, int samples) const {
 void FilmBuffer::store_aov(Image& image, Aov aov, std::size_t offset, int samples) const {
   const std::string name = name_of_aov(aov);
   if (aov == Aov::variance) return store_variance(image, samples);
-  if (aov == Aov::albedo || aov == Aov::transmittance || is_light(aov)) {
-    return store_color(image, name + ".", offset, samples);
-  }
+  if (aov == Aov::albedo || aov == Aov::transmittance) return store_ratio(image, name + ".", offset, samples);
+  if (is_light(aov)) return store_color(image, name + ".", offset, samples);
   const std::size_t first = image.channels.size();
   const bool vector = aov == Aov::n || aov == Aov::p;
   if (vector) {

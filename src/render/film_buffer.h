@@ -40,6 +40,7 @@ class FilmBuffer {
   const double* pixel(std::size_t index) const { return sums_.data() + index * stride_; }
   void add_aov(Aov aov, double* sum, const PathRecord& record, float weight) const;
   void store_color(Image& image, const std::string& prefix, std::size_t offset, int samples) const;
+  void store_ratio(Image& image, const std::string& prefix, std::size_t offset, int samples) const;
   void store_aov(Image& image, Aov aov, std::size_t offset, int samples) const;
   void store_variance(Image& image, int samples) const;
   Rgb to_film_space(Rgb c) const;

@@ -14,7 +14,7 @@ constexpr double kReportSeconds = 0.2;
 int PassSchedule::next_pass() const {
   const double elapsed = seconds();
   if (settings_.time && samples_done_ > 0 && elapsed >= *settings_.time) return 0;
-  const int left = settings_.time ? kLargestPass : settings_.spp - samples_done_;
+  const int left = settings_.spp - samples_done_;
   int pass = std::clamp(samples_done_, 1, kLargestPass);
   if (samples_done_ > 0) {
     const double a_sample = elapsed / samples_done_;
@@ -27,14 +27,14 @@ int PassSchedule::next_pass() const {
 
 std::optional<Progress> PassSchedule::progress(double pass_samples) {
   const double now = seconds();
-  if (now - last_report_ < kReportSeconds) return std::nullopt;
+  if (now - last_report_ < kReportSeconds && samples_done_ < settings_.spp) return std::nullopt;
   last_report_ = now;
   Progress p;
   p.samples_done = samples_done_;
   p.seconds = now;
-  p.fraction = settings_.time ? std::min(1.0, now / *settings_.time) : (samples_done_ + pass_samples) / settings_.spp;
-  p.remaining = settings_.time ? std::max(0.0, *settings_.time - now)
-                               : (p.fraction > 0 ? now * (1 - p.fraction) / p.fraction : 0.0);
+  p.fraction = (samples_done_ + pass_samples) / settings_.spp;
+  if (settings_.time) p.fraction = std::max(p.fraction, std::min(1.0, now / *settings_.time));
+  p.remaining = p.fraction > 0 ? now * (1 - p.fraction) / p.fraction : 0.0;
   return p;
 }
 

@@ -1,5 +1,6 @@
 #include "render/path.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -16,6 +17,15 @@ float hash_to_unit(Vec3 p, Vec3 w) {
   return static_cast<float>(h >> 40) * 0x1p-24f;
 }
 
+/// `t` a little away from the ends of its interval. Rounded, a position right at a boundary could lie across it, and
+/// the next ray would never pass it: 200 roundings are enough unless the ray all but grazes it.
+float away_from_ends(const Interval& interval, const Ray& ray, float t) {
+  const Vec3 reach = max(ray.o, -ray.o);
+  const float size = std::max({reach.x, reach.y, reach.z}) + t;
+  const float margin = std::min(0x1p-15f * size, 0.5f * (interval.t1 - interval.t0));
+  return std::min(std::max(t, interval.t0 + margin), interval.t1 - margin);
+}
+
 }  // namespace
 
 Path::Path(const LightContext& context, const Limits& limits, const Ray& camera_ray)
@@ -24,6 +34,7 @@ Path::Path(const LightContext& context, const Limits& limits, const Ray& camera_
   if (world.camera.is_pinhole() || world.geometry.groups().empty()) return;
   // Membership is known at the center of the lens; what lies between it and this ray's origin is passed on the way.
   const Vec3 step = ray_.o - world.camera.center();
+  if (length_squared(step) == 0) return;
   for (const Crossing& c : world.geometry.trace_all({world.camera.center(), step}, 0, 1)) media_.cross(c.group, c.sign);
 }
 
@@ -73,12 +84,15 @@ std::optional<Vertex> Path::next_vertex() {
   }
   if (is_black(beta_)) return std::nullopt;
   if (!trace.hit) {
+    // What is left of the throughput of an unscattered ray is the media's transmittance, on average.
+    if (depth_ == 0) record_.alpha = 1 - mean(beta_);
     add_environment();
     return std::nullopt;
   }
   add_surface_emission(*trace.hit);
+  if (depth_ > 0 && depth_ >= limits_.max_depth) return std::nullopt;  // run() would end the path there
   Vertex vertex = surface_vertex(*trace.hit);
-  if (depth_ == 0) record_first_event(limits_.want_albedo ? vertex.albedo() : Rgb());
+  if (depth_ == 0) record_.albedo = limits_.want_albedo ? beta_ * vertex.albedo() : Rgb();
   return vertex;
 }
 
@@ -104,9 +118,10 @@ std::optional<Vertex> Path::fly_through_media(const Trace& trace, float t_end) {
     beta_ *= flight.weight;
     if (is_black(beta_)) return std::nullopt;
     if (flight.collided) {
-      if (depth_ == 0) record_collision(flight.t, flight.weight);
+      const float t = away_from_ends(*interval, ray_, flight.t);
+      if (depth_ == 0) record_collision(t);
       context_.counters.parity_errors += walk.parity_errors();
-      return Vertex(Vertex::InMedium{ray_.at(flight.t), flight.phase}, -ray_.d, walk.state());
+      return Vertex(Vertex::InMedium{ray_.at(t), flight.phase}, -ray_.d, walk.state());
     }
     u = rng.uniform();
   }
@@ -124,7 +139,7 @@ void Path::dim_through_media(const Trace& trace, float t_end) {
                            context_.counters.tracking);
     if (is_black(beta_)) return;
   }
-  media_ = walk.state();
+  context_.counters.parity_errors += walk.parity_errors();
 }
 
 Vertex Path::surface_vertex(const SurfaceHit& hit) {
@@ -185,19 +200,15 @@ void Path::record_camera_ray(const Trace& trace, float t_end) {
   if (limits_.want_transmittance && context_.world.has_media()) record_transmittance(trace, t_end);
 }
 
-void Path::record_first_event(Rgb albedo) {
-  record_.alpha = 1;
-  record_.albedo = albedo;
-}
-
-void Path::record_collision(float t, Rgb albedo) {
-  record_first_event(albedo);
+/// The albedo AOV is what the camera sees of it: dimmed by the media before the event, as beta_ is.
+void Path::record_collision(float t) {
+  record_.albedo = beta_;
   record_.hit_volume = true;
   record_.z_volume = context_.world.camera.depth(ray_.at(t));
 }
 
 void Path::record_transmittance(const Trace& trace, float t_end) {
-  Rng rng = context_.sampler.stream();
+  Rng rng = context_.sampler.side_stream();
   SpanWalk walk(context_.world.media_context(), media_, trace.crossings, t_end);
   while (const auto interval = walk.next()) {
     const MediaView view(interval->media.data(), interval->media.size());

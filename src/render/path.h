@@ -31,8 +31,7 @@ class Path {
   void add_surface_emission(const SurfaceHit& hit);
   void add(Rgb contribution, int events);
   void record_camera_ray(const Trace& trace, float t_end);
-  void record_first_event(Rgb albedo);
-  void record_collision(float t, Rgb albedo);
+  void record_collision(float t);
   void record_transmittance(const Trace& trace, float t_end);
   bool scatter(const Vertex& vertex);
   bool survive_roulette();

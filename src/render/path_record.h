@@ -12,8 +12,8 @@ struct PathRecord {
   Rgb volume_direct, volume_indirect;           ///< first event in a medium; one event, or more
 
   // The camera ray.
-  float alpha = 0;          ///< 1 when it hit a surface or scattered, else 0
-  Rgb albedo;               ///< of the first surface or collision
+  float alpha = 1;          ///< 1 - transmittance where nothing stands behind, on average over samples
+  Rgb albedo;               ///< of the first surface or collision, dimmed by the media before it
   bool hit_surface = false; ///< a real surface stands behind whatever media there are
   Vec3 p, n;                ///< that surface's point and shading normal
   float z = 0;              ///< and its depth along the viewing axis
@@ -21,6 +21,10 @@ struct PathRecord {
   float z_volume = 0;       ///< its depth
   Rgb transmittance{1.0f};  ///< of the media up to the surface; only when the film asks for it
 
+  bool is_finite() const {
+    return tyndall::is_finite(radiance()) && tyndall::is_finite(albedo) && tyndall::is_finite(transmittance) &&
+           tyndall::is_finite(p) && tyndall::is_finite(n) && std::isfinite(alpha + z + z_volume);
+  }
   Rgb radiance() const { return emission + surface_direct + surface_indirect + volume_direct + volume_indirect; }
   void scale_radiance(float s) {
     for (Rgb* part : {&emission, &surface_direct, &surface_indirect, &volume_direct, &volume_indirect}) *part *= s;

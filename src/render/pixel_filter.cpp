@@ -55,6 +55,9 @@ FilterSampler::Axis::Axis(const PixelFilter& filter, int axis) : radius(axis == 
     weights.push_back(std::copysign(1.0f, f));
     plain += f;
   }
+  if (!(radius > 0) || !(plain > 0)) {
+    throw Error(Failure::scene, "the pixel filter has no positive integral; give it a larger radius");
+  }
   distribution = PiecewiseConstant1D(magnitudes);
   for (float& w : weights) w *= static_cast<float>(distribution.total() / plain);
 }

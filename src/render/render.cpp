@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cmath>
 #include <mutex>
-#include <tuple>
 
 #include "math/parallel.h"
 #include "render/film_buffer.h"
@@ -17,7 +16,6 @@ namespace tyndall {
 namespace {
 
 constexpr int kTile = 16;  ///< pixels a side: small enough to balance, large enough for coherent memory
-constexpr std::size_t kBadSamplesKept = 16;
 
 /// Flush denormals to zero while it lives, alike on every thread, whatever settings the thread came with.
 class FlushDenormals {
@@ -114,12 +112,14 @@ class Renderer {
                               .want_transmittance = film_.wants(Aov::transmittance),
                               .want_albedo = film_.wants(Aov::albedo)};
     PathRecord record = Path(context, limits, world_.camera.ray(on_film, lens)).run();
-    if (!is_finite(record.radiance())) {
-      ++counters.non_finite;
-      if (counters.bad_samples.size() < kBadSamplesKept) counters.bad_samples.push_back({x, y, sample});
-      record = PathRecord{};
-    }
     expose(record);
+    if (!record.is_finite()) {
+      ++counters.non_finite;
+      counters.bad_samples.push_back({x, y, sample});
+      if (counters.bad_samples.size() > 4 * kBadSamplesKept) counters.trim_bad_samples();
+      record = PathRecord();
+      record.alpha = 0;
+    }
     film_.add(x, y, sample, record, offset.weight);
   }
 
@@ -139,7 +139,7 @@ class Renderer {
   RenderReport report() const {
     RenderReport r;
     r.samples = schedule_.samples_done();
-    r.stopped = stop_requested();
+    r.stopped = stop_requested() && r.samples < settings_.spp;
     r.seconds = schedule_.seconds();
     r.paths = counters_.paths;
     r.rays = counters_.rays;
@@ -150,10 +150,6 @@ class Renderer {
     r.caps_hit = counters_.tracking.caps_hit;
     r.parity_errors = counters_.parity_errors;
     r.bad_samples = counters_.bad_samples;
-    const auto by_place = [](const BadSample& s) { return std::tuple(s.sample, s.y, s.x); };
-    std::sort(r.bad_samples.begin(), r.bad_samples.end(),
-              [&](const BadSample& a, const BadSample& b) { return by_place(a) < by_place(b); });
-    if (r.bad_samples.size() > kBadSamplesKept) r.bad_samples.resize(kBadSamplesKept);
     return r;
   }
 

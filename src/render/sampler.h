@@ -49,6 +49,9 @@ class Sampler {
     return static_cast<double>((high << 21) | low) * 0x1p-53;
   }
 
+  /// A stream that leaves the other numbers as they are: for what is measured on the side.
+  Rng side_stream() const { return Rng(hash(key_, index_, 0x51deu)); }
+
   /// An independent stream for a loop of unknown length.
   Rng stream() { return Rng(hash(next_block(), index_, 0x5eedu)); }
 

@@ -28,10 +28,25 @@ expect 0 "$T" render s.pbrt --aov Albedo,N,P,Z,Zvol,Variance,SampleCount,Transmi
 expect 0 "$T" info aov.exr
 for channel in Albedo.R N.X P.Z Z Zvol Variance.G SampleCount Transmittance.B VolumeIndirect.R; do says "$channel" out.txt; done
 expect 0 "$T" render s.pbrt -o a.png
-[ "$(ls -A | grep -c tmp)" = 0 ] || fail "a temporary file is left: $(ls -A)"
+[ "$(ls -A | grep -cE "tmp|part")" = 0 ] || fail "a temporary file is left: $(ls -A)"
 
-# Time as the limit.
+# Time and samples as limits: whichever comes first.
 expect 0 "$T" render s.pbrt --time 0.5 --json -o time.exr
+expect 0 "$T" render s.pbrt --spp 3 --time 60 --json -o time.exr
+says '"samples": 3' out.txt
+
+# Channels on the side leave the picture as it is; the parts of the light are there.
+expect 0 "$T" render s.pbrt --aov Transmittance,Albedo,Variance --threads 1 --reproducible -o side.exr
+"$T" info side.exr | grep -E "^ +[RGB] " >side.txt
+"$T" info t1.exr | grep -E "^ +[RGB] " >plain.txt
+cmp side.txt plain.txt || fail "--aov changes R G B"
+
+# A closed or full stderr costs no render.
+("$T" render s.pbrt --progress json -o pipe.exr 2>&1 >/dev/null | head -c 1 >/dev/null)
+"$T" render s.pbrt -o full.exr 2>/dev/full || fail "a full stderr fails the render"
+[ -s full.exr ] || fail "a full stderr costs the image"
+"$T" info s.pbrt >/dev/full 2>/dev/null
+[ $? = 4 ] || fail "results that cannot be written are not an error"
 
 # What cannot be done gets its exit code, one clear line, and leaves an old file alone.
 expect 2 "$T" render s.pbrt --no-such-option

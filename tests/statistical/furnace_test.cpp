@@ -62,6 +62,17 @@ TEST_CASE("F1: a homogeneous medium, backward scattering, a diffuse white plane 
   check_agrees("F1 with a white plane", scene, {1.0, 1.0, 1.0}, kFurnace);
 }
 
+// A uniform sky is found by scattered rays alone; walls that glow are sampled as lights as well, with shared weights.
+TEST_CASE("F1: inside a glowing box, and a glowing ball") {
+  const std::string smoke = uniform_grid("m", {.sigma_s = {6, 4, 8}, .g = 0.5f}, lumpy_grid()) + medium_box("m", "", kBox);
+  const std::string glow = "AreaLightSource \"diffuse\" \"rgb L\" [1 1 1] \"bool twosided\" true\nMaterial \"diffuse\" \"rgb reflectance\" [0 0 0]\n";
+  const std::string ball = block(glow + "Shape \"sphere\" \"float radius\" 6\n");
+  const std::string walls = block(glow + box_mesh({{-4, -5, -6}, {7, 6, 5}}));
+  const Agreement glowing{.d = nightly() ? 0.002 : 0.006};
+  check_agrees("F1 in a glowing box", view(perspective()) + walls + smoke, {1.0, 1.0, 1.0}, glowing);
+  check_agrees("F1 in a glowing ball", view(perspective()) + ball + smoke + diffuse_plane(0.1f, 0.5f, 1), {1.0, 1.0, 1.0}, glowing);
+}
+
 TEST_CASE("F2: an absorbing and emitting slab adds 1 - exp(-tau) and lets T through") {
   const Grid grid = lumpy_grid();
   constexpr double kBackground = 0.25;

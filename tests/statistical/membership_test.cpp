@@ -118,12 +118,12 @@ TEST_CASE("no path loses count of the media it is in") {
                             environment(1) + homogeneous("outer", {.sigma_s = Rgb(1.0f)}) +
                             homogeneous("inner", {.sigma_s = Rgb(4.0f)}) + homogeneous("ball", {.sigma_s = Rgb(15.0f)}) + block(box);
   Subject subject(scene);
-  const int renders = nightly() ? 400 : 8;
+  const int renders = nightly() ? 200 : 8;
   Moments mean;
   for (int i = 0; i < renders; ++i) {
     const Image image = subject.render(32, 77 + i);
     for (const float v : image.find("R")->values) mean.add(v);
   }
   CHECK_MESSAGE(subject.faults().empty(), subject.faults());
-  CHECK(std::abs(mean.estimate().mean - 1) < 4 * mean.estimate().standard_error());  // a furnace, too
+  CHECK(std::abs(mean.estimate().mean - 1) <= 4 * mean.estimate().standard_error() + 1e-6);  // a furnace, too
 }

@@ -83,14 +83,17 @@ std::string vdb(const std::string& name, const Coefficients& c, const std::strin
   return medium(name, "nanovdb", optics(c) + " \"string filename\" \"" + path + "\"");
 }
 
-std::string medium_box(const std::string& inside, const std::string& outside, const Bounds3& box) {
+std::string box_mesh(const Bounds3& box) {
   std::string points, indices;
   for (int i = 0; i < 8; ++i) points += text_of(box.corner(i));
   for (const auto& f : kFaces) {
     for (const int corner : {0, 1, 2, 0, 2, 3}) indices += std::to_string(f[corner]) + " ";
   }
-  return block(interface_between(inside, outside) + "Shape \"trianglemesh\" \"point3 P\" [" + points +
-               "] \"integer indices\" [" + indices + "]\n");
+  return "Shape \"trianglemesh\" \"point3 P\" [" + points + "] \"integer indices\" [" + indices + "]\n";
+}
+
+std::string medium_box(const std::string& inside, const std::string& outside, const Bounds3& box) {
+  return block(interface_between(inside, outside) + box_mesh(box));
 }
 
 std::string medium_box_of_quads(const std::string& inside, const std::string& outside, const Bounds3& box) {

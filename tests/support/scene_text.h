@@ -43,7 +43,9 @@ std::string uniform_grid(const std::string& name, const Coefficients& c, const G
 /// A .vdb or .nvdb file.
 std::string vdb(const std::string& name, const Coefficients& c, const std::string& path);
 
-/// The faces of a box as one mesh, normals outward, and its interface from `inside` to `outside` ("": none).
+/// The faces of a box as one mesh, normals outward.
+std::string box_mesh(const Bounds3& box);
+/// A box_mesh of interface material: the boundary from `inside` to `outside` ("": none).
 std::string medium_box(const std::string& inside, const std::string& outside, const Bounds3& box);
 /// The same boundary as six separate quads within one attribute block.
 std::string medium_box_of_quads(const std::string& inside, const std::string& outside, const Bounds3& box);

@@ -60,7 +60,7 @@ TEST_CASE("worldToNDC takes a point to its place on the film") {
   const CameraRays rays(camera, film(320, 180));
   const Vec3 p = rays.ray({80, 135}, {0, 0}).at(2.5f);
   const auto m = rays.world_to_ndc();
-  const auto row = [&](int r) { return m[4 * r] * p.x + m[4 * r + 1] * p.y + m[4 * r + 2] * p.z + m[4 * r + 3]; };
+  const auto row = [&](int r) { return m[r] * p.x + m[4 + r] * p.y + m[8 + r] * p.z + m[12 + r]; };
   CHECK(row(0) / row(3) == doctest::Approx(0.25));
   CHECK(row(1) / row(3) == doctest::Approx(0.75));
 }
