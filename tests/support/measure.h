@@ -27,7 +27,8 @@ class Subject {
 
   /// One render of `spp` samples a pixel; equal seeds give equal images.
   Image render(int spp, std::uint64_t seed, const std::vector<std::string>& aovs = {});
-  /// Non-finite samples, majorant violations, caps hit and parity errors so far, as text; empty, as it must be: none.
+  /// Non-finite samples, majorant violations, caps hit (none is allowed) and parity errors (one in a million rays is)
+  /// so far, as text; empty, as it must be: within that.
   std::string faults() const;
   const Scene& scene() const { return scene_; }
 
