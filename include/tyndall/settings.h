@@ -19,10 +19,13 @@ enum class TransmittanceStrategy { residual, ratio, delta };
 struct RenderSettings {
   int spp = 64;                  ///< samples a pixel, >= 1
   std::optional<double> time{};  ///< seconds; stops at the first pass end after it, if spp have not been reached before
+  /// relMSE (mean of variance / (mean^2 + 0.01), from the render's own replicates) to stop below; looked at when the
+  /// samples are 64, 128, 256 ...
+  std::optional<double> error{};
   int max_depth = 5;             ///< scattering events a path, counted as pbrt's volpath; >= 0
   std::uint64_t seed = 0;
   int threads = 0;               ///< 0: all cores
-  LightStrategy lights = LightStrategy::tree_binary;  ///< for BuildSettings: the World is built for it
+  LightStrategy lights = LightStrategy::tree_binary;  ///< one that the World was built with
   TransmittanceStrategy transmittance = TransmittanceStrategy::residual;
   std::vector<std::string> aovs{};  ///< names from aov_names()
   std::optional<PixelBounds> crop{};

@@ -86,7 +86,7 @@ int run_render(const RenderOptions& options) {
   summary.read_seconds = watch.lap();
 
   const World world = build(std::move(file.scene),
-                            {.lights = settings.lights, .sanitize = options.sanitize, .threads = settings.threads});
+                            {.lights = {settings.lights}, .sanitize = options.sanitize, .threads = settings.threads});
   summary.build = world.summary();
   summary.build_seconds = watch.lap();
   if (!options.quiet) print_notes(file, world);

@@ -65,10 +65,10 @@ void set_resolution(const std::string& text, Scene& scene) {
 
 void set_samples(const RenderOptions& options, RenderSettings& settings) {
   if (options.spp) settings.spp = *options.spp;
-  if (!options.time) return;
-  settings.time = *options.time;
-  // A time limit alone leaves the number of samples open.
-  if (!options.spp) settings.spp = std::numeric_limits<int>::max();
+  if (options.time) settings.time = *options.time;
+  if (options.error) settings.error = *options.error;
+  // A limit of time or error alone leaves the number of samples open.
+  if (!options.spp && (options.time || options.error)) settings.spp = std::numeric_limits<int>::max();
 }
 
 }  // namespace
@@ -78,6 +78,8 @@ void declare(CLI::App& command, RenderOptions& o) {
   command.add_option("-o,--output", o.output, "image to write, .exr or .png [the Film's name, else SCENE.exr]; -o plume.exr");
   command.add_option("--spp", o.spp, "samples a pixel, at most [the Sampler's, else 16]; --spp 256")->check(CLI::Range(1, 1 << 30));
   command.add_option("--time", o.time, "seconds to render for, at most; without --spp the samples are as many as that gives [none]; --time 60")
+      ->check(CLI::PositiveNumber);
+  command.add_option("--error", o.error, "stop when the estimated relMSE, mean of variance / (mean^2 + 0.01), is below this; looked at when the samples are 64, 128, 256 ... [none]; --error 0.001")
       ->check(CLI::PositiveNumber);
   command.add_option("--threads", o.threads, "threads [0: one a core]; --threads 2")->check(CLI::Range(0, 4096));
   command.add_option("--seed", o.seed, "of the random numbers [0]; --seed 7")->check(CLI::NonNegativeNumber);

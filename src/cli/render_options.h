@@ -15,7 +15,7 @@ namespace tyndall::cli {
 struct RenderOptions {
   std::string scene, output;
   std::optional<int> spp, max_depth, threads;
-  std::optional<double> time;
+  std::optional<double> time, error;
   std::optional<std::uint64_t> seed;
   std::string crop, resolution, lights, transmittance, aovs, progress = "auto";
   bool sanitize = false, reproducible = false, quiet = false, json = false;

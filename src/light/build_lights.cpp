@@ -1,4 +1,6 @@
 // From the scene's descriptions to Lights: places every light, loads its images, and sets up the choice among them.
+#include <algorithm>
+#include <chrono>
 #include <map>
 
 #include "light/lights_parts.h"
@@ -25,6 +27,7 @@ class Builder {
   Emission emission(const Shape& shape);
   std::uint32_t image(const AreaLight& light, const Location& where);
   SelectionInput selection_input() const;
+  void add_selector(LightStrategy strategy, const SelectionInput& input);
   void count(const SelectionInput& input);
 
   std::unique_ptr<Lights::Parts> parts_;
@@ -121,7 +124,8 @@ SelectionInput Builder::selection_input() const {
   const Lights::Parts& p = *parts_;
   SelectionInput input;
   input.power.reserve(p.lights.size());
-  const bool tree = options_.strategy == LightStrategy::tree_binary;
+  const auto& wanted = options_.strategies;
+  const bool tree = std::find(wanted.begin(), wanted.end(), LightStrategy::tree_binary) != wanted.end();
   if (tree) input.near.reserve(p.lights.size());
   const auto add_near = [&](LightBounds bounds, LightId id) { input.near.push_back({bounds, id}); };
   for (LightId id = 0; id < p.lights.size(); ++id) {
@@ -157,16 +161,21 @@ void Builder::count(const SelectionInput& input) {
   }
 }
 
+void Builder::add_selector(LightStrategy strategy, const SelectionInput& input) {
+  const auto start = std::chrono::steady_clock::now();
+  parts_->selectors.push_back(make_selector(strategy, input));
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  parts_->selector_stats.push_back({strategy, elapsed.count(), parts_->selectors.back()->memory_bytes()});
+}
+
 Lights Builder::finish(const Bounds3& scene_bounds) {
   if (!scene_bounds.empty()) {
     const double radius = 0.5 * length(scene_bounds.extent());
     if (radius > 0 && std::isfinite(radius)) parts_->scene_radius = radius;
   }
-  SelectionInput input = selection_input();
+  const SelectionInput input = selection_input();
   count(input);
-  parts_->selection = Selection(options_.strategy, std::move(input));
-  parts_->stats.tree_nodes = parts_->selection.tree().nodes().size();
-  parts_->stats.tree_depth = parts_->selection.tree().depth();
+  for (const LightStrategy strategy : options_.strategies) add_selector(strategy, input);
   return Lights(std::move(parts_));
 }
 

@@ -1,6 +1,7 @@
 #include "light/lights.h"
 
 #include "light/lights_parts.h"
+#include "tyndall/error.h"
 
 namespace tyndall {
 namespace {
@@ -39,19 +40,19 @@ Lights::Lights(Lights&&) noexcept = default;
 Lights& Lights::operator=(Lights&&) noexcept = default;
 
 std::size_t Lights::size() const { return parts_->lights.size(); }
-bool Lights::exhaustive() const { return strategy() == LightStrategy::exhaustive; }
-LightStrategy Lights::strategy() const { return parts_->selection.strategy(); }
 const LightStats& Lights::stats() const { return parts_->stats; }
 double Lights::power(LightId light) const { return parts_->power(light); }
 std::span<const LightId> Lights::infinite() const { return parts_->infinite; }
 LightId Lights::first_light(std::size_t emitter_shape) const { return parts_->first_light[emitter_shape]; }
 
-std::optional<SelectedLight> Lights::select(const PointQuery& query, double u) const {
-  return parts_->selection.select(query, u);
-}
+std::span<const SelectorStats> Lights::selectors() const { return parts_->selector_stats; }
 
-float Lights::pmf(const PointQuery& query, LightId light) const {
-  return exhaustive() ? 1.0f : parts_->selection.pmf(query, light);
+const LightSelector& Lights::selector(LightStrategy strategy) const {
+  for (std::size_t i = 0; i < parts_->selectors.size(); ++i) {
+    if (parts_->selector_stats[i].strategy == strategy) return *parts_->selectors[i];
+  }
+  throw Error(Failure::usage, "the world was not built for light strategy " + std::string(name_of(strategy)) +
+                                  "; name it in BuildSettings::lights");
 }
 
 std::optional<LightSample> Lights::sample(LightId light, Vec3 p, Vec2 u, bool mis_partner) const {
@@ -100,8 +101,8 @@ float Lights::environment_pdf(LightId light, Vec3 w, bool mis_partner) const {
 std::size_t Lights::memory_bytes() const {
   const Parts& p = *parts_;
   std::size_t bytes = p.lights.capacity() * sizeof(Parts::Reference) + p.points.capacity() * sizeof(PointEmitter) +
-                      p.spots.capacity() * sizeof(SpotEmitter) + p.distants.capacity() * sizeof(DistantEmitter) +
-                      p.selection.memory_bytes();
+                      p.spots.capacity() * sizeof(SpotEmitter) + p.distants.capacity() * sizeof(DistantEmitter);
+  for (const SelectorStats& s : p.selector_stats) bytes += s.memory_bytes;
   for (const Environment& e : p.environments) bytes += e.memory_bytes();
   for (const Emitter& e : p.emitters) bytes += e.memory_bytes();
   for (const TexelImage& i : p.maps.images)

@@ -1,8 +1,8 @@
 /// Every light of a scene: choose one for a point, sample a direction toward it, and evaluate the densities of both.
 ///
-/// The three steps of next-event estimation are `select` (pmf), `sample` (pdf, 1/sr) and the caller's shadow ray.
-/// For a scattered ray that finds a light by itself, `pmf` and `pdf` (or `environment_pdf`) give the probabilities
-/// with which the first two steps would have found the same.
+/// The three steps of next-event estimation are a selector's `select` (pmf), `sample` (pdf, 1/sr) and the caller's
+/// shadow ray. For a scattered ray that finds a light by itself, the selector's `pmf` and `pdf` (or `environment_pdf`)
+/// give the probabilities with which the first two steps would have found the same.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,9 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
-#include "light/query.h"
+#include "light/selection.h"
 #include "tyndall/math.h"
 #include "tyndall/scene.h"
 #include "tyndall/settings.h"
@@ -43,7 +44,7 @@ struct EmitterShape {
 };
 
 struct LightBuildOptions {
-  LightStrategy strategy = LightStrategy::tree_binary;
+  std::vector<LightStrategy> strategies{LightStrategy::tree_binary};  ///< a selector is built for each
   const Textures* textures = nullptr;  ///< read for the alpha of emissive shapes; null: opaque. Must outlive the lights
 };
 
@@ -51,9 +52,14 @@ struct LightBuildOptions {
 struct LightStats {
   std::size_t lights = 0, emitters = 0, infinite = 0;  ///< all; primitives of emissive shapes; environments
   std::size_t dark = 0;                                ///< lights without power, which are never chosen
-  std::size_t tree_nodes = 0;
-  int tree_depth = 0;
   double power = 0;  ///< W, mean of the channels, all lights
+};
+
+/// What a selector costs.
+struct SelectorStats {
+  LightStrategy strategy = LightStrategy::tree_binary;
+  double seconds = 0;  ///< to build
+  std::size_t memory_bytes = 0;
 };
 
 /// Immutable after build_lights; every query may be made from any number of threads.
@@ -68,15 +74,9 @@ class Lights {
 
   std::size_t size() const;
   bool empty() const { return size() == 0; }
-  /// Callers loop over all lights, each with pmf 1, in place of select().
-  bool exhaustive() const;
-  LightStrategy strategy() const;
-
-  /// One light for the point, by one number of 52 or more random bits in [0, 1). Nothing: no light is known to
-  /// contribute. Exhaustive: chooses uniformly.
-  std::optional<SelectedLight> select(const PointQuery& query, double u) const;
-  /// Probability that select() gives `light`; exhaustive: 1.
-  float pmf(const PointQuery& query, LightId light) const;
+  /// Throws Error (usage) for a strategy that the lights were not built with.
+  const LightSelector& selector(LightStrategy strategy) const;
+  std::span<const SelectorStats> selectors() const;  ///< in the order asked for
 
   /// A direction from `p` toward the light. Nothing when it cannot contribute there.
   /// `mis_partner`: scattered rays, weighted by MIS, find environments too; they are then sampled by what exceeds
@@ -95,7 +95,7 @@ class Lights {
   LightId first_light(std::size_t emitter_shape) const;
   double power(LightId light) const;  ///< W, mean of the channels
   const LightStats& stats() const;
-  std::size_t memory_bytes() const;
+  std::size_t memory_bytes() const;  ///< selectors included
 
  private:
   std::unique_ptr<const Parts> parts_;

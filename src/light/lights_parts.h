@@ -2,13 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "light/delta_lights.h"
 #include "light/emitter.h"
 #include "light/environment.h"
 #include "light/lights.h"
-#include "light/selection.h"
 
 namespace tyndall {
 
@@ -33,7 +33,8 @@ struct Lights::Parts {
   std::vector<LightId> infinite;
   EmissionMaps maps;
   double scene_radius = 1;
-  Selection selection;
+  std::vector<SelectorStats> selector_stats;
+  std::vector<std::unique_ptr<const LightSelector>> selectors;  ///< as in selector_stats
   LightStats stats;
 };
 

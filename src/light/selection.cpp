@@ -1,77 +1,27 @@
 #include "light/selection.h"
 
+#include "light/alias_selector.h"
+#include "light/tree_selector.h"
+
 namespace tyndall {
 namespace {
 
-constexpr std::uint32_t kFar = 0x80000000;
-constexpr std::uint32_t kDark = 0xffffffff;
-
-/// Neither the tree nor the lights at infinity get less than this while they have any importance: the root's bound
-/// says little about the lights near a point inside it.
-constexpr double kLeastShare = 0.1;
-constexpr double kBelowOne = 0x1.fffffffffffffp-1;
+/// The same chance for every light that has power.
+std::vector<double> equal_weights(std::vector<double> power) {
+  for (double& w : power) w = w > 0 ? 1 : 0;
+  return power;
+}
 
 }  // namespace
 
-Selection::Selection(LightStrategy strategy, SelectionInput input) : strategy_(strategy) {
-  if (strategy == LightStrategy::tree_binary) {
-    slot_.assign(input.power.size(), kDark);
-    for (std::uint32_t i = 0; i < input.far.size(); ++i) slot_[input.far[i].light] = kFar + i;
-    far_ = FarLights(input.far);
-    tree_ = LightTree(std::move(input.near));
-    const auto nodes = tree_.nodes();
-    for (std::uint32_t i = 0; i < nodes.size(); ++i)
-      if (nodes[i].leaf) slot_[nodes[i].second_or_light] = i;
-    return;
+std::unique_ptr<const LightSelector> make_selector(LightStrategy strategy, const SelectionInput& input) {
+  switch (strategy) {
+    case LightStrategy::uniform: return std::make_unique<AliasSelector>(equal_weights(input.power));
+    case LightStrategy::power: return std::make_unique<AliasSelector>(input.power);
+    case LightStrategy::exhaustive: return std::make_unique<ExhaustiveSelector>(equal_weights(input.power));
+    case LightStrategy::tree_binary: return std::make_unique<TreeSelector>(input);
   }
-  if (strategy != LightStrategy::power)
-    for (double& w : input.power) w = w > 0 ? 1 : 0;
-  power_ = AliasTable(input.power);
-}
-
-Selection::Shares Selection::shares(const PointQuery& query) const {
-  const double near = tree_.importance(query), far = far_.importance(query);
-  if (near == 0 || far == 0) return {near > 0 ? 1.0 : 0.0, far > 0 ? 1.0 : 0.0};
-  const double share = std::clamp(far / (near + far), kLeastShare, 1 - kLeastShare);
-  return {1 - share, share};
-}
-
-std::optional<SelectedLight> Selection::select_by_tree(const PointQuery& query, double u) const {
-  const Shares share = shares(query);
-  if (u < share.near) {
-    const auto choice = tree_.select(query, std::min(u / share.near, kBelowOne));
-    if (!choice) return std::nullopt;
-    return SelectedLight{choice->light, static_cast<float>(share.near * choice->pmf)};
-  }
-  if (!(share.far > 0)) return std::nullopt;
-  const auto choice = far_.select(query, std::min((u - share.near) / share.far, kBelowOne));
-  if (!choice) return std::nullopt;
-  return SelectedLight{choice->light, static_cast<float>(share.far * choice->pmf)};
-}
-
-double Selection::tree_pmf(const PointQuery& query, LightId light) const {
-  const std::uint32_t slot = slot_[light];
-  if (slot == kDark) return 0;
-  const Shares share = shares(query);
-  if (slot >= kFar) return share.far > 0 ? share.far * far_.pmf(query, slot - kFar) : 0;
-  return share.near > 0 ? share.near * tree_.pmf(query, slot) : 0;
-}
-
-std::optional<SelectedLight> Selection::select(const PointQuery& query, double u) const {
-  if (strategy_ == LightStrategy::tree_binary) return select_by_tree(query, u);
-  if (!(power_.total() > 0)) return std::nullopt;
-  const auto choice = power_.sample(u);
-  return SelectedLight{choice.index, static_cast<float>(choice.pmf)};
-}
-
-float Selection::pmf(const PointQuery& query, LightId light) const {
-  if (strategy_ == LightStrategy::tree_binary) return static_cast<float>(tree_pmf(query, light));
-  if (!(power_.total() > 0)) return 0;
-  return static_cast<float>(power_.pmf(light));
-}
-
-std::size_t Selection::memory_bytes() const {
-  return power_.memory_bytes() + tree_.memory_bytes() + far_.memory_bytes() + slot_.capacity() * sizeof(slot_[0]);
+  return nullptr;
 }
 
 }  // namespace tyndall

@@ -1,49 +1,40 @@
-/// How one light is chosen among all: uniformly, by power, or by the light tree.
+/// How one light is chosen among all. Each strategy is a LightSelector; registering one is a row in selection.cpp and
+/// one in the table of names (math/settings.cpp).
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "light/far_lights.h"
 #include "light/light_tree.h"
-#include "math/distribution.h"
+#include "light/query.h"
 #include "tyndall/settings.h"
 
 namespace tyndall {
 
-/// What selection is built from. Lights without power stand in `power` alone.
+/// select() and pmf() belong together; both are pure functions of the query.
+class LightSelector {
+ public:
+  virtual ~LightSelector() = default;
+
+  /// One light for the point, by one number of 52 or more random bits in [0, 1). Nothing: no light is known to
+  /// contribute.
+  virtual std::optional<SelectedLight> select(const PointQuery& query, double u) const = 0;
+  /// Probability that select() gives `light`; exhaustive: 1.
+  virtual float pmf(const PointQuery& query, LightId light) const = 0;
+  /// Callers loop over all lights, each with pmf 1, in place of select().
+  virtual bool exhaustive() const { return false; }
+  virtual std::size_t memory_bytes() const = 0;
+};
+
+/// What selectors are built from. Lights without power stand in `power` alone.
 struct SelectionInput {
   std::vector<double> power;  ///< by LightId, W; 0: never chosen
   std::vector<TreeLight> near;
   std::vector<FarLight> far;
 };
 
-/// select() and pmf() of the same strategy belong together; both are pure functions of the query.
-class Selection {
- public:
-  Selection() = default;
-  Selection(LightStrategy strategy, SelectionInput input);
-
-  std::optional<SelectedLight> select(const PointQuery& query, double u) const;
-  float pmf(const PointQuery& query, LightId light) const;
-
-  LightStrategy strategy() const { return strategy_; }
-  const LightTree& tree() const { return tree_; }
-  std::size_t memory_bytes() const;
-
- private:
-  struct Shares {
-    double near, far;  ///< probabilities of the tree and of the lights at infinity
-  };
-  Shares shares(const PointQuery& query) const;
-  std::optional<SelectedLight> select_by_tree(const PointQuery& query, double u) const;
-  double tree_pmf(const PointQuery& query, LightId light) const;
-
-  LightStrategy strategy_ = LightStrategy::tree_binary;
-  AliasTable power_;  ///< uniform and exhaustive: equal weights for all lights that have power
-  LightTree tree_;
-  FarLights far_;
-  std::vector<std::uint32_t> slot_;  ///< by LightId: tree leaf, or kFar + index among the far lights, or kDark
-};
+std::unique_ptr<const LightSelector> make_selector(LightStrategy strategy, const SelectionInput& input);
 
 }  // namespace tyndall

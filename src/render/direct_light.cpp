@@ -48,12 +48,12 @@ Rgb visibility(const LightContext& context, const MediaState& media, Vec3 origin
 Rgb direct_light(const LightContext& context, const Vertex& vertex, Rgb beta) {
   const Lights& lights = context.world.lights;
   if (lights.empty() || !vertex.has_smooth()) return {};
-  if (lights.exhaustive()) {
+  if (context.selector.exhaustive()) {
     Rgb sum;
     for (LightId id = 0; id < lights.size(); ++id) sum += sample_light(context, vertex, beta, {id, 1.0f});
     return sum;
   }
-  const auto selected = lights.select(vertex.light_query(), context.sampler.next_wide());
+  const auto selected = context.selector.select(vertex.light_query(), context.sampler.next_wide());
   if (!selected) return {};
   return sample_light(context, vertex, beta, *selected);
 }

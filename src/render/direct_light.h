@@ -11,6 +11,7 @@ namespace tyndall {
 /// What light estimation needs of the render at large.
 struct LightContext {
   const World::Parts& world;
+  const LightSelector& selector;
   TransmittanceStrategy transmittance;
   Sampler& sampler;
   Counters& counters;

@@ -9,6 +9,8 @@ namespace tyndall {
 namespace {
 
 // A pixel's sums: even samples' RGB, odd samples' RGB, alpha, then each AOV's.
+constexpr double kRelativeEpsilon = 0.01;  ///< of relMSE, as everywhere
+
 constexpr std::size_t kEven = 0, kOdd = 3, kAlpha = 6, kFirstAov = 7;
 
 std::size_t sums_of(Aov aov) {
@@ -174,6 +176,23 @@ void FilmBuffer::store_aov(Image& image, Aov aov, std::size_t offset, int sample
       image.channels[first].values[i] = static_cast<float>(s[0] / std::max(s[1], 1.0));
     }
   }
+}
+
+double FilmBuffer::estimated_relmse(int samples) const {
+  if (samples < 2) return kInfinity;
+  Image halves;
+  halves.data = crop_;
+  store_color(halves, "", kEven, samples);
+  store_variance(halves, samples);
+  double sum = 0;
+  const std::size_t pixels = halves.channels[0].values.size();
+  for (std::size_t i = 0; i < pixels; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      const double mean = halves.channels[k].values[i];
+      sum += halves.channels[3 + k].values[i] / (mean * mean + kRelativeEpsilon);
+    }
+  }
+  return sum / (3.0 * static_cast<double>(pixels));
 }
 
 Image FilmBuffer::image(int samples) const {

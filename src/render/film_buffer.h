@@ -35,6 +35,9 @@ class FilmBuffer {
   /// Means of the `samples` samples that every pixel has received, in the film's colour space.
   Image image(int samples) const;
 
+  /// Mean of variance / (mean^2 + 0.01) over pixels and channels, as the two replicates tell; infinity for samples < 2.
+  double estimated_relmse(int samples) const;
+
  private:
   double* pixel(int x, int y);
   const double* pixel(std::size_t index) const { return sums_.data() + index * stride_; }

@@ -7,8 +7,8 @@
 namespace tyndall {
 namespace {
 
-std::string options_text(const RenderSettings& settings, LightStrategy lights) {
-  return "--max-depth " + std::to_string(settings.max_depth) + " --lights " + std::string(name_of(lights)) +
+std::string options_text(const RenderSettings& settings) {
+  return "--max-depth " + std::to_string(settings.max_depth) + " --lights " + std::string(name_of(settings.lights)) +
          " --transmittance " + std::string(name_of(settings.transmittance));
 }
 
@@ -33,7 +33,7 @@ void write_header(Image& image, const World::Parts& world, const RenderSettings&
   a["tyndall/scene"] = world.scene.source;
   a["tyndall/samples"] = report.samples;
   a["tyndall/seed"] = std::to_string(settings.seed);  // 64 bits do not fit an EXR integer
-  a["tyndall/options"] = options_text(settings, world.lights.strategy());
+  a["tyndall/options"] = options_text(settings);
   if (settings.reproducible) return;
   a["tyndall/renderTime"] = report.seconds;
   a["tyndall/date"] = utc_now();

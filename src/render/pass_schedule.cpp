@@ -1,39 +1,65 @@
 #include "render/pass_schedule.h"
 
 #include <algorithm>
+#include <bit>
 
 namespace tyndall {
 namespace {
 
 constexpr int kLargestPass = 16;
-constexpr double kPassSeconds = 1.0;    ///< aim: the longest wait for a stop
+constexpr double kPassSeconds = 1.0;  ///< aim: the longest wait for a stop
 constexpr double kReportSeconds = 0.2;
+constexpr int kFirstErrorCheck = 64;  ///< samples; replicates of fewer are too noisy to decide on
+
+int samples_to_next_checkpoint(int samples) {
+  const unsigned next = std::bit_ceil(static_cast<unsigned>(samples) + 1);
+  return static_cast<int>(next) - samples;
+}
 
 }  // namespace
 
-int PassSchedule::next_pass() const {
-  const double elapsed = seconds();
-  if (settings_.time && samples_done_ > 0 && elapsed >= *settings_.time) return 0;
-  const int left = settings_.spp - samples_done_;
-  int pass = std::clamp(samples_done_, 1, kLargestPass);
-  if (samples_done_ > 0) {
-    const double a_sample = elapsed / samples_done_;
-    double budget = kPassSeconds;
-    if (settings_.time) budget = std::min(budget, *settings_.time - elapsed);
-    pass = std::clamp(static_cast<int>(budget / std::max(a_sample, 1e-9)), 1, pass);
-  }
-  return std::min(pass, left);
+bool PassSchedule::good_enough(const RenderJob& job) const {
+  return settings_.error && job.samples() >= kFirstErrorCheck && is_checkpoint(job.samples()) &&
+         job.estimated_relmse() < *settings_.error;
 }
 
-std::optional<Progress> PassSchedule::progress(double pass_samples) {
-  const double now = seconds();
-  if (now - last_report_ < kReportSeconds && samples_done_ < settings_.spp) return std::nullopt;
+bool PassSchedule::complete(const RenderJob& job) const {
+  if (job.samples() >= settings_.spp) return true;
+  if (settings_.time && job.samples() > 0 && job.seconds() >= *settings_.time) return true;
+  return good_enough(job);
+}
+
+int PassSchedule::next_pass(const RenderJob& job) {
+  if (complete(job)) return 0;
+  const int done = job.samples();
+  int pass = std::clamp(done, 1, kLargestPass);
+  if (done > 0) {
+    const double a_sample = job.seconds() / done;
+    double budget = kPassSeconds;
+    if (settings_.time) budget = std::min(budget, *settings_.time - job.seconds());
+    pass = std::clamp(static_cast<int>(budget / std::max(a_sample, 1e-9)), 1, pass);
+  }
+  if (checkpoints_ || settings_.error) pass = std::min(pass, samples_to_next_checkpoint(done));
+  // The error falls like 1/samples: good enough to tell how long it will take.
+  if (settings_.error && done >= 2 && is_checkpoint(done)) samples_needed_ = done * job.estimated_relmse() / *settings_.error;
+  return std::min(pass, settings_.spp - done);
+}
+
+double PassSchedule::fraction(double samples, double seconds) const {
+  double fraction = samples / settings_.spp;
+  if (settings_.time) fraction = std::max(fraction, seconds / *settings_.time);
+  if (samples_needed_ > 0) fraction = std::max(fraction, samples / std::max<double>(samples_needed_, kFirstErrorCheck));
+  return std::min(fraction, 1.0);
+}
+
+std::optional<Progress> PassSchedule::progress(const RenderJob& job, double pass_samples) {
+  const double now = std::chrono::duration<double>(Clock::now() - start_).count();
+  if (now - last_report_ < kReportSeconds && job.samples() < settings_.spp) return std::nullopt;
   last_report_ = now;
   Progress p;
-  p.samples_done = samples_done_;
+  p.samples_done = job.samples();
   p.seconds = now;
-  p.fraction = (samples_done_ + pass_samples) / settings_.spp;
-  if (settings_.time) p.fraction = std::max(p.fraction, std::min(1.0, now / *settings_.time));
+  p.fraction = fraction(p.samples_done + pass_samples, now);
   p.remaining = p.fraction > 0 ? now * (1 - p.fraction) / p.fraction : 0.0;
   return p;
 }

@@ -13,24 +13,29 @@ namespace tyndall {
 /// are grouped does not change the picture.
 class PassSchedule {
  public:
-  explicit PassSchedule(const RenderSettings& settings) : settings_(settings) {}
+  /// `checkpoints`: passes end at every power of two.
+  PassSchedule(const RenderSettings& settings, bool checkpoints) : settings_(settings), checkpoints_(checkpoints) {}
+
+  static bool is_checkpoint(int samples) { return samples > 0 && (samples & (samples - 1)) == 0; }
 
   /// Samples a pixel in the next pass; 0 when the render is complete.
-  int next_pass() const;
-  void finish_pass(int count) { samples_done_ += count; }
-
-  int samples_done() const { return samples_done_; }
-  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+  int next_pass(const RenderJob& job);
+  /// One of the settings' ends is reached.
+  bool complete(const RenderJob& job) const;
 
   /// Where the render stands when the running pass has done `pass_samples` samples a pixel; nothing when the last
   /// report is too fresh.
-  std::optional<Progress> progress(double pass_samples);
+  std::optional<Progress> progress(const RenderJob& job, double pass_samples);
 
  private:
+  bool good_enough(const RenderJob& job) const;
+  double fraction(double samples, double seconds) const;
+
   using Clock = std::chrono::steady_clock;
   RenderSettings settings_;
   Clock::time_point start_ = Clock::now();
-  int samples_done_ = 0;
+  bool checkpoints_;
+  double samples_needed_ = 0;  ///< for settings.error, as far as is known; 0: not known
   double last_report_ = -1;
 };
 

@@ -157,7 +157,7 @@ void Path::add_environment() {
     if (is_black(L)) continue;
     float weight = 1;
     if (light_sampled_) {
-      const float pmf = lights.exhaustive() ? 1.0f : lights.pmf(query_, id);
+      const float pmf = context_.selector.pmf(query_, id);
       weight = mis_weight(pdf_, pmf * lights.environment_pdf(id, ray_.d, true));
     }
     add(beta_ * L * weight, depth_);
@@ -173,7 +173,7 @@ void Path::add_surface_emission(const SurfaceHit& hit) {
   if (is_black(L)) return;
   float weight = 1;
   if (light_sampled_) {
-    const float pmf = lights.exhaustive() ? 1.0f : lights.pmf(query_, *id);
+    const float pmf = context_.selector.pmf(query_, *id);
     weight = mis_weight(pdf_, pmf * lights.pdf(*id, query_.p, emitter));
   }
   add(beta_ * L * weight, depth_);

@@ -98,10 +98,11 @@ World::Parts::Parts(Scene scene_in, const BuildSettings& settings)
   const Stopwatch watch;
   const Emitters emitters = find_emitters(scene, geometry, summary);
   lights = build_lights(scene, emitters.shapes, scene_bounds(geometry, media),
-                        {.strategy = settings.lights, .textures = &textures});
+                        {.strategies = settings.lights, .textures = &textures});
   first_light.assign(geometry.placed().size(), kNone);
   for (std::size_t i = 0; i < emitters.placed.size(); ++i) first_light[emitters.placed[i]] = lights.first_light(i);
   summary.lights = lights.size();
+  for (const SelectorStats& s : lights.selectors()) summary.light_strategies.push_back({s.strategy, s.seconds, s.memory_bytes});
   summary.light_bytes = lights.memory_bytes();
   summary.light_seconds = watch.seconds();
   camera_media = find_camera_media(scene.camera.medium, camera.center(), geometry);

@@ -28,7 +28,7 @@ RenderSettings settings_of(const Scene& scene, const Variant& variant) {
 
 BuildSettings build_settings_of(const Variant& variant) {
   BuildSettings settings;
-  settings.lights = variant.lights;
+  settings.lights = {variant.lights};
   settings.threads = variant.threads;
   return settings;
 }

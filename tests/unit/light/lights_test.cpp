@@ -34,12 +34,14 @@ Lights lights_of(const std::vector<Shape>& shapes, const LightBuildOptions& opti
   return build_lights({}, placed, {{-10, -10, -10}, {10, 10, 10}}, options);
 }
 
+const LightSelector& selector_of(const Lights& lights) { return lights.selector(lights.selectors()[0].strategy); }
+
 /// Irradiance at p facing n from all lights, without occlusion.
 double irradiance(const Lights& lights, Vec3 p, Vec3 n, int samples, std::uint64_t seed = 1) {
   Rng rng(seed);
   double sum = 0;
   for (int i = 0; i < samples; ++i) {
-    const auto s = lights.select({p, n, false, false}, rng.uniform_wide());
+    const auto s = selector_of(lights).select({p, n, false, false}, rng.uniform_wide());
     const float x = rng.uniform(), y = rng.uniform();
     if (!s) continue;
     if (const auto l = lights.sample(s->light, p, {x, y}, false))
@@ -66,7 +68,7 @@ TEST_CASE("irradiance of emitters with a closed form") {
   CHECK(irradiance(lights_of({emissive(rectangle, Rgb(3))}), {0, 0, 0.8f}, {0, 0, -1}, 60'000) ==
         doctest::Approx(expected).epsilon(5e-3));
   for (const LightStrategy s : {LightStrategy::uniform, LightStrategy::power, LightStrategy::tree_binary})
-    CHECK(irradiance(lights_of({emissive(triangles, Rgb(3))}, {s}), {0, 0, 0.8f}, {0, 0, -1}, 100'000) ==
+    CHECK(irradiance(lights_of({emissive(triangles, Rgb(3))}, {{s}}), {0, 0, 0.8f}, {0, 0, -1}, 100'000) ==
           doctest::Approx(expected).epsilon(8e-3));
 }
 
@@ -110,21 +112,21 @@ TEST_CASE("ids run through the scene's lights, then the primitives of the shapes
   CHECK(lights.power(4) == doctest::Approx(2 * kPi));
   CHECK(lights.power(6) == doctest::Approx(2 * 4 * kPi * kPi));
   // Black lights keep their ids, are never chosen and give nothing.
-  CHECK(lights.pmf({{0, 0, 1}, {}}, 7) == 0);
+  CHECK(selector_of(lights).pmf({{0, 0, 1}, {}}, 7) == 0);
   CHECK(!lights.sample(7, {0, 0, 5}, {0.3f, 0.3f}, false));
   CHECK(is_black(lights.emitted(8, {{0, 0, 3}, {0, 0, 1}, {}, 1}, {0, 0, 1})));
   // Only surfaces have a density for hits.
   CHECK(lights.pdf(0, {0, 0, 1}, {{0, 0, 5}, {0, 0, 1}, {}, 4}) == 0);
   CHECK(lights.pdf(6, {0, 0, 0}, {{4, 0, 0}, {-1, 0, 0}, {}, 4}) > 0);
   CHECK(Lights().empty());
-  CHECK(!Lights().select({}, 0.5));
+  CHECK(!selector_of(lights_of({})).select({}, 0.5));
 }
 
 TEST_CASE("one-sided emitters shine on the side of their normal, two-sided ones on both") {
   std::vector<Shape> shapes{emissive(quad(1, 0), Rgb(1))};
   const Vec3 above{0.1f, 0.2f, 1}, below{0.1f, 0.2f, -1};
   const EmitterHit hit{{0, 0, 0}, {0, 0, 1}, {0.5f, 0.5f}, 1};
-  const auto shines = [&](const Lights& l, Vec3 p) { return l.sample(0, p, {0.4f, 0.4f}, false) && l.pmf({p, {}}, 0) > 0; };
+  const auto shines = [&](const Lights& l, Vec3 p) { return l.sample(0, p, {0.4f, 0.4f}, false) && selector_of(l).pmf({p, {}}, 0) > 0; };
   const Lights one = lights_of(shapes);
   CHECK(shines(one, above));
   CHECK(!shines(one, below));
@@ -176,7 +178,7 @@ TEST_CASE("alpha dims an emitter's samples, and at 0 hides the surface but not i
   shapes[0].alpha = 0;
   const auto sample = [&](float alpha) {
     const Textures textures = build_textures({Texture{ConstantTexture{Rgb(alpha)}, {}}});
-    const Lights lights = lights_of(shapes, {LightStrategy::tree_binary, &textures});
+    const Lights lights = lights_of(shapes, {{LightStrategy::tree_binary}, &textures});
     return lights.sample(0, {0, 0, 1}, {0.5f, 0.4f}, false);
   };
   const auto opaque = sample(1), half = sample(0.5f), hidden = sample(0);
@@ -198,9 +200,10 @@ TEST_CASE("lights with infinite or missing strength are refused with their place
 }
 
 TEST_CASE("exhaustive: every light has pmf 1") {
-  const Lights lights = lights_of({emissive(quad(1, 0), Rgb(1))}, {LightStrategy::exhaustive});
-  CHECK(lights.exhaustive());
-  CHECK(lights.pmf({}, 1) == 1);
+  const Lights lights = lights_of({emissive(quad(1, 0), Rgb(1))}, {{LightStrategy::exhaustive}});
+  CHECK(selector_of(lights).exhaustive());
+  CHECK(selector_of(lights).pmf({}, 1) == 1);
+  CHECK_THROWS_AS(lights.selector(LightStrategy::power), Error);
 }
 
 /// A scene with every kind of light, among them dark, degenerate and mirrored ones.
@@ -237,7 +240,7 @@ struct Zoo {
   Lights build(LightStrategy strategy) const {
     std::vector<EmitterShape> placed;
     for (const Shape& s : shapes) placed.push_back({&s, s.to_world});
-    return build_lights(scene, placed, {{-5, -5, -5}, {5, 5, 5}}, {strategy});
+    return build_lights(scene, placed, {{-5, -5, -5}, {5, 5, 5}}, {{strategy}});
   }
   test::ScratchMap map;
   Scene scene;
@@ -254,7 +257,7 @@ TEST_CASE("all kinds together: no light of probability 0 contributes, and none t
     if (i % 4 == 0) q.n = {};
     double sum = 0;
     for (LightId id = 0; id < lights.size(); ++id) {
-      const float pmf = lights.pmf(q, id);
+      const float pmf = selector_of(lights).pmf(q, id);
       sum += pmf;
       if (pmf > 0) continue;
       ++zero;
@@ -265,7 +268,7 @@ TEST_CASE("all kinds together: no light of probability 0 contributes, and none t
     }
     REQUIRE(sum < 1 + 1e-5);
     const double u = rng.uniform_wide();
-    if (const auto s = lights.select(q, u)) REQUIRE(lights.pmf(q, s->light) == doctest::Approx(s->pmf).epsilon(1e-6));
+    if (const auto s = selector_of(lights).select(q, u)) REQUIRE(selector_of(lights).pmf(q, s->light) == doctest::Approx(s->pmf).epsilon(1e-6));
   }
   CHECK(zero > 100'000);
 }

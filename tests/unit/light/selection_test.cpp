@@ -54,19 +54,19 @@ TEST_CASE("every strategy: probabilities sum to at most 1, and draws follow them
     CAPTURE(name_of(strategy));
     const SelectionInput input = mixed_input(60, true);
     const auto n = static_cast<LightId>(input.power.size());
-    const Selection selection(strategy, input);
+    const auto selector = make_selector(strategy, input);
     for (const PointQuery& q : queries()) {
       double sum = 0;
       std::vector<double> pmf(n + 1), counts(n + 1);
-      for (LightId i = 0; i < n; ++i) sum += pmf[i] = selection.pmf(q, i);
+      for (LightId i = 0; i < n; ++i) sum += pmf[i] = selector->pmf(q, i);
       REQUIRE(sum < 1 + 1e-5);
       pmf[n] = std::max(0.0, 1 - sum);
       CHECK(pmf[3] == 0);
       constexpr int kDraws = 10'000;
       Rng rng(4);
       for (int i = 0; i < kDraws; ++i) {
-        const auto s = selection.select(q, rng.uniform_wide());
-        if (s) REQUIRE(std::abs(s->pmf - selection.pmf(q, s->light)) <= 1e-6 * s->pmf);
+        const auto s = selector->select(q, rng.uniform_wide());
+        if (s) REQUIRE(std::abs(s->pmf - selector->pmf(q, s->light)) <= 1e-6 * s->pmf);
         counts[s ? s->light : n] += 1;
       }
       double statistic = 0, rest = 0, rest_expected = 0;
@@ -91,40 +91,40 @@ TEST_CASE("uniform gives every light with power the same, power gives each its s
   const SelectionInput input = mixed_input(10, true);
   double total = 0;
   for (const double p : input.power) total += p;
-  const Selection uniform(LightStrategy::uniform, input), power(LightStrategy::power, input);
+  const auto uniform = make_selector(LightStrategy::uniform, input), power = make_selector(LightStrategy::power, input);
   for (LightId i = 0; i < input.power.size(); ++i) {
-    CHECK(uniform.pmf({}, i) == doctest::Approx(i == 3 ? 0 : 1.0 / (double(input.power.size()) - 1)));
-    CHECK(power.pmf({}, i) == doctest::Approx(input.power[i] / total));
+    CHECK(uniform->pmf({}, i) == doctest::Approx(i == 3 ? 0 : 1.0 / (double(input.power.size()) - 1)));
+    CHECK(power->pmf({}, i) == doctest::Approx(input.power[i] / total));
   }
 }
 
 TEST_CASE("tree: neither near nor far lights starve, and a light below the horizon gets nothing") {
   const SelectionInput input = mixed_input(60, true);
-  const Selection selection(LightStrategy::tree_binary, input);
+  const auto selector = make_selector(LightStrategy::tree_binary, input);
   const auto first_far = static_cast<LightId>(input.power.size() - 3);
   const auto far_share = [&](const PointQuery& q) {
-    return selection.pmf(q, first_far) + selection.pmf(q, first_far + 1) + selection.pmf(q, first_far + 2);
+    return selector->pmf(q, first_far) + selector->pmf(q, first_far + 1) + selector->pmf(q, first_far + 2);
   };
   for (const float distance : {0.1f, 10.0f, 1e6f}) {
     CHECK(far_share({{0, 0, distance}, {}}) > 0.099);
     CHECK(far_share({{0, 0, distance}, {}}) < 0.901);
   }
   const PointQuery up{{0, 0, -5}, {0, 0, 1}}, down{{0, 0, 5}, {0, 0, -1}};
-  CHECK(selection.pmf(up, first_far) > 100 * selection.pmf(up, first_far + 2));  // the sun outshines the sky
-  CHECK(selection.pmf(up, first_far + 1) == 0);                                  // this one is below
-  CHECK(selection.pmf(down, first_far) == 0);
-  CHECK(selection.pmf(down, first_far + 1) > 0);
-  CHECK(selection.pmf({down.p, down.n, true}, first_far) > 0);
+  CHECK(selector->pmf(up, first_far) > 100 * selector->pmf(up, first_far + 2));  // the sun outshines the sky
+  CHECK(selector->pmf(up, first_far + 1) == 0);                                  // this one is below
+  CHECK(selector->pmf(down, first_far) == 0);
+  CHECK(selector->pmf(down, first_far + 1) > 0);
+  CHECK(selector->pmf({down.p, down.n, true}, first_far) > 0);
 }
 
 TEST_CASE("tree: an environment that scattered rays look after takes no part, unless there are none") {
   const SelectionInput input = mixed_input(5, false);
-  const Selection selection(LightStrategy::tree_binary, input);
+  const auto selector = make_selector(LightStrategy::tree_binary, input);
   const auto sky = static_cast<LightId>(input.power.size() - 1);
   PointQuery q{{0, 0, 0}, {0, 0, 1}};
-  CHECK(selection.pmf(q, sky) == 0);
+  CHECK(selector->pmf(q, sky) == 0);
   q.mis_partner = false;
-  CHECK(selection.pmf(q, sky) > 0);
+  CHECK(selector->pmf(q, sky) > 0);
 }
 
 TEST_CASE("the importance of a sky is its irradiance where all of each cone is seen") {
@@ -137,10 +137,10 @@ TEST_CASE("the importance of a sky is its irradiance where all of each cone is s
 
 TEST_CASE("nothing to choose from") {
   for (const LightStrategy strategy : kStrategies) {
-    CHECK(!Selection(strategy, {}).select({}, 0.5));
-    const Selection dark(strategy, {{0, 0}, {}, {}});
-    CHECK(!dark.select({}, 0.5));
-    CHECK(dark.pmf({}, 1) == 0);
+    CHECK(!make_selector(strategy, {})->select({}, 0.5));
+    const auto dark = make_selector(strategy, {{0, 0}, {}, {}});
+    CHECK(!dark->select({}, 0.5));
+    CHECK(dark->pmf({}, 1) == 0);
   }
 }
 

@@ -1,0 +1,34 @@
+/// Choices that do not look at the point: uniform, by power, and all lights at once.
+#pragma once
+
+#include "light/selection.h"
+#include "math/distribution.h"
+
+namespace tyndall {
+
+class AliasSelector : public LightSelector {
+ public:
+  explicit AliasSelector(const std::vector<double>& weights) : table_(weights) {}
+
+  std::optional<SelectedLight> select(const PointQuery&, double u) const override {
+    if (!(table_.total() > 0)) return std::nullopt;
+    const auto choice = table_.sample(u);
+    return SelectedLight{choice.index, static_cast<float>(choice.pmf)};
+  }
+  float pmf(const PointQuery&, LightId light) const override {
+    return table_.total() > 0 ? static_cast<float>(table_.pmf(light)) : 0.0f;
+  }
+  std::size_t memory_bytes() const override { return table_.memory_bytes(); }
+
+ private:
+  AliasTable table_;
+};
+
+class ExhaustiveSelector final : public AliasSelector {
+ public:
+  using AliasSelector::AliasSelector;
+  float pmf(const PointQuery&, LightId) const override { return 1; }
+  bool exhaustive() const override { return true; }
+};
+
+}  // namespace tyndall

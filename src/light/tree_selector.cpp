@@ -1,0 +1,59 @@
+#include "light/tree_selector.h"
+
+#include <algorithm>
+
+namespace tyndall {
+namespace {
+
+constexpr std::uint32_t kFar = 0x80000000;
+constexpr std::uint32_t kDark = 0xffffffff;
+
+/// Neither the tree nor the lights at infinity get less than this while they have any importance: the root's bound
+/// says little about the lights near a point inside it.
+constexpr double kLeastShare = 0.1;
+constexpr double kBelowOne = 0x1.fffffffffffffp-1;
+
+}  // namespace
+
+TreeSelector::TreeSelector(const SelectionInput& input)
+    : tree_(input.near), far_(input.far), slot_(input.power.size(), kDark) {
+  for (std::uint32_t i = 0; i < input.far.size(); ++i) slot_[input.far[i].light] = kFar + i;
+  const auto nodes = tree_.nodes();
+  for (std::uint32_t i = 0; i < nodes.size(); ++i) {
+    if (nodes[i].leaf) slot_[nodes[i].second_or_light] = i;
+  }
+}
+
+TreeSelector::Shares TreeSelector::shares(const PointQuery& query) const {
+  const double near = tree_.importance(query), far = far_.importance(query);
+  if (near == 0 || far == 0) return {near > 0 ? 1.0 : 0.0, far > 0 ? 1.0 : 0.0};
+  const double share = std::clamp(far / (near + far), kLeastShare, 1 - kLeastShare);
+  return {1 - share, share};
+}
+
+std::optional<SelectedLight> TreeSelector::select(const PointQuery& query, double u) const {
+  const Shares share = shares(query);
+  if (u < share.near) {
+    const auto choice = tree_.select(query, std::min(u / share.near, kBelowOne));
+    if (!choice) return std::nullopt;
+    return SelectedLight{choice->light, static_cast<float>(share.near * choice->pmf)};
+  }
+  if (!(share.far > 0)) return std::nullopt;
+  const auto choice = far_.select(query, std::min((u - share.near) / share.far, kBelowOne));
+  if (!choice) return std::nullopt;
+  return SelectedLight{choice->light, static_cast<float>(share.far * choice->pmf)};
+}
+
+float TreeSelector::pmf(const PointQuery& query, LightId light) const {
+  const std::uint32_t slot = slot_[light];
+  if (slot == kDark) return 0;
+  const Shares share = shares(query);
+  if (slot >= kFar) return share.far > 0 ? static_cast<float>(share.far * far_.pmf(query, slot - kFar)) : 0.0f;
+  return share.near > 0 ? static_cast<float>(share.near * tree_.pmf(query, slot)) : 0.0f;
+}
+
+std::size_t TreeSelector::memory_bytes() const {
+  return tree_.memory_bytes() + far_.memory_bytes() + slot_.capacity() * sizeof(slot_[0]);
+}
+
+}  // namespace tyndall

@@ -1,0 +1,112 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "tyndall/io.h"
+#include "tyndall/render.h"
+
+namespace tyndall {
+namespace {
+
+constexpr const char* kScene = R"(
+Film "rgb" "integer xresolution" 24 "integer yresolution" 16
+Camera "perspective" "float fov" 50
+WorldBegin
+LightSource "point" "rgb I" [ 1 2 3 ] "point3 from" [ 1 1 2 ]
+Translate 0 0 4
+Shape "sphere" "float radius" 1.5
+)";
+
+World world_of(std::vector<LightStrategy> strategies = {LightStrategy::tree_binary}) {
+  return build(read_scene_text(kScene, "test.pbrt").scene, {.lights = std::move(strategies), .threads = 1});
+}
+
+RenderSettings settings_of(int spp) {
+  RenderSettings s;
+  s.spp = spp;
+  s.threads = 1;
+  s.reproducible = true;
+  s.aovs = {"Variance"};
+  return s;
+}
+
+bool same_pixels(const Image& a, const Image& b) {
+  for (std::size_t c = 0; c < a.channels.size(); ++c) {
+    if (a.channels[c].name != b.channels[c].name || a.channels[c].values != b.channels[c].values) return false;
+  }
+  return a.channels.size() == b.channels.size();
+}
+
+TEST_CASE("a job gives the same picture however it is advanced, and the one that render() gives") {
+  const World world = world_of();
+  RenderJob one(world, settings_of(1)), many(world, settings_of(1));
+  one.advance(11);
+  for (const int n : {1, 3, 2, 5}) many.advance(n);
+  CHECK(one.samples() == 11);
+  CHECK(same_pixels(one.image(), many.image()));
+  CHECK(same_pixels(one.image(), render(world, settings_of(11)).image));
+  CHECK(one.seconds() > 0);
+  CHECK(one.report().paths == many.report().paths);
+}
+
+TEST_CASE("the estimated error is what the variance channels say") {
+  const World world = world_of();
+  RenderJob job(world, settings_of(1));
+  job.advance(1);
+  CHECK(std::isinf(job.estimated_relmse()));
+  job.advance(7);
+  const Image image = job.image();
+  double expected = 0;
+  for (const std::string k : {"R", "G", "B"}) {
+    const auto &mean = image.find(k)->values, &variance = image.find("Variance." + k)->values;
+    for (std::size_t i = 0; i < mean.size(); ++i) expected += variance[i] / (mean[i] * mean[i] + 0.01) / (3.0 * mean.size());
+  }
+  CHECK(expected > 0);
+  CHECK(job.estimated_relmse() == doctest::Approx(expected));
+}
+
+TEST_CASE("an error goal ends at a power of two from 64 on, at the first that is good enough") {
+  const World world = world_of();
+  RenderJob job(world, settings_of(1));
+  job.advance(64);
+  const double at_64 = job.estimated_relmse();
+  job.advance(192);
+  const double at_256 = job.estimated_relmse();
+  REQUIRE(at_256 < at_64);
+
+  RenderSettings s = settings_of(1 << 20);
+  s.error = at_64 * 1.01;
+  CHECK(render(world, s).report.samples == 64);
+  s.error = 1e9;  // at once, but not sooner
+  CHECK(render(world, s).report.samples == 64);
+  s.error = at_256 * 1.01;
+  const int reached = render(world, s).report.samples;
+  CHECK((reached == 128 || reached == 256));
+  s.spp = 40;  // the other ends hold
+  CHECK(render(world, s).report.samples == 40);
+  s.error = -1;
+  CHECK_THROWS_AS(render(world, s), Error);
+}
+
+TEST_CASE("checkpoints come at every power of two, and change nothing") {
+  const World world = world_of();
+  std::vector<int> seen;
+  const Rendering with = render(world, settings_of(21), {.checkpoint = [&](const RenderJob& j) { seen.push_back(j.samples()); }});
+  CHECK(seen == std::vector<int>{1, 2, 4, 8, 16});
+  CHECK(same_pixels(with.image, render(world, settings_of(21)).image));
+}
+
+TEST_CASE("one world serves several light strategies, and refuses those it was not built for") {
+  const World world = world_of({LightStrategy::power, LightStrategy::tree_binary});
+  REQUIRE(world.summary().light_strategies.size() == 2);
+  CHECK(world.summary().light_strategies[0].strategy == LightStrategy::power);
+  CHECK(world.summary().light_strategies[1].bytes > 0);
+  RenderSettings s = settings_of(4);
+  s.lights = LightStrategy::power;
+  CHECK(render(world, s).report.samples == 4);
+  s.lights = LightStrategy::exhaustive;
+  CHECK_THROWS_WITH_AS(render(world, s), doctest::Contains("exhaustive"), Error);
+}
+
+}  // namespace
+}  // namespace tyndall
