@@ -47,6 +47,10 @@ class World {
   ~World();
 
   const BuildSummary& summary() const;
+  /// 16 hexadecimal digits that stand for the right picture: equal when scene, content of the files it names and
+  /// settings.max_depth are equal, wherever the files lie, and different when any of these differ. Crop, seed, samples,
+  /// threads and strategies do not enter. Images carry it as "tyndall/sceneHash".
+  std::string scene_hash(const RenderSettings& settings) const;
   const Parts& parts() const { return *parts_; }
 
  private:

@@ -2,6 +2,7 @@
 
 #include <ctime>
 
+#include "render/scene_hash.h"
 #include "tyndall/version.h"
 
 namespace tyndall {
@@ -31,6 +32,7 @@ void write_header(Image& image, const World::Parts& world, const RenderSettings&
   a["worldToNDC"] = world.camera.world_to_ndc();
   a["software"] = "Tyndall " + std::string(kVersion);
   a["tyndall/scene"] = world.scene.source;
+  a["tyndall/sceneHash"] = scene_hash_text(world.scene_hash, settings);
   a["tyndall/samples"] = report.samples;
   a["tyndall/seed"] = std::to_string(settings.seed);  // 64 bits do not fit an EXR integer
   a["tyndall/options"] = options_text(settings);

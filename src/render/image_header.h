@@ -5,7 +5,7 @@
 
 namespace tyndall {
 
-/// Add camera matrices, samples, seed, options, version and (unless reproducible) date and time taken.
+/// Add camera matrices, the scene's hash, samples, seed, options, version and (unless reproducible) date and time taken.
 void write_header(Image& image, const World::Parts& world, const RenderSettings& settings, const RenderReport& report);
 
 }  // namespace tyndall

@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "render/camera_media.h"
+#include "render/scene_hash.h"
 #include "render/world_parts.h"
 
 namespace tyndall {
@@ -83,6 +84,10 @@ World::~World() = default;
 
 const BuildSummary& World::summary() const { return parts_->summary; }
 
+std::string World::scene_hash(const RenderSettings& settings) const {
+  return scene_hash_text(parts_->scene_hash, settings);
+}
+
 World build(Scene scene, const BuildSettings& settings) {
   return World(std::make_unique<const World::Parts>(std::move(scene), settings));
 }
@@ -106,6 +111,7 @@ World::Parts::Parts(Scene scene_in, const BuildSettings& settings)
   summary.light_bytes = lights.memory_bytes();
   summary.light_seconds = watch.seconds();
   camera_media = find_camera_media(scene.camera.medium, camera.center(), geometry);
+  scene_hash = hash_scene(scene);  // now and not when an image is written: the files may be gone then
 }
 
 }  // namespace tyndall

@@ -31,6 +31,7 @@ struct World::Parts {
   CameraRays camera;
   FilterSampler filter;
   MediaState camera_media;  ///< what holds the camera's center
+  std::uint64_t scene_hash = 0;
 
   SpanWalk::Context media_context() const { return {geometry.groups(), media}; }
   /// No medium anywhere: nothing of src/volume needs to run.
