@@ -39,6 +39,9 @@ SceneCheck check_scene(const std::string& path);
 /// 8-bit values are made linear by `encoding` ("": sRGB for 8-bit colour). Throws Error (scene).
 Image read_image(const std::string& path, const std::string& encoding = "");
 
+/// The header of an .exr that read_image reads: windows, attributes, and channels without values. Throws Error (scene).
+Image read_exr_header(const std::string& path);
+
 /// Write a float EXR (ZIP): to a temporary name in the same folder, closed, checked, renamed.
 /// Throws Error (output) and leaves an existing file as it was.
 void write_exr(const Image& image, const std::string& path);

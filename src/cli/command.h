@@ -8,5 +8,6 @@ namespace tyndall::cli {
 void add_render(CLI::App& app, int& exit_code);
 void add_info(CLI::App& app, int& exit_code);
 void add_check(CLI::App& app, int& exit_code);
+void add_merge(CLI::App& app, int& exit_code);
 
 }  // namespace tyndall::cli

@@ -23,6 +23,7 @@ int run(int argc, char** argv) {
   tyndall::cli::add_render(app, exit_code);
   tyndall::cli::add_info(app, exit_code);
   tyndall::cli::add_check(app, exit_code);
+  tyndall::cli::add_merge(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

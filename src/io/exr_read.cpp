@@ -17,6 +17,7 @@
 
 #include "io/exr.h"
 #include "tyndall/error.h"
+#include "tyndall/io.h"
 
 namespace tyndall {
 namespace {
@@ -121,23 +122,30 @@ void read_rows(Imf::InputFile& file, const Image& image, int y0, int y1, std::ve
   file.readPixels(y0, y1 - 1);
 }
 
+/// Windows, attributes and channels without values, once the file has been found to be whole.
+Image decode_header(const std::string& path, const Imf::InputFile& file) {
+  const Imf::Header& header = file.header();
+  require_plausible(path, header);
+  if (!file.isComplete()) fail(path, "is incomplete: its writer was interrupted, or the file was cut off");
+  Image image;
+  image.data = to_bounds(header.dataWindow());
+  image.display = to_bounds(header.displayWindow());
+  read_attributes(header, image);
+  for (auto c = header.channels().begin(); c != header.channels().end(); ++c) image.channels.push_back({c.name(), {}});
+  return image;
+}
+
 ExrFile decode(const std::string& path) {
   require_readable(path);
   Imf::InputFile file(path.c_str());
   const Imf::Header& header = file.header();
-  require_plausible(path, header);
-  if (!file.isComplete()) fail(path, "is incomplete: its writer was interrupted, or the file was cut off");
-
   ExrFile result;
+  result.image = decode_header(path, file);
   result.compression = name_of(header.compression());
   result.storage = header.hasTileDescription() ? "tiles" : "scanlines";
   Image& image = result.image;
-  image.data = to_bounds(header.dataWindow());
-  image.display = to_bounds(header.displayWindow());
-  read_attributes(header, image);
   std::vector<std::vector<float>> planes;
   for (auto c = header.channels().begin(); c != header.channels().end(); ++c) {
-    image.channels.push_back({c.name(), {}});
     result.channel_types.push_back(name_of(c.channel().type));
     planes.emplace_back(static_cast<std::size_t>(image.width()) * static_cast<std::size_t>(image.height()));
   }
@@ -194,6 +202,13 @@ bool is_exr(const std::string& path) { return Imf::isOpenExrFile(path.c_str()); 
 
 ExrFile read_exr(const std::string& path) {
   return guarded(path, [&] { return decode(path); });
+}
+
+Image read_exr_header(const std::string& path) {
+  return guarded(path, [&] {
+    require_readable(path);
+    return decode_header(path, Imf::InputFile(path.c_str()));
+  });
 }
 
 bool exr_holds(const std::string& path, const Image& image) {

@@ -195,6 +195,22 @@ double FilmBuffer::estimated_relmse(int samples) const {
   return sum / (3.0 * static_cast<double>(pixels));
 }
 
+void FilmBuffer::store_count(Image& image, const std::string& name, std::size_t offset) const {
+  std::vector<float>& values = image.add_channel(name).values;
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(pixel(i)[offset]);
+}
+
+void FilmBuffer::store_counts(Image& image) const {
+  bool surface_done = false;  // P and Z have the same
+  for (std::size_t i = 0; i < aovs_.size(); ++i) {
+    const std::size_t count = offsets_[i] + sums_of(aovs_[i]) - 1;  // follows the sums
+    const bool surface = aovs_[i] == Aov::p || aovs_[i] == Aov::z;
+    if (surface && !surface_done) store_count(image, "SurfaceCount", count);
+    if (aovs_[i] == Aov::z_volume) store_count(image, "VolumeCount", count);
+    surface_done = surface_done || surface;
+  }
+}
+
 Image FilmBuffer::image(int samples) const {
   Image image;
   image.data = crop_;
@@ -206,6 +222,7 @@ Image FilmBuffer::image(int samples) const {
     alpha.values[i] = static_cast<float>(pixel(i)[kAlpha] / samples);
   }
   for (std::size_t i = 0; i < aovs_.size(); ++i) store_aov(image, aovs_[i], offsets_[i], samples);
+  store_counts(image);
   return image;
 }
 

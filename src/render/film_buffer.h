@@ -32,7 +32,8 @@ class FilmBuffer {
   /// Add sample number `sample` of pixel (x, y) of the full frame, weighted by the pixel filter.
   void add(int x, int y, int sample, const PathRecord& record, float weight);
 
-  /// Means of the `samples` samples that every pixel has received, in the film's colour space.
+  /// Means of the `samples` samples that every pixel has received, in the film's colour space. Beside P and Z stands
+  /// SurfaceCount, beside Zvol VolumeCount: over how many samples their means are, so that renders can be merged.
   Image image(int samples) const;
 
   /// Mean of variance / (mean^2 + 0.01) over pixels and channels, as the two replicates tell; infinity for samples < 2.
@@ -46,6 +47,8 @@ class FilmBuffer {
   void store_ratio(Image& image, const std::string& prefix, std::size_t offset, int samples) const;
   void store_aov(Image& image, Aov aov, std::size_t offset, int samples) const;
   void store_variance(Image& image, int samples) const;
+  void store_count(Image& image, const std::string& name, std::size_t offset) const;
+  void store_counts(Image& image) const;
   Rgb to_film_space(Rgb c) const;
 
   Film film_;

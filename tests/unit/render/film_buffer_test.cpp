@@ -43,6 +43,8 @@ TEST_CASE("the mean of the samples, split into its parts, over a crop") {
   CHECK(image.find("Z")->values[1] == 5);
   CHECK(image.find("Z")->values[0] == 0);
   CHECK(image.find("SampleCount")->values[0] == 2);
+  CHECK(image.find("SurfaceCount")->values == std::vector<float>{0, 1});
+  CHECK(image.find("VolumeCount") == nullptr);
 }
 
 TEST_CASE("variance of the pixel mean from the two replicates is right on average") {

@@ -1,0 +1,145 @@
+#include "report/merge.h"
+
+#include <algorithm>
+#include <set>
+
+#include "report/merge_sum.h"
+#include "report/slice.h"
+#include "tyndall/error.h"
+#include "tyndall/io.h"
+
+namespace tyndall {
+namespace {
+
+PixelBounds box_around(const std::vector<Slice>& slices) {
+  PixelBounds box = slices.front().header.data;
+  for (const Slice& slice : slices) {
+    const PixelBounds& b = slice.header.data;
+    box = {std::min(box.x0, b.x0), std::min(box.y0, b.y0), std::max(box.x1, b.x1), std::max(box.y1, b.y1)};
+  }
+  return box;
+}
+
+/// Throws when some pixel of `box` was in no render, with the box around those that were not.
+void require_covered(const std::vector<Slice>& slices, const PixelBounds& box) {
+  const auto width = static_cast<std::size_t>(box.width());
+  std::vector<char> covered(width * static_cast<std::size_t>(box.height()));
+  for (const Slice& slice : slices) {
+    for (const SliceSource& source : slice.sources) {
+      const PixelBounds b = intersection(source.crop, box);
+      for (int y = b.y0; y < b.y1; ++y) {
+        const auto row = covered.begin() + static_cast<std::ptrdiff_t>(width) * (y - box.y0);
+        if (b.x0 < b.x1) std::fill(row + (b.x0 - box.x0), row + (b.x1 - box.x0), char{1});
+      }
+    }
+  }
+  PixelBounds hole{box.x1, box.y1, box.x0, box.y0};
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < covered.size(); ++i) {
+    if (covered[i]) continue;
+    const int x = box.x0 + static_cast<int>(i % width), y = box.y0 + static_cast<int>(i / width);
+    hole = {std::min(hole.x0, x), std::min(hole.y0, y), std::max(hole.x1, x + 1), std::max(hole.y1, y + 1)};
+    ++count;
+  }
+  if (count == 0) return;
+  throw Error(Failure::scene, slices.front().path + " and the others leave " + std::to_string(count) + " pixels within " +
+                                  crop_text(hole) + " empty; render them with --crop " + crop_text(hole) +
+                                  ", or merge with --fill-black");
+}
+
+Image read_pixels(const Slice& slice) {
+  Image image = read_image(slice.path);
+  const auto same_name = [](const Channel& a, const Channel& b) { return a.name == b.name; };
+  const bool same = image.data == slice.header.data && image.attributes == slice.header.attributes &&
+                    std::equal(image.channels.begin(), image.channels.end(), slice.header.channels.begin(),
+                               slice.header.channels.end(), same_name);
+  if (!same) throw Error(Failure::scene, slice.path + ": was changed while it was read; merge again when it is complete");
+  return image;
+}
+
+/// The distinct values of a text attribute that may be a list already, sorted; nothing when a slice has none.
+std::string listed(const std::vector<Slice>& slices, const std::string& name, const std::string& separator) {
+  std::set<std::string> values;
+  for (const Slice& slice : slices) {
+    const auto found = slice.header.attributes.find(name);
+    const auto* text = found == slice.header.attributes.end() ? nullptr : std::get_if<std::string>(&found->second);
+    if (!text) return {};
+    for (std::size_t at = 0; at <= text->size();) {
+      const std::size_t end = std::min(text->find(separator, at), text->size());
+      values.insert(text->substr(at, end - at));
+      at = end + separator.size();
+    }
+  }
+  std::string list;
+  for (const std::string& value : values) list += (list.empty() ? "" : separator) + value;
+  return list;
+}
+
+void merge_times(const std::vector<Slice>& slices, Image& image) {
+  double seconds = 0;
+  std::string latest;
+  for (const Slice& slice : slices) {
+    const auto time = slice.header.attributes.find("tyndall/renderTime"), date = slice.header.attributes.find("tyndall/date");
+    if (time == slice.header.attributes.end() || date == slice.header.attributes.end()) return;  // --reproducible
+    if (const double* s = std::get_if<double>(&time->second)) seconds += *s;
+    if (const std::string* d = std::get_if<std::string>(&date->second)) latest = std::max(latest, *d);
+  }
+  image.attributes["tyndall/renderTime"] = seconds;
+  image.attributes["tyndall/date"] = latest;
+}
+
+Attribute samples_attribute(const Image& image) {
+  const std::vector<float>& counts = image.find("SampleCount")->values;
+  const auto [least, most] = std::minmax_element(counts.begin(), counts.end());
+  if (*least == *most && *most < 0x1p31f) return static_cast<int>(*least);
+  const auto text = [](float v) { return std::to_string(static_cast<long long>(v)); };
+  return text(*least) + ".." + text(*most);
+}
+
+void merge_attributes(const std::vector<Slice>& slices, Image& image) {
+  image.attributes = slices.front().header.attributes;
+  for (const Slice& slice : slices) {
+    std::erase_if(image.attributes, [&](const auto& a) {
+      const auto found = slice.header.attributes.find(a.first);
+      return found == slice.header.attributes.end() || found->second != a.second;
+    });
+  }
+  std::vector<SliceSource> sources;
+  std::set<std::uint64_t> seeds;
+  for (const Slice& slice : slices) {
+    sources.insert(sources.end(), slice.sources.begin(), slice.sources.end());
+    for (const SliceSource& source : slice.sources) seeds.insert(source.seed);
+  }
+  std::string seed_list;
+  for (const std::uint64_t seed : seeds) seed_list += (seed_list.empty() ? "" : ", ") + std::to_string(seed);
+  image.attributes["tyndall/slices"] = sources_text(std::move(sources));
+  image.attributes["tyndall/seed"] = seed_list;
+  image.attributes["tyndall/samples"] = samples_attribute(image);
+  const std::string options = listed(slices, "tyndall/options", " | ");
+  if (!options.empty()) image.attributes["tyndall/options"] = options;
+  merge_times(slices, image);
+}
+
+}  // namespace
+
+Image merge_slices(const std::vector<std::string>& paths, const MergeSettings& settings) {
+  std::vector<Slice> slices;
+  for (const std::string& path : paths) slices.push_back(read_slice(path));
+  require_mergeable(slices);
+  const PixelBounds box = box_around(slices);
+  if (!settings.fill_black) require_covered(slices, box);
+
+  // Sums in an order that depends on the slices alone. No two have equal sources: their samples would count twice.
+  std::sort(slices.begin(), slices.end(),
+            [](const Slice& a, const Slice& b) { return sources_text(a.sources) < sources_text(b.sources); });
+  MergeSum sum(box, slices.front().header);
+  for (const Slice& slice : slices) sum.add(read_pixels(slice), slice.sources.front().samples);
+
+  Image image = sum.result();
+  image.display = slices.front().header.display;
+  image.chromaticities = slices.front().header.chromaticities;
+  merge_attributes(slices, image);
+  return image;
+}
+
+}  // namespace tyndall

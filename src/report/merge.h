@@ -1,0 +1,34 @@
+/// Joining renders of one scene: different seeds make one less noisy picture, different crops one larger picture.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tyndall/image.h"
+
+namespace tyndall {
+
+struct MergeSettings {
+  bool fill_black = false;  ///< pixels that no slice holds become 0 with SampleCount 0 instead of an error
+};
+
+/// Merge images that render or merge_slices made (.exr), weighted by their sample counts pixel by pixel, in doubles.
+/// The order of `paths` does not matter, not even to the last bit, and merging merged images gives what merging all
+/// would, up to the rounding to floats.
+///
+/// The data window is the box around all slices. All channels are weighted means, exactly what one pass over all samples
+/// would give (up to the floats of the slices):
+///     R G B A, light, Albedo, N ...    by sample count
+///     Z, P by SurfaceCount, Zvol by VolumeCount: means over the samples that hit something, as in a render
+///     SampleCount (always there), SurfaceCount, VolumeCount    sums
+///     Variance of the weighted mean of independent renders:    sum n_i^2 V_i / N^2,
+///     Dof, degrees of freedom of that:    N^2 / sum (n_i^2 / dof_i), dof 1 of a plain render   [Satterthwaite 1946,
+///         with variances in proportion to 1/n_i: from the counts alone, so that it is not correlated with the noise]
+/// Attributes: tyndall/samples (an integer where all pixels have as many, else text "4..8"), tyndall/seed (all, listed),
+/// tyndall/slices (what went in: sources_text), tyndall/options (the distinct ones, " | " between), tyndall/renderTime
+/// (sum), tyndall/date (latest); others are kept where all slices agree.
+///
+/// Throws Error (scene) for slices that do not go together (require_mergeable) and for pixels that none holds.
+Image merge_slices(const std::vector<std::string>& paths, const MergeSettings& settings = {});
+
+}  // namespace tyndall

@@ -1,0 +1,104 @@
+#include "report/merge_sum.h"
+
+#include <algorithm>
+
+#include "report/slice.h"
+
+namespace tyndall {
+
+MergeSum::Rule MergeSum::rule_of(const std::string& channel) {
+  if (channel == "SampleCount") return Rule::samples;
+  if (channel == "SurfaceCount" || channel == "VolumeCount") return Rule::sum;
+  if (channel == "Z" || channel.starts_with("P.")) return Rule::surface_mean;
+  if (channel == "Zvol") return Rule::volume_mean;
+  if (channel.starts_with("Variance.")) return Rule::variance;
+  if (channel.starts_with("Dof.")) return Rule::dof;
+  return Rule::mean;
+}
+
+MergeSum::MergeSum(PixelBounds box, const Image& header) : box_(box) {
+  for (const Channel& c : header.channels) {
+    if (is_shared_channel(c.name)) add_plane(c.name);
+  }
+  add_plane("SampleCount");
+  for (const std::string suffix : {"R", "G", "B"}) {
+    if (header.find("Variance." + suffix)) add_plane("Dof." + suffix);
+  }
+}
+
+void MergeSum::add_plane(const std::string& name) {
+  const auto pixels = static_cast<std::size_t>(box_.width()) * static_cast<std::size_t>(box_.height());
+  planes_.push_back({name, rule_of(name), std::vector<double>(pixels)});
+}
+
+const MergeSum::Plane* MergeSum::find(const std::string& name) const {
+  const auto found = std::find_if(planes_.begin(), planes_.end(), [&](const Plane& p) { return p.name == name; });
+  return found == planes_.end() ? nullptr : &*found;
+}
+
+void MergeSum::add(const Image& slice, int samples) {
+  const Channel* given = slice.find("SampleCount");
+  const auto pixels = static_cast<std::size_t>(slice.width()) * static_cast<std::size_t>(slice.height());
+  const std::vector<float> counts = given ? given->values : std::vector<float>(pixels, static_cast<float>(samples));
+  for (Plane& plane : planes_) add_channel(plane, slice, counts);
+}
+
+void MergeSum::add_channel(Plane& plane, const Image& slice, const std::vector<float>& counts) const {
+  const auto values_of = [&](const char* name) {
+    const Channel* channel = slice.find(name);
+    return channel ? channel->values.data() : nullptr;
+  };
+  const float* values = values_of(plane.name.c_str());
+  const float* surface = values_of("SurfaceCount");
+  const float* volume = values_of("VolumeCount");
+  const auto term = [&](std::size_t i) -> double {
+    const double n = counts[i];
+    switch (plane.rule) {
+      case Rule::mean: return n * values[i];
+      case Rule::surface_mean: return static_cast<double>(surface[i]) * values[i];
+      case Rule::volume_mean: return static_cast<double>(volume[i]) * values[i];
+      case Rule::sum: return values[i];
+      case Rule::variance: return n * n * values[i];
+      case Rule::samples: return n;
+      case Rule::dof: return n * n / (values ? values[i] : 1.0);
+    }
+    return 0;
+  };
+  const auto width = static_cast<std::size_t>(slice.width()), box_width = static_cast<std::size_t>(box_.width());
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    if (!(counts[i] > 0)) continue;  // left black by an earlier merge
+    const std::size_t x = i % width + static_cast<std::size_t>(slice.data.x0 - box_.x0);
+    const std::size_t y = i / width + static_cast<std::size_t>(slice.data.y0 - box_.y0);
+    plane.sums[y * box_width + x] += term(i);
+  }
+}
+
+/// What a rule's sum is divided by; null: by nothing.
+const std::vector<double>* MergeSum::weights_of(Rule rule) const {
+  switch (rule) {
+    case Rule::surface_mean: return &find("SurfaceCount")->sums;
+    case Rule::volume_mean: return &find("VolumeCount")->sums;
+    case Rule::sum:
+    case Rule::samples: return nullptr;
+    default: return &find("SampleCount")->sums;
+  }
+}
+
+Image MergeSum::result() const {
+  Image image;
+  image.data = image.display = box_;
+  for (const Plane& plane : planes_) {
+    std::vector<float>& values = image.add_channel(plane.name).values;
+    const std::vector<double>* weights = weights_of(plane.rule);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const double sum = plane.sums[i], n = weights ? (*weights)[i] : 1;
+      const double value = plane.rule == Rule::dof        ? n * n / sum
+                           : plane.rule == Rule::variance ? sum / (n * n)
+                                                          : sum / n;
+      values[i] = n > 0 ? static_cast<float>(value) : 0.0f;
+    }
+  }
+  return image;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,50 @@
+/// Sums of the pixels of slices, and the means made of them.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "tyndall/image.h"
+
+namespace tyndall {
+
+/// The double sums behind merge_slices, which says what is summed how.
+class MergeSum {
+ public:
+  /// Over the pixels of `box`; the channels of `header`, SampleCount, and Dof.R .. beside Variance.R ..
+  MergeSum(PixelBounds box, const Image& header);
+
+  /// A slice that lies within the box and has these channels. `samples`: in every pixel, where it has no SampleCount.
+  void add(const Image& slice, int samples);
+
+  Image result() const;  ///< windows and channels; display = data
+
+ private:
+  /// What a channel's sum is of, x the channel's value, n the pixel's sample count.
+  enum class Rule {
+    mean,          ///< n x
+    surface_mean,  ///< SurfaceCount x
+    volume_mean,   ///< VolumeCount x
+    sum,           ///< x
+    variance,      ///< n^2 x
+    samples,       ///< n
+    dof,           ///< n^2 / x
+  };
+  struct Plane {
+    std::string name;
+    Rule rule;
+    std::vector<double> sums;
+  };
+
+  static Rule rule_of(const std::string& channel);
+  void add_plane(const std::string& name);
+  void add_channel(Plane& plane, const Image& slice, const std::vector<float>& counts) const;
+  const std::vector<double>* weights_of(Rule rule) const;
+  const Plane* find(const std::string& name) const;
+
+  PixelBounds box_;
+  std::vector<Plane> planes_;
+};
+
+}  // namespace tyndall

@@ -1,0 +1,47 @@
+/// What a rendered image says of itself: which samples of which pixels of which scene it holds.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tyndall/image.h"
+
+namespace tyndall {
+
+/// One render: samples 0 .. samples-1 of `seed` in every pixel of `crop`.
+struct SliceSource {
+  std::uint64_t seed = 0;
+  int samples = 0;
+  PixelBounds crop;
+};
+
+/// An image file that is to be merged, without its pixels.
+struct Slice {
+  std::string path;
+  Image header;
+  std::string scene_hash;
+  std::vector<SliceSource> sources;  ///< one of a render; all that went into it, of a merged image
+};
+
+/// Reads attributes tyndall/sceneHash and tyndall/slices, or (of a plain render) tyndall/seed and tyndall/samples.
+/// Throws Error (scene) when it is no EXR that Tyndall rendered.
+Slice read_slice(const std::string& path);
+
+/// As attribute tyndall/slices holds it: "seed 7 samples 64 crop 0,480,0,270; seed 8 ...", sorted.
+std::string sources_text(std::vector<SliceSource> sources);
+
+/// "x0,x1,y0,y1", as --crop takes it.
+std::string crop_text(const PixelBounds& crop);
+
+/// The pixels in both; no pixel: width or height not above 0.
+PixelBounds intersection(const PixelBounds& a, const PixelBounds& b);
+
+/// All channels but SampleCount and Dof, which slices may lack: merging adds them.
+bool is_shared_channel(const std::string& name);
+
+/// Throws Error (scene), naming the slices, for what cannot be merged: other scenes or frames, other channels, samples
+/// that would count twice, means whose counts are not known, variances of single samples.
+void require_mergeable(const std::vector<Slice>& slices);
+
+}  // namespace tyndall

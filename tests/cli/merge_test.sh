@@ -1,0 +1,78 @@
+# `tyndall merge` as a user meets it: slices of one scene joined, everything else refused with a reason.
+. "$TYNDALL_SOURCE_DIR/tests/cli/support.bash"
+T=$TYNDALL_BIN
+small_scene >s.pbrt
+render() { "$T" render "$@" --reproducible --quiet || fail "render $*"; }
+hash_of() { "$T" info "$1" | sed -n 's/.*tyndall\/sceneHash *//p'; }
+
+# Two crops of one seed are the whole picture, and the summary says what was joined.
+render s.pbrt -o whole.exr --aov SampleCount,Z,P,Zvol,Albedo,Variance
+render s.pbrt --crop 0,17,0,24 -o left.exr --aov SampleCount,Z,P,Zvol,Albedo,Variance
+render s.pbrt --crop 17,40,0,24 -o right.exr --aov SampleCount,Z,P,Zvol,Albedo,Variance
+expect 0 "$T" merge left.exr right.exr -o joined.exr
+says '40 x 24 pixels at 0, 0 from 2 image(s), 4 samples a pixel, seed 0' err.txt
+[ -s out.txt ] && fail "merge writes to stdout: $(cat out.txt)"
+pixels_of() { "$T" info "$1" | grep -E 'min |^    (data|display) window'; }
+pixels_of whole.exr >whole.txt
+pixels_of joined.exr | grep -v 'min 1, max 1, mean 1$' >joined.txt  # Dof, which a render has not
+grep -v 'min 1, max 1, mean 1$' whole.txt | diff - joined.txt || fail "two halves are not the whole"
+
+# Seeds: any order gives the same bytes, and the merged image can be merged again.
+for seed in 1 2 3; do render s.pbrt --seed $seed --spp $((seed * 4)) -o s$seed.exr; done
+expect 0 "$T" merge s1.exr s2.exr s3.exr -o a.exr
+expect 0 "$T" merge s3.exr s1.exr s2.exr -o b.exr --quiet
+[ -s err.txt ] && fail "--quiet is not quiet: $(cat err.txt)"
+cmp a.exr b.exr || fail "the order of slices changes the bytes"
+expect 0 "$T" merge s1.exr s2.exr -o s12.exr
+expect 0 "$T" merge s12.exr s3.exr -o c.exr
+expect 0 "$T" info c.exr
+says 'seed 1 samples 4 crop 0,40,0,24; seed 2 samples 8 crop 0,40,0,24; seed 3 samples 12 crop 0,40,0,24' out.txt
+grep -E 'tyndall/samples +24$' out.txt >/dev/null || fail "samples of three slices are not 24"
+[ "$(hash_of c.exr)" = "$(hash_of s1.exr)" ] || fail "merging changes the scene hash"
+
+# The scene hash: the same in another folder and with other ways to render; another one for another picture.
+mkdir -p elsewhere && cp s.pbrt elsewhere/t.pbrt
+render elsewhere/t.pbrt --seed 9 --spp 1 --lights power --transmittance ratio --crop 0,8,0,8 --threads 1 -o moved.exr
+[ "$(hash_of moved.exr)" = "$(hash_of s1.exr)" ] || fail "the folder or the way to render changes the scene hash"
+[ "$(hash_of s1.exr | tr -d '0-9a-f\n' | wc -c)$(hash_of s1.exr | wc -c)" = 017 ] || fail "the hash is not 16 hex digits"
+sed 's/sigma_s" \[1 1 1\]/sigma_s" [1 1 1.01]/' s.pbrt >denser.pbrt
+render denser.pbrt --seed 4 -o denser.exr
+render s.pbrt --max-depth 4 --seed 4 -o deeper.exr
+for other in denser deeper; do
+  expect 3 "$T" merge s1.exr $other.exr -o no.exr
+  says "$other.exr: scene hash $(hash_of $other.exr) differs from $(hash_of s1.exr) of s1.exr" err.txt
+done
+
+# What cannot be merged: exit code, one line that says why, and no file.
+expect 3 "$T" merge s1.exr s1.exr -o no.exr
+says 'the same samples would count twice' err.txt
+render s.pbrt --seed 5 --resolution 20x12 -o small.exr
+expect 3 "$T" merge s1.exr small.exr -o no.exr
+says 'frame is 20x12' err.txt
+render s.pbrt --seed 5 --aov Z -o z.exr
+expect 3 "$T" merge s1.exr z.exr -o no.exr
+says 'only z.exr has SurfaceCount, Z' err.txt
+render s.pbrt --seed 5 --spp 1 --aov Variance -o one.exr
+expect 3 "$T" merge one.exr -o no.exr
+says '1 sample a pixel' err.txt
+render s.pbrt --seed 5 --crop 0,8,0,8 -o corner.exr
+render s.pbrt --seed 5 --crop 12,40,0,8 -o band.exr
+expect 3 "$T" merge corner.exr band.exr -o no.exr
+says 'leave 32 pixels within 8,12,0,8 empty' err.txt
+expect 0 "$T" merge corner.exr band.exr -o filled.exr --fill-black
+says '0..4 samples a pixel' err.txt
+render s.pbrt -o picture.png
+expect 3 "$T" merge s1.exr picture.png -o no.exr
+says 'picture.png: is not an OpenEXR file' err.txt
+head -c 900 s2.exr >cut.exr
+expect 3 "$T" merge s1.exr cut.exr -o no.exr
+expect 3 "$T" merge s1.exr missing.exr -o no.exr
+expect 3 "$T" merge s1.exr "$TYNDALL_SOURCE_DIR/tests/regression/pbrt/shapes.exr" -o no.exr
+says 'has no attribute tyndall/sceneHash' err.txt
+expect 2 "$T" merge s1.exr s2.exr -o no.png
+expect 2 "$T" merge -o no.exr
+expect 2 "$T" merge s1.exr
+expect 4 "$T" merge s1.exr s2.exr -o no/folder/out.exr
+[ -e no.exr ] && fail "a refused merge left a file"
+[ "$(ls -A | grep -cE "tmp|part")" = 0 ] || fail "a temporary file is left: $(ls -A)"
+finish
