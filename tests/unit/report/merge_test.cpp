@@ -135,17 +135,29 @@ TEST_CASE("attributes: kept where equal, listed or summed where they differ") {
   }
 }
 
-TEST_CASE("any order gives the same bytes; merging what is merged gives what merging all does") {
+TEST_CASE("any order gives the same bytes") {
   Files files;
-  files.write("a.exr", made_slice(1, 3)), files.write("b.exr", made_slice(2, 5, {1, 2, 8, 6}));
+  const auto with_blue = [](Image image, float blue) {
+    for (Channel& c : image.channels) {
+      if (c.name == "B") std::fill(c.values.begin(), c.values.end(), blue);
+    }
+    return image;
+  };
+  // The first two cancel, but what is added between them is lost: a sum that depends on the order shows it.
+  files.write("a.exr", with_blue(made_slice(1, 4), 0x1p70f)), files.write("b.exr", with_blue(made_slice(2, 8), -0x1p69f));
   files.write("c.exr", made_slice(3, 64, {0, 0, 5, 5})), files.write("d.exr", made_slice(3, 2, {5, 0, 8, 6}));
   std::vector<std::string> names{"a.exr", "b.exr", "c.exr", "d.exr"};
-  const Image all = files.merge(names);
-  const std::string bytes = files.bytes(all);
+  const std::string bytes = files.bytes(files.merge(names));
   int different = 0;
   while (std::next_permutation(names.begin(), names.end())) different += files.bytes(files.merge(names)) == bytes ? 0 : 1;
   CHECK(different == 0);
+}
 
+TEST_CASE("merging what is merged gives what merging all does") {
+  Files files;
+  files.write("a.exr", made_slice(1, 3)), files.write("b.exr", made_slice(2, 5, {1, 2, 8, 6}));
+  files.write("c.exr", made_slice(3, 64, {0, 0, 5, 5})), files.write("d.exr", made_slice(3, 2, {5, 0, 8, 6}));
+  const Image all = files.merge({"a.exr", "b.exr", "c.exr", "d.exr"});
   files.write("ab.exr", files.merge({"a.exr", "b.exr"}));
   files.write("cd.exr", files.merge({"c.exr", "d.exr"}, {.fill_black = true}));
   files.write("cda.exr", files.merge({"cd.exr", "a.exr"}));
