@@ -16,6 +16,7 @@ inline constexpr bool kPlain = (std::is_arithmetic_v<T> && !std::is_same_v<T, bo
 template <> inline constexpr bool kPlain<Vec2> = sizeof(Vec2) == 2 * sizeof(float);
 template <> inline constexpr bool kPlain<Vec3> = sizeof(Vec3) == 3 * sizeof(float);
 template <> inline constexpr bool kPlain<Rgb> = sizeof(Rgb) == 3 * sizeof(float);
+template <typename T, std::size_t N> inline constexpr bool kPlain<std::array<T, N>> = kPlain<T>;
 
 std::uint64_t hash_file(const std::string& path) {
   const auto fail = [&](const std::string& what) {
@@ -57,10 +58,6 @@ class SceneHasher {
     } else {
       for (const T& value : values) add(value);
     }
-  }
-  template <typename T, std::size_t N>
-  void add(const std::array<T, N>& values) {
-    for (const T& value : values) add(value);
   }
   template <typename T>
   void add(const std::optional<T>& value) {
