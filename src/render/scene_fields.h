@@ -9,75 +9,35 @@
 
 namespace tyndall {
 
-/// How many fields a struct has; -1: not listed.
-template <typename Struct>
-inline constexpr int kFieldCount = -1;
+template <typename T, typename... Ts>
+inline constexpr bool kOneOf = (std::is_same_v<T, Ts> || ...);
 
-// Values.
-template <> inline constexpr int kFieldCount<Vec2> = 2;
-template <> inline constexpr int kFieldCount<Vec3> = 3;
-template <> inline constexpr int kFieldCount<Rgb> = 3;
-template <> inline constexpr int kFieldCount<Bounds3> = 2;
-template <> inline constexpr int kFieldCount<PixelBounds> = 4;
-template <> inline constexpr int kFieldCount<Chromaticities> = 4;
-// Textures.
-template <> inline constexpr int kFieldCount<TextureMapping> = 6;
-template <> inline constexpr int kFieldCount<ConstantTexture> = 1;
-template <> inline constexpr int kFieldCount<ScaleTexture> = 2;
-template <> inline constexpr int kFieldCount<MixTexture> = 3;
-template <> inline constexpr int kFieldCount<ImageTexture> = 8;
-template <> inline constexpr int kFieldCount<CheckerboardTexture> = 4;
-template <> inline constexpr int kFieldCount<Texture> = 2;
-// Materials.
-template <> inline constexpr int kFieldCount<Roughness> = 3;
-template <> inline constexpr int kFieldCount<ConductorOptics> = 3;
-template <> inline constexpr int kFieldCount<DiffuseMaterial> = 1;
-template <> inline constexpr int kFieldCount<ConductorMaterial> = 2;
-template <> inline constexpr int kFieldCount<DielectricMaterial> = 2;
-template <> inline constexpr int kFieldCount<ThinDielectricMaterial> = 1;
-template <> inline constexpr int kFieldCount<DiffuseTransmissionMaterial> = 3;
-template <> inline constexpr int kFieldCount<Coating> = 7;
-template <> inline constexpr int kFieldCount<CoatedDiffuseMaterial> = 2;
-template <> inline constexpr int kFieldCount<CoatedConductorMaterial> = 3;
-template <> inline constexpr int kFieldCount<MixMaterial> = 3;
-template <> inline constexpr int kFieldCount<InterfaceMaterial> = 0;
-template <> inline constexpr int kFieldCount<Material> = 3;
-// Media.
-template <> inline constexpr int kFieldCount<MediumOptics> = 3;
-template <> inline constexpr int kFieldCount<HomogeneousMedium> = 1;
-template <> inline constexpr int kFieldCount<UniformGridMedium> = 9;
-template <> inline constexpr int kFieldCount<RgbGridMedium> = 8;
-template <> inline constexpr int kFieldCount<CloudMedium> = 4;
-template <> inline constexpr int kFieldCount<VdbMedium> = 10;
-template <> inline constexpr int kFieldCount<Medium> = 5;
-template <> inline constexpr int kFieldCount<Boundary> = 2;
-// Lights.
-template <> inline constexpr int kFieldCount<PointLight> = 2;
-template <> inline constexpr int kFieldCount<SpotLight> = 4;
-template <> inline constexpr int kFieldCount<DistantLight> = 2;
-template <> inline constexpr int kFieldCount<InfiniteLight> = 5;
-template <> inline constexpr int kFieldCount<Light> = 2;
-template <> inline constexpr int kFieldCount<AreaLight> = 5;
-// Shapes.
-template <> inline constexpr int kFieldCount<TriangleMesh> = 4;
-template <> inline constexpr int kFieldCount<BilinearMesh> = 4;
-template <> inline constexpr int kFieldCount<Sphere> = 4;
-template <> inline constexpr int kFieldCount<Disk> = 4;
-template <> inline constexpr int kFieldCount<Cylinder> = 4;
-template <> inline constexpr int kFieldCount<Shape> = 8;
-template <> inline constexpr int kFieldCount<Object> = 2;
-template <> inline constexpr int kFieldCount<Instance> = 2;
-// Camera, film, whole.
-template <> inline constexpr int kFieldCount<Camera> = 8;
-template <> inline constexpr int kFieldCount<Film> = 9;
-template <> inline constexpr int kFieldCount<PixelFilter> = 6;
-template <> inline constexpr int kFieldCount<Scene> = 13;
+/// How many fields a struct has; -1: not listed. `fields` does not compile when it is wrong.
+template <typename T>
+constexpr int field_count() {
+  if (kOneOf<T, InterfaceMaterial>) return 0;
+  if (kOneOf<T, ConstantTexture, DiffuseMaterial, ThinDielectricMaterial, HomogeneousMedium>) return 1;
+  if (kOneOf<T, Vec2, Bounds3, ScaleTexture, Texture, ConductorMaterial, DielectricMaterial, CoatedDiffuseMaterial>) return 2;
+  if (kOneOf<T, Boundary, PointLight, DistantLight, Light, Object, Instance>) return 2;
+  if (kOneOf<T, Vec3, Rgb, MixTexture, Roughness, ConductorOptics, DiffuseTransmissionMaterial, MixMaterial>) return 3;
+  if (kOneOf<T, CoatedConductorMaterial, Material, MediumOptics>) return 3;
+  if (kOneOf<T, PixelBounds, Chromaticities, CheckerboardTexture, CloudMedium, SpotLight>) return 4;
+  if (kOneOf<T, TriangleMesh, BilinearMesh, Sphere, Disk, Cylinder>) return 4;
+  if (kOneOf<T, Medium, InfiniteLight, AreaLight>) return 5;
+  if (kOneOf<T, TextureMapping, PixelFilter>) return 6;
+  if (kOneOf<T, Coating>) return 7;
+  if (kOneOf<T, ImageTexture, RgbGridMedium, Shape, Camera>) return 8;
+  if (kOneOf<T, UniformGridMedium, Film>) return 9;
+  if (kOneOf<T, VdbMedium>) return 10;
+  if (kOneOf<T, Scene>) return 13;
+  return -1;
+}
 
 /// References to all fields of `s`, in order.
 template <typename Struct>
 auto fields(Struct& s) {
-  constexpr int n = kFieldCount<std::remove_const_t<Struct>>;
-  static_assert(n >= 0 && n <= 13, "list the struct in kFieldCount; above 13 fields, add a case below");
+  constexpr int n = field_count<std::remove_const_t<Struct>>();
+  static_assert(n >= 0 && n <= 13, "list the struct in field_count; above 13 fields, add a case below");
   if constexpr (n == 0) {
     static_assert(std::is_empty_v<Struct>);
     return std::tuple<>();

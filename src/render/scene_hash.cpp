@@ -13,10 +13,14 @@ namespace {
 /// Values without padding whose bytes are what they mean.
 template <typename T>
 inline constexpr bool kPlain = (std::is_arithmetic_v<T> && !std::is_same_v<T, bool>) || std::is_enum_v<T>;
-template <> inline constexpr bool kPlain<Vec2> = sizeof(Vec2) == 2 * sizeof(float);
-template <> inline constexpr bool kPlain<Vec3> = sizeof(Vec3) == 3 * sizeof(float);
-template <> inline constexpr bool kPlain<Rgb> = sizeof(Rgb) == 3 * sizeof(float);
-template <typename T, std::size_t N> inline constexpr bool kPlain<std::array<T, N>> = kPlain<T>;
+template <>
+inline constexpr bool kPlain<Vec2> = sizeof(Vec2) == 2 * sizeof(float);
+template <>
+inline constexpr bool kPlain<Vec3> = sizeof(Vec3) == 3 * sizeof(float);
+template <>
+inline constexpr bool kPlain<Rgb> = sizeof(Rgb) == 3 * sizeof(float);
+template <typename T, std::size_t N>
+inline constexpr bool kPlain<std::array<T, N>> = kPlain<T>;
 
 std::uint64_t hash_file(const std::string& path) {
   const auto fail = [&](const std::string& what) {

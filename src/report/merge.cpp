@@ -1,7 +1,9 @@
 #include "report/merge.h"
 
 #include <algorithm>
+#include <iomanip>
 #include <set>
+#include <sstream>
 
 #include "report/merge_sum.h"
 #include "report/slice.h"
@@ -92,8 +94,9 @@ Attribute samples_attribute(const Image& image) {
   const std::vector<float>& counts = image.find("SampleCount")->values;
   const auto [least, most] = std::minmax_element(counts.begin(), counts.end());
   if (*least == *most && *most < 0x1p31f) return static_cast<int>(*least);
-  const auto text = [](float v) { return std::to_string(static_cast<long long>(v)); };
-  return text(*least) + ".." + text(*most);
+  std::ostringstream range;
+  range << std::fixed << std::setprecision(0) << *least << ".." << *most;
+  return range.str();
 }
 
 void merge_attributes(const std::vector<Slice>& slices, Image& image) {

@@ -54,13 +54,20 @@ void MergeSum::add_channel(Plane& plane, const Image& slice, const std::vector<f
   const auto term = [&](std::size_t i) -> double {
     const double n = counts[i];
     switch (plane.rule) {
-      case Rule::mean: return n * values[i];
-      case Rule::surface_mean: return static_cast<double>(surface[i]) * values[i];
-      case Rule::volume_mean: return static_cast<double>(volume[i]) * values[i];
-      case Rule::sum: return values[i];
-      case Rule::variance: return n * n * values[i];
-      case Rule::samples: return n;
-      case Rule::dof: return n * n / (values ? values[i] : 1.0);
+      case Rule::mean:
+        return n * values[i];
+      case Rule::surface_mean:
+        return static_cast<double>(surface[i]) * values[i];
+      case Rule::volume_mean:
+        return static_cast<double>(volume[i]) * values[i];
+      case Rule::sum:
+        return values[i];
+      case Rule::variance:
+        return n * n * values[i];
+      case Rule::samples:
+        return n;
+      case Rule::dof:
+        return n * n / (values ? values[i] : 1.0);
     }
     return 0;
   };
@@ -76,11 +83,15 @@ void MergeSum::add_channel(Plane& plane, const Image& slice, const std::vector<f
 /// What a rule's sum is divided by; null: by nothing.
 const std::vector<double>* MergeSum::weights_of(Rule rule) const {
   switch (rule) {
-    case Rule::surface_mean: return &find("SurfaceCount")->sums;
-    case Rule::volume_mean: return &find("VolumeCount")->sums;
+    case Rule::surface_mean:
+      return &find("SurfaceCount")->sums;
+    case Rule::volume_mean:
+      return &find("VolumeCount")->sums;
     case Rule::sum:
-    case Rule::samples: return nullptr;
-    default: return &find("SampleCount")->sums;
+    case Rule::samples:
+      return nullptr;
+    default:
+      return &find("SampleCount")->sums;
   }
 }
 
@@ -92,9 +103,7 @@ Image MergeSum::result() const {
     const std::vector<double>* weights = weights_of(plane.rule);
     for (std::size_t i = 0; i < values.size(); ++i) {
       const double sum = plane.sums[i], n = weights ? (*weights)[i] : 1;
-      const double value = plane.rule == Rule::dof        ? n * n / sum
-                           : plane.rule == Rule::variance ? sum / (n * n)
-                                                          : sum / n;
+      const double value = plane.rule == Rule::dof ? n * n / sum : plane.rule == Rule::variance ? sum / (n * n) : sum / n;
       values[i] = n > 0 ? static_cast<float>(value) : 0.0f;
     }
   }

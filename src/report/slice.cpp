@@ -31,17 +31,19 @@ std::optional<SliceSource> parse_source(std::istream& text) {
   text >> s.crop.x0 >> comma[0] >> s.crop.x1 >> comma[1] >> s.crop.y0 >> comma[2] >> s.crop.y1;
   const bool words = seed == "seed" && samples == "samples" && crop == "crop";
   const bool commas = text && std::all_of(comma, comma + 3, [](char c) { return c == ','; });
-  if (!words || !commas || s.samples < 1 || s.crop.width() <= 0 || s.crop.height() <= 0) return std::nullopt;
+  if (!words || !commas || s.samples < 1 || s.crop.x0 >= s.crop.x1 || s.crop.y0 >= s.crop.y1) return std::nullopt;
   return s;
 }
 
-std::vector<SliceSource> parse_sources(const std::string& path, const std::string& text) {
+std::vector<SliceSource> parse_sources(const std::string& path, const std::string& text, const PixelBounds& data) {
   std::vector<SliceSource> sources;
   std::istringstream stream(text);
   for (std::string part; std::getline(stream, part, ';');) {
     std::istringstream fields(part);
     const auto source = parse_source(fields);
-    if (!source || !(fields >> std::ws).eof()) fail(path, "attribute tyndall/slices is damaged; merge its slices again");
+    const bool whole = source && (fields >> std::ws).eof();
+    if (!whole || intersection(source->crop, data) != source->crop)
+      fail(path, "attribute tyndall/slices is damaged; merge its slices again");
     sources.push_back(*source);
   }
   if (sources.empty()) fail(path, "attribute tyndall/slices is empty; merge its slices again");
@@ -50,7 +52,7 @@ std::vector<SliceSource> parse_sources(const std::string& path, const std::strin
 
 std::vector<SliceSource> sources_of(const std::string& path, const Image& header) {
   if (header.attributes.contains("tyndall/slices")) {
-    return parse_sources(path, attribute<std::string>(path, header, "tyndall/slices"));
+    return parse_sources(path, attribute<std::string>(path, header, "tyndall/slices"), header.data);
   }
   // A plain render, told in the words of a merged one.
   const std::string& seed = attribute<std::string>(path, header, "tyndall/seed");
@@ -76,13 +78,15 @@ std::string crop_text(const PixelBounds& c) {
 
 std::string sources_text(std::vector<SliceSource> sources) {
   std::sort(sources.begin(), sources.end(), [](const SliceSource& a, const SliceSource& b) {
-    const auto key = [](const SliceSource& s) { return std::tie(s.seed, s.crop.y0, s.crop.x0, s.crop.y1, s.crop.x1, s.samples); };
+    const auto key = [](const SliceSource& s) {
+      return std::tie(s.seed, s.crop.y0, s.crop.x0, s.crop.y1, s.crop.x1, s.samples);
+    };
     return key(a) < key(b);
   });
   std::string text;
   for (const SliceSource& s : sources) {
-    text += (text.empty() ? "seed " : "; seed ") + std::to_string(s.seed) + " samples " + std::to_string(s.samples) +
-            " crop " + crop_text(s.crop);
+    text += (text.empty() ? "seed " : "; seed ") + std::to_string(s.seed) + " samples " + std::to_string(s.samples) + " crop " +
+            crop_text(s.crop);
   }
   return text;
 }

@@ -8,9 +8,7 @@
 namespace tyndall {
 namespace {
 
-[[noreturn]] void fail(const Slice& slice, const std::string& what) {
-  throw Error(Failure::scene, slice.path + ": " + what);
-}
+[[noreturn]] void fail(const Slice& slice, const std::string& what) { throw Error(Failure::scene, slice.path + ": " + what); }
 
 std::string size_text(const PixelBounds& b) { return std::to_string(b.width()) + "x" + std::to_string(b.height()); }
 
@@ -71,7 +69,8 @@ void require_variance(const Slice& slice) {
   if (!slice.header.find("Variance.R")) return;
   for (const SliceSource& source : slice.sources) {
     if (source.samples > 1) continue;
-    fail(slice, "has 1 sample a pixel, from which no Variance can be known; render slices of 2 or more, or all without Variance");
+    fail(slice,
+         "has 1 sample a pixel, from which no Variance can be known; render slices of 2 or more, or all without Variance");
   }
 }
 

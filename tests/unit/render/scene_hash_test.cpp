@@ -41,8 +41,11 @@ Scene everything(const std::string& path) {
   rgb.sigma_a = rgb.sigma_s = rgb.Le = colors;
   VdbMedium vdb;
   vdb.path = path;
-  s.media = {{HomogeneousMedium{}, {}, {}, {}, {}}, {uniform, {}, {}, {}, {}}, {rgb, {}, {}, {}, {}},
-             {CloudMedium{}, {}, {}, {}, {}},       {vdb, {}, {}, {}, {}}};
+  s.media = {{HomogeneousMedium{}, {}, {}, {}, {}},
+             {uniform, {}, {}, {}, {}},
+             {rgb, {}, {}, {}, {}},
+             {CloudMedium{}, {}, {}, {}, {}},
+             {vdb, {}, {}, {}, {}}};
   s.boundaries = {{0, 0}};
   InfiniteLight sky;
   sky.path = path;
@@ -196,9 +199,15 @@ TEST_CASE("a built world and its images carry the hash; only the depth of the se
   const RenderSettings plain;
   const std::string hash = world.scene_hash(plain);
   CHECK(hash.size() == 16);
-  CHECK(hash == moved.scene_hash({.spp = 3, .time = 2.0, .seed = 9, .threads = 2, .lights = LightStrategy::power,
-                                  .transmittance = TransmittanceStrategy::ratio, .aovs = {"N"},
-                                  .crop = PixelBounds{0, 0, 1, 1}, .reproducible = true}));
+  CHECK(hash == moved.scene_hash({.spp = 3,
+                                  .time = 2.0,
+                                  .seed = 9,
+                                  .threads = 2,
+                                  .lights = LightStrategy::power,
+                                  .transmittance = TransmittanceStrategy::ratio,
+                                  .aovs = {"N"},
+                                  .crop = PixelBounds{0, 0, 1, 1},
+                                  .reproducible = true}));
   CHECK(hash != world.scene_hash({.max_depth = 6}));
   const Image image = render(world, {.spp = 1}).image;
   CHECK(std::get<std::string>(image.attributes.at("tyndall/sceneHash")) == hash);

@@ -58,9 +58,7 @@ class Files {
     }
     return "merged";
   }
-  std::string bytes(const Image& image) {
-    return read_bytes(write("bytes.exr", image));
-  }
+  std::string bytes(const Image& image) { return read_bytes(write("bytes.exr", image)); }
 
  private:
   Scratch scratch_;
@@ -212,8 +210,10 @@ TEST_CASE("what does not go together is refused with what is wrong and where") {
   CHECK_SAYS(altered("b.exr", [](Image& i) { i.attributes.erase("tyndall/seed"); }), "has no attribute tyndall/seed");
   CHECK_SAYS(altered("b.exr", [](Image& i) { i.attributes["tyndall/samples"] = "two"; }), "tyndall/samples is not what");
   CHECK_SAYS(altered("b.exr", [](Image& i) { i.attributes["tyndall/seed"] = "seven"; }), "are damaged");
-  for (const char* text : {"", ";", "seed 1", "seed 1 samples 0 crop 0,8,0,6", "seed 1 samples 2 crop 0,8,0,6 more",
-                           "seed 1 samples 2 crop 8,8,0,6", "seed 1 samples 2 crop 0.8.0.6"}) {
+  for (const char* text :
+       {"", ";", "seed 1", "seed 1 samples 0 crop 0,8,0,6", "seed 1 samples 2 crop 0,8,0,6 more",
+        "seed 1 samples 2 crop 8,8,0,6", "seed 1 samples 2 crop 0,9,0,6", "seed 1 samples 2 crop -2147483648,2147483647,0,6",
+        "seed 1 samples 99999999999 crop 0,8,0,6", "seed 1 samples 2 crop 0.8.0.6"}) {
     CHECK_SAYS(altered("b.exr", [&](Image& i) { i.attributes["tyndall/slices"] = text; }), "attribute tyndall/slices is ");
   }
   CHECK_SAYS(altered("b.exr", [](Image& i) { i.attributes["tyndall/slices"] = "seed 2 samples 2 crop 0,8,0,6"; }),
@@ -221,7 +221,9 @@ TEST_CASE("what does not go together is refused with what is wrong and where") {
   CHECK_SAYS(altered("b.exr", [](Image& i) { i.attributes["tyndall/samples"] = 1; }), "1 sample a pixel");
 
   // The same samples twice, found through what is merged as well.
-  CHECK_SAYS(altered("b.exr", [](Image&) {}, 1), "seed 1 is in ");
+  CHECK_SAYS(altered(
+                 "b.exr", [](Image&) {}, 1),
+             "seed 1 is in ");
   CHECK_SAYS(files.refusal({"a.exr", "a.exr"}), "both hold pixels 0,8,0,6");
   files.write("c.exr", made_slice(3, 2, {4, 4, 8, 6})), files.write("d.exr", made_slice(3, 2, {0, 0, 5, 5}));
   files.write("ac.exr", files.merge({"a.exr", "c.exr"}));

@@ -34,11 +34,16 @@ float coordinate(Rng& rng, bool adversarial) {
   const float anywhere = 8 * rng.uniform();
   if (!adversarial) return anywhere;
   switch (rng.next() % 5) {
-    case 0: return anywhere;
-    case 1: return rng.uniform() < 0.5f ? 0.0f : 8.0f;
-    case 2: return std::round(anywhere);
-    case 3: return std::min(8.0f, std::nextafter(std::round(anywhere), 9.0f));
-    default: return std::max(0.0f, std::nextafter(std::round(anywhere), -1.0f));
+    case 0:
+      return anywhere;
+    case 1:
+      return rng.uniform() < 0.5f ? 0.0f : 8.0f;
+    case 2:
+      return std::round(anywhere);
+    case 3:
+      return std::min(8.0f, std::nextafter(std::round(anywhere), 9.0f));
+    default:
+      return std::max(0.0f, std::nextafter(std::round(anywhere), -1.0f));
   }
 }
 
@@ -84,10 +89,9 @@ int violations_anywhere(const BrickGrid& grid, Rng& rng) {
 
 TEST_CASE("10 million points of each real volume lie within the bounds of every cell that holds them") {
   const std::string root = std::string(TYNDALL_SOURCE_DIR) + "/";
-  for (const std::string file :
-       {"volumes/plume_hall/plume.vdb", "volumes/mantaflow_smoke/mantaflow_smoke_0025.vdb",
-        "volumes/mantaflow_smoke/mantaflow_smoke_0050.vdb", "volumes/teapot_cloud/teapot_cloud.nvdb",
-        "tests/regression/pbrt/smoke.nvdb", "tests/regression/pbrt/hot.nvdb"}) {
+  for (const std::string file : {"volumes/plume_hall/plume.vdb", "volumes/mantaflow_smoke/mantaflow_smoke_0025.vdb",
+                                 "volumes/mantaflow_smoke/mantaflow_smoke_0050.vdb", "volumes/teapot_cloud/teapot_cloud.nvdb",
+                                 "tests/regression/pbrt/smoke.nvdb", "tests/regression/pbrt/hot.nvdb"}) {
     CAPTURE(file);
     const test::Import import = test::import(root + file);
     const BrickGrid& grid = import.medium.data().density.grid;
