@@ -43,7 +43,7 @@ class SceneHasher {
     if constexpr (kPlain<T>) {
       bytes_.add(&value, sizeof value);
     } else {
-      std::apply([this](const auto&... field) { (add(field), ...); }, fields(value));
+      std::apply([this](const auto&... field) { (this->add(field), ...); }, fields(value));
     }
   }
   std::uint64_t value() const { return bytes_.value(); }
@@ -71,7 +71,7 @@ class SceneHasher {
   template <typename... Kinds>
   void add(const std::variant<Kinds...>& value) {
     add(value.index());
-    std::visit([this](const auto& kind) { add(kind); }, value);
+    std::visit([this](const auto& kind) { this->add(kind); }, value);
   }
   void add(const Transform& transform) { add(transform.matrix()); }
 

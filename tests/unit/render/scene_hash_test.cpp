@@ -79,7 +79,7 @@ class Walk {
     } else if constexpr (std::is_arithmetic_v<T>) {
       change(value, std::isinf(static_cast<double>(value)) ? T{5} : static_cast<T>(value + T{1}));
     } else {
-      std::apply([this](auto&... field) { (visit(field), ...); }, fields(value));
+      std::apply([this](auto&... field) { (this->visit(field), ...); }, fields(value));
     }
   }
   void visit(RenderSettings&) {}  // has a test of its own
@@ -109,7 +109,7 @@ class Walk {
   }
   template <typename... Kinds>
   void visit(std::variant<Kinds...>& value) {
-    std::visit([this](auto& kind) { visit(kind); }, value);
+    std::visit([this](auto& kind) { this->visit(kind); }, value);
   }
 
  private:
