@@ -3,17 +3,13 @@
 #include <algorithm>
 #include <string>
 
+#include "report/metrics.h"
 #include "tyndall/error.h"
 
 namespace tyndall {
 namespace {
 
 constexpr std::array<const char*, 3> kSuffix{"R", "G", "B"};
-
-const Channel& required(const Image& image, const std::string& name) {
-  if (const Channel* channel = image.find(name)) return *channel;
-  throw Error(Failure::scene, "the image has no channel " + name + "; render it with --aov Variance");
-}
 
 Estimate block_mean(const MeanImage& pixels, int channel, const PixelBounds& block) {
   std::vector<Estimate> parts;
@@ -36,7 +32,7 @@ void MeanImageBuilder::add(const Image& image) {
   }
   ++count_;
   for (int k = 0; k < 3; ++k) {
-    const std::vector<float>& values = required(image, kSuffix[k]).values;
+    const std::vector<float>& values = required_channel(image, kSuffix[k]).values;
     for (std::size_t i = 0; i < values.size(); ++i) moments_[k][i].add(values[i]);
   }
 }
@@ -53,8 +49,8 @@ MeanImage mean_image(const Image& image, double dof) {
   MeanImage result{image.width(), image.height(), {}};
   for (int k = 0; k < 3; ++k) {
     const std::string suffix = kSuffix[k];
-    const Channel& mean = required(image, suffix);
-    const Channel& variance = required(image, "Variance." + suffix);
+    const Channel& mean = required_channel(image, suffix);
+    const Channel& variance = required_channel(image, "Variance." + suffix);
     const Channel* known = image.find("Dof." + suffix);
     for (std::size_t i = 0; i < mean.values.size(); ++i) {
       result.channels[k].push_back({mean.values[i], variance.values[i], known ? known->values[i] : dof});

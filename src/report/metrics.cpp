@@ -1,0 +1,94 @@
+#include "report/metrics.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tyndall/error.h"
+
+namespace tyndall {
+namespace {
+
+const std::vector<std::string> kRgb{"R", "G", "B"};
+
+/// Planes of one image side by side.
+using Planes = std::vector<const std::vector<float>*>;
+
+Planes planes_of(const Image& image, const std::vector<std::string>& channels, const std::string& prefix = "") {
+  Planes planes;
+  for (const std::string& name : channels) planes.push_back(&required_channel(image, prefix + name).values);
+  return planes;
+}
+
+/// Mean without the largest 0.1 %, which are moved to the end of `values`.
+double trimmed_mean(std::vector<double>& values, double total) {
+  const auto dropped = static_cast<std::size_t>(kTrimmedFraction * static_cast<double>(values.size()));
+  if (dropped == 0 || !std::isfinite(total)) return total / static_cast<double>(values.size());
+  const auto kept = values.end() - static_cast<std::ptrdiff_t>(dropped);
+  std::nth_element(values.begin(), kept, values.end());
+  double sum = 0;
+  for (auto v = values.begin(); v != kept; ++v) sum += *v;
+  return sum / static_cast<double>(values.size() - dropped);
+}
+
+/// `noise`: variances of the reference, or nothing.
+ErrorMetrics measure(const Planes& image, const Planes& reference, const Planes& noise) {
+  ErrorMetrics sum;
+  std::vector<double> relative(image.front()->size());  // of each pixel
+  const auto channels = static_cast<double>(image.size());
+  for (std::size_t k = 0; k < image.size(); ++k) {
+    for (std::size_t i = 0; i < relative.size(); ++i) {
+      const double x = (*image[k])[i], r = (*reference[k])[i], distance = std::abs(x - r);
+      const double square = distance * distance - (noise.empty() ? 0.0 : (*noise[k])[i]);
+      const double relative_square = square / (r * r + kRelativeEps);
+      sum.mse += square;
+      sum.relmse += relative_square;
+      sum.mape += distance / (std::abs(r) + kRelativeEps);
+      sum.smape += 2 * distance / (std::abs(x) + std::abs(r) + kRelativeEps);
+      relative[i] += relative_square / channels;
+    }
+  }
+  const double count = channels * static_cast<double>(relative.size());
+  return {sum.mse / count, sum.relmse / count, trimmed_mean(relative, sum.relmse / channels), sum.mape / count, sum.smape / count};
+}
+
+}  // namespace
+
+const Channel& required_channel(const Image& image, const std::string& name) {
+  if (const Channel* channel = image.find(name)) return *channel;
+  const bool variance = name.starts_with("Variance.");
+  throw Error(Failure::scene, "the image has no channel " + name +
+                                  (variance ? "; render it with --aov Variance" : "; choose an image that has it"));
+}
+
+void require_same_size(const Image& a, const Image& b) {
+  if (a.width() == b.width() && a.height() == b.height()) return;
+  const auto size = [](const Image& i) { return std::to_string(i.width()) + " x " + std::to_string(i.height()); };
+  throw Error(Failure::usage, "images of different sizes, " + size(a) + " and " + size(b) +
+                                  ", cannot be compared; render them at one resolution");
+}
+
+ErrorMetrics measure_error(const Image& image, const Image& reference) { return measure_error(image, reference, kRgb); }
+
+ErrorMetrics measure_error(const Image& image, const Image& reference, const std::vector<std::string>& channels) {
+  require_same_size(image, reference);
+  return measure(planes_of(image, channels), planes_of(reference, channels), {});
+}
+
+ErrorMetrics measure_error_without_noise(const Image& image, const Image& reference) {
+  require_same_size(image, reference);
+  return measure(planes_of(image, kRgb), planes_of(reference, kRgb), planes_of(reference, kRgb, "Variance."));
+}
+
+double estimated_relmse(const Image& image) {
+  const Planes means = planes_of(image, kRgb), variances = planes_of(image, kRgb, "Variance.");
+  double sum = 0;
+  for (std::size_t k = 0; k < means.size(); ++k) {
+    for (std::size_t i = 0; i < means[k]->size(); ++i) {
+      const double mean = (*means[k])[i];
+      sum += (*variances[k])[i] / (mean * mean + kRelativeEps);
+    }
+  }
+  return sum / static_cast<double>(means.size() * means.front()->size());
+}
+
+}  // namespace tyndall
