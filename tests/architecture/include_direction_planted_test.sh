@@ -38,6 +38,7 @@ expect fail src/io/png.cpp '<ImfHeader.h>'
 expect fail src/light/build.cpp '<oneapi/tbb/parallel_for.h>'
 expect fail src/math/rng.h '<tbb/tbb.h>'
 expect fail src/render/path.cpp '<some_library/thing.h>'
+expect fail src/report/page.cpp '<zlib.h>'
 
 expect pass src/render/path.cpp '"volume/grid.h"'
 expect pass src/surface/bsdf.h '"texture/textures.h"'
@@ -48,6 +49,7 @@ expect pass src/io/exr_write.cpp '<OpenEXR/ImfHeader.h>'
 expect pass src/render/render.cpp '<oneapi/tbb/parallel_for.h>'
 expect pass src/math/parallel.h '<oneapi/tbb/parallel_for.h>'
 expect pass src/cli/main.cpp '"report/html.h"'
+expect pass src/report/page_picture.cpp '<zlib.h>'
 expect pass include/tyndall/scene.h '<vector>'
 
 exit $failures

@@ -1,0 +1,15 @@
+# Writes OUTPUT, a C++ source that defines page_parts(): each of FILES as a raw string. Run by src/CMakeLists.txt at build time:
+#   cmake -DOUTPUT=page_parts.cpp "-DFILES=a.js;b.css" -P EmbedFiles.cmake
+set(delimiter "_PART_")
+set(source "#include \"report/page_parts.h\"\n\nnamespace tyndall {\nnamespace {\n\nconstexpr PagePart kParts[] = {\n")
+foreach(file IN LISTS FILES)
+  file(READ "${file}" text)
+  string(FIND "${text}" ")${delimiter}\"" clash)
+  if(NOT clash EQUAL -1)
+    message(FATAL_ERROR "${file} contains )${delimiter}\"; choose another delimiter in cmake/EmbedFiles.cmake")
+  endif()
+  get_filename_component(name "${file}" NAME)
+  string(APPEND source "{\"${name}\", R\"${delimiter}(${text})${delimiter}\"},\n")
+endforeach()
+string(APPEND source "};\n\n}  // namespace\n\nstd::span<const PagePart> page_parts() { return kParts; }\n\n}  // namespace tyndall\n")
+file(WRITE "${OUTPUT}" "${source}")

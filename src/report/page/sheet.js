@@ -1,0 +1,48 @@
+// All pictures side by side: the overview on the screen, and what print shows instead of the viewer.
+
+/** Calls work() for one item after another, whenever the browser is idle. */
+async function whenIdle(items, work) {
+  for (const item of items) {
+    await new Promise((resolve) => (window.requestIdleCallback ?? setTimeout)(resolve));
+    await work(item);
+  }
+}
+
+/** Half the size of a large picture is enough for an overview. */
+const sheetScale = (picture) => Math.min(1, Math.max(480, picture.width / 2) / picture.width);
+
+class Sheet {
+  /** `caption(picture)` gives what stands below a picture; a click shows it in the viewer. */
+  constructor(viewer, caption) {
+    this.viewer = viewer;
+    this.cards = viewer.pictures.map((picture) => {
+      const canvas = element("canvas", { width: Math.round(picture.width * sheetScale(picture)), height: Math.round(picture.height * sheetScale(picture)) });
+      const show = () => {
+        viewer.set({ current: picture, mode: "picture" });
+        viewer.root.scrollIntoView({ block: "nearest", behavior: "smooth" });
+      };
+      const card = element("figure", {}, element("button", { type: "button", onclick: show, "aria-label": `Show ${picture.name}` }, canvas), element("figcaption", {}, caption(picture)));
+      return { picture, canvas, card };
+    });
+    this.root = element("div", { class: "sheet" }, this.cards.map(({ card }) => card));
+    viewer.listeners.push(() => this.follow());
+    this.follow();
+  }
+
+  /** At the exposure of the viewer, a moment after it has come to rest. */
+  follow() {
+    if (this.stops === this.viewer.stops) return;
+    this.stops = this.viewer.stops;
+    clearTimeout(this.timer);
+    this.timer = setTimeout(() => this.draw(this.stops), 250);
+  }
+
+  draw(stops) {
+    const table = toneTable(stops);
+    return whenIdle(this.cards, async ({ picture, canvas }) => {
+      if (stops !== this.stops) return;
+      await picture.load();
+      canvas.getContext("2d").drawImage(toned(picture, table), 0, 0, canvas.width, canvas.height);
+    });
+  }
+}

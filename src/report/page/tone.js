@@ -1,0 +1,81 @@
+// Linear colour to what a canvas shows: sRGB at an exposure, and false colour for errors.
+
+const NOT_FINITE = [255, 0, 255];  // magenta marks NaN and infinity
+
+/** 8-bit sRGB (IEC 61966-2-1) of each half float after `stops`; -1 where it is not finite. */
+function toneTable(stops) {
+  const gain = 2 ** stops;
+  return Int16Array.from(HALF_TO_FLOAT, (value) => {
+    if (!Number.isFinite(value)) return -1;
+    const c = Math.min(Math.max(value * gain, 0), 1);
+    return Math.round(255 * (c <= 0.0031308 ? 12.92 * c : 1.055 * c ** (1 / 2.4) - 0.055));
+  });
+}
+
+/** A canvas of the picture's size, filled by paint(data, pixels). */
+function paintedCanvas(picture, paint) {
+  const canvas = element("canvas", { width: picture.width, height: picture.height });
+  const context = canvas.getContext("2d");
+  const image = context.createImageData(picture.width, picture.height);
+  paint(image.data, picture.width * picture.height);
+  context.putImageData(image, 0, 0);
+  return canvas;
+}
+
+function toned(picture, table) {
+  const halves = picture.halves;
+  return paintedCanvas(picture, (data, pixels) => {
+    for (let i = 0, o = 0; i < pixels; ++i, o += 4) {
+      const r = table[halves[i]], g = table[halves[pixels + i]], b = table[halves[2 * pixels + i]];
+      const finite = r >= 0 && g >= 0 && b >= 0;
+      data[o] = finite ? r : NOT_FINITE[0];
+      data[o + 1] = finite ? g : NOT_FINITE[1];
+      data[o + 2] = finite ? b : NOT_FINITE[2];
+      data[o + 3] = 255;
+    }
+  });
+}
+
+/** (x - r)^2 / (r^2 + eps), as in relMSE. */
+function relativeSquaredError(x, r, eps) {
+  return (x - r) ** 2 / (r * r + eps);
+}
+
+// False colour over decades of the relative squared error: black at 1e-6 and below, white at 10 and above.
+const ERROR_DECADES = [-6, 1];
+const ERROR_COLORS = [[0, 0, 4], [40, 17, 89], [114, 31, 129], [183, 55, 121], [241, 96, 93], [254, 175, 119], [252, 253, 232]];
+
+function errorColor(t) {
+  const place = Math.min(Math.max(t, 0), 1) * (ERROR_COLORS.length - 1);
+  const i = Math.min(Math.floor(place), ERROR_COLORS.length - 2), f = place - i;
+  return ERROR_COLORS[i].map((c, k) => Math.round(c + f * (ERROR_COLORS[i + 1][k] - c)));
+}
+
+const ERROR_TABLE = Array.from({ length: 256 }, (_, i) => errorColor(i / 255));
+
+/** The picture's relative squared error, mean over the channels, in false colour. */
+function errorMap(picture, reference, eps) {
+  const a = picture.halves, b = reference.halves;
+  const [low, high] = ERROR_DECADES;
+  return paintedCanvas(picture, (data, pixels) => {
+    for (let i = 0, o = 0; i < pixels; ++i, o += 4) {
+      let sum = 0;
+      for (let j = i; j < 3 * pixels; j += pixels) sum += relativeSquaredError(HALF_TO_FLOAT[a[j]], HALF_TO_FLOAT[b[j]], eps);
+      const t = (Math.log10(Math.max(sum / 3, 1e-30)) - low) / (high - low);
+      const color = Number.isFinite(sum) ? ERROR_TABLE[Math.round(255 * Math.min(Math.max(t, 0), 1))] : NOT_FINITE;
+      data.set(color, o);
+      data[o + 3] = 255;
+    }
+  });
+}
+
+/** The scale of errorMap, to stand below a picture. */
+function errorLegend() {
+  const [low, high] = ERROR_DECADES;
+  const stops = ERROR_COLORS.map((c) => `rgb(${c.join(" ")})`).join(", ");
+  const ticks = Array.from({ length: high - low + 1 }, (_, i) => element("span", {}, `1e${low + i}`));
+  return element("div", { class: "error-legend" },
+    element("div", { class: "error-bar", style: `background: linear-gradient(to right, ${stops})` }),
+    element("div", { class: "error-ticks", "aria-hidden": "true" }, ticks),
+    element("p", {}, `Relative squared error of a pixel, mean of R, G and B: black 1e${low} and below, white 1e${high} and above; magenta: not finite.`));
+}
