@@ -9,7 +9,7 @@ function intervalBar(variant, field) {
   if (!isPositive(relative)) return null;
   const x = logScale(logDomain(every), 0, 90);
   const range = isPositive(low) && isPositive(high) ? svg("line", { class: "range", x1: x(low), x2: x(high), y1: 7, y2: 7 }) : null;
-  return svg("svg", { class: "bar", width: 90, height: 14, "aria-hidden": "true", style: `color: ${seriesColor(RESULTS.variants.indexOf(variant))}` },
+  return svg("svg", { class: "bar", viewBox: "0 0 90 14", width: 90, height: 14, "aria-hidden": "true", style: `color: ${seriesColor(RESULTS.variants.indexOf(variant))}` },
     svg("line", { class: "one", x1: x(1), x2: x(1), y1: 0, y2: 14 }), range, svg("circle", { cx: x(relative), cy: 7, r: 4 }));
 }
 
@@ -27,12 +27,11 @@ function slopeCell(variant) {
   return [datumWithInterval(variantPath(variant, "slope"), variantPath(variant, "slope_low"), variantPath(variant, "slope_high")), note];
 }
 
-/** Counters that should be zero; those that are not stand out. */
+/** Counters that should be zero and are not. */
 function healthCell(variant) {
-  return Object.keys(variant.health ?? {}).map((counter) => {
-    const bad = variant.health[counter] !== 0;
-    return element("div", { class: bad ? "bad" : "quiet" }, `${counter.replaceAll("_", " ")} `, datum(variantPath(variant, `health.${counter}`)));
-  });
+  const faults = Object.keys(variant.health ?? {}).filter((counter) => variant.health[counter] !== 0);
+  if (!faults.length) return element("span", { class: "quiet" }, variant.health ? "no faults" : DASH);
+  return faults.map((counter) => element("div", { class: "bad" }, `${counter.replaceAll("_", " ")} `, datum(variantPath(variant, `health.${counter}`))));
 }
 
 function nameCell(variant) {

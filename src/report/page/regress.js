@@ -47,7 +47,8 @@ function caseDetail(item) {
   if (!pictures.length) return element("div", { class: "case" }, testTable(item), element("p", { class: "note" }, "This case left no pictures."));
   const viewer = new Viewer(pictures, 0.01);
   activeViewer = viewer;
-  const sheet = new Sheet(viewer, (picture) => picture.name);
+  const errors = viewer.reference ? pictures.filter((picture) => picture !== viewer.reference) : [];
+  const sheet = new Sheet(viewer, (picture) => picture.name, errors);
   return element("div", { class: "case" }, testTable(item), element("div", { class: "case-pictures" }, viewer.root, sheet.root));
 }
 
