@@ -18,8 +18,15 @@ class ErrorPlot {
     this.root = element("div", {}, this.choice.group, this.holder, this.legend(), this.note);
     this.holder.addEventListener("pointermove", (event) => this.hover(event));
     this.holder.addEventListener("pointerleave", () => { this.tip.hidden = true; });
-    new ResizeObserver(() => requestAnimationFrame(() => { if (this.holder.clientWidth !== this.width) this.show(this.field); })).observe(this.holder);
+    const follow = () => { if (!this.printing && this.holder.clientWidth !== this.width) this.show(this.field); };
+    new ResizeObserver(() => requestAnimationFrame(follow)).observe(this.holder);
+    for (const event of ["beforeprint", "afterprint"]) window.addEventListener(event, () => this.print(event === "beforeprint"));
     this.show("seconds");
+  }
+
+  print(printing) {
+    this.printing = printing;
+    this.show(this.field);
   }
 
   legend() {
@@ -58,7 +65,7 @@ class ErrorPlot {
       left ? `${left} of ${all.length} points are not above zero (below the reference's own noise) and not drawn.` : ""}`;
     if (all.length === left) return this.holder.replaceChildren(element("p", { class: "note" }, "There is nothing to plot."));
     this.width = this.holder.clientWidth;
-    const width = Math.max(this.width || 720, 280), height = Math.round(Math.min(Math.max(0.55 * width, 280), 520));
+    const width = this.printing ? 720 : Math.max(this.width || 720, 280), height = Math.round(Math.min(Math.max(0.55 * width, 280), 520));
     const frame = this.frame(width, height);
     const title = field === "seconds" ? "render time in seconds" : "samples a pixel";
     const shown = this.series.filter((series) => series.shown);

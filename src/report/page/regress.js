@@ -24,7 +24,7 @@ const CASE_COLUMNS = [
   { label: "samples", first: -1, key: (c) => c.samples, cell: (c) => datum(casePath(c, "samples")) },
   { label: "tests", title: "Layers that agree with the reference", key: (c) => (c.tests ?? []).filter((t) => !t.same).length, first: -1, cell: testsCell },
   { label: "worst p", title: "Smallest p-value of a block", key: (c) => smallest(c, "worst_p"), cell: (c) => formatNumber(smallest(c, "worst_p")) },
-  { label: "message", text: true, key: (c) => c.message, cell: (c) => datum(casePath(c, "message"), formatText) },
+  { label: "message", wide: true, key: (c) => c.message, cell: (c) => datum(casePath(c, "message"), formatText) },
 ];
 
 function testTable(item) {
@@ -35,7 +35,7 @@ function testTable(item) {
     const same = (value) => (value === true ? "same" : value === false ? "differs" : DASH);
     return element("tr", {}, element("th", { scope: "row", class: "text" }, datum(path("what"), formatText)), element("td", { class: test.same ? "good" : "bad" }, datum(path("same"), same)),
       ["alarms", "blocks", "worst_p"].map((field) => element("td", {}, datum(path(field)))), element("td", {}, datum(path("mean_difference"), percent)),
-      element("td", {}, datum(path("uniformity_p"))), element("td", { class: "text" }, datum(path("verdict"), formatText)));
+      element("td", {}, datum(path("uniformity_p"))), element("td", { class: "text wide" }, datum(path("verdict"), formatText)));
   });
   if (!rows.length) return null;
   return element("table", { class: "tests" }, element("thead", {}, element("tr", {}, labels.map((label) => element("th", { scope: "col", class: ["layer", "verdict"].includes(label) ? "text" : null }, label)))), element("tbody", {}, rows));

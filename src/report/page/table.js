@@ -7,6 +7,8 @@ function compareKeys(a, b, direction) {
   return direction * (typeof a === "number" && typeof b === "number" ? a - b : String(a).localeCompare(String(b)));
 }
 
+const columnClass = (column) => (column.wide ? "text wide" : column.text ? "text" : null);
+
 /** The second row of an entry, made when it is first opened. */
 function detailRow(entry, width, make) {
   const cell = element("td", { colspan: width });
@@ -20,8 +22,8 @@ function detailRow(entry, width, make) {
 }
 
 /**
- * columns: [{label, title, text, first, key(row), cell(row)}]: key is what is sorted by, cell gives the content; text
- * columns stand left; `first` is the direction of the first click, 1 (ascending) unless -1.
+ * columns: [{label, title, text, wide, first, key(row), cell(row)}]: key is what is sorted by, cell gives the content; text
+ * columns stand left, wide ones have room for a sentence; `first` is the direction of the first click, 1 (ascending) unless -1.
  * detail(row), if given, makes what opens below a row.
  */
 class SortableTable {
@@ -36,7 +38,7 @@ class SortableTable {
 
   header(column, i) {
     const click = () => this.sort(i, this.column === i ? -this.direction : column.first ?? 1);
-    return element("th", { scope: "col", class: column.text ? "text" : null, title: column.title },
+    return element("th", { scope: "col", class: columnClass(column), title: column.title },
       element("button", { type: "button", onclick: click }, column.label));
   }
 
@@ -46,7 +48,7 @@ class SortableTable {
     if (detail) {
       entry.button = element("button", { type: "button", class: "opener", "aria-expanded": "false", onclick: () => entry.open(entry.rows[1].hidden) }, head);
     }
-    const cells = rest.map((cell, i) => element("td", { class: this.columns[i + 1].text ? "text" : null }, cell));
+    const cells = rest.map((cell, i) => element("td", { class: columnClass(this.columns[i + 1]) }, cell));
     const first = element("tr", { class: row.status ? `status-${row.status}` : null },
       element("th", { scope: "row", class: "text" }, entry.button ?? head), cells);
     entry.rows = detail ? [first, detailRow(entry, this.columns.length, detail)] : [first];

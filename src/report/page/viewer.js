@@ -55,6 +55,7 @@ class Viewer {
     this.canvas.width = Math.round(box.width * ratio);
     this.canvas.height = Math.round(box.height * ratio);
     this.view.resize(box.width, box.height);
+    this.draw();  // at once: a canvas is emptied by its new size
     this.update();
   }
 
