@@ -35,12 +35,23 @@ std::string joined(std::initializer_list<std::string_view> names) {
 std::string escape_html(std::string_view text) {
   std::string out;
   for (const char c : text) switch (c) {
-      case '&': out += "&amp;"; break;
-      case '<': out += "&lt;"; break;
-      case '>': out += "&gt;"; break;
-      case '"': out += "&quot;"; break;
-      case '\'': out += "&#39;"; break;
-      default: out += c;
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      case '\'':
+        out += "&#39;";
+        break;
+      default:
+        out += c;
     }
   return out;
 }
@@ -52,8 +63,10 @@ std::string embedded_json(const ordered_json& value) {
   std::string out;
   out.reserve(text.size());
   for (const char c : text) {
-    if (c == '<') out += "\\u003c";
-    else out += c;
+    if (c == '<')
+      out += "\\u003c";
+    else
+      out += c;
   }
   return out;
 }
@@ -96,9 +109,9 @@ struct PageText {
 };
 
 std::string page(const PageText& text, const ordered_json& results, const std::vector<PagePicture>& pictures) {
-  const std::string script = joined({"dom.js", "format.js", "pictures.js", "tone.js", "view.js", "viewer.js", "viewer_input.js",
-                                     "viewer_controls.js", "table.js", "plot_axes.js", "plot.js", "sheet.js", "facts.js",
-                                     "theme.js", text.own_script});
+  const std::string script =
+      joined({"dom.js", "format.js", "pictures.js", "tone.js", "view.js", "viewer.js", "viewer_input.js", "viewer_controls.js",
+              "table.js", "plot_axes.js", "plot.js", "sheet.js", "facts.js", "theme.js", text.own_script});
   return fill(part("page.html"), {{"title", escape_html(text.title)},
                                   {"style", joined({"page.css", "viewer.css", "print.css"})},
                                   {"results", embedded_json(results)},

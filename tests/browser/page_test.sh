@@ -22,6 +22,10 @@ quiet() {
 }
 
 for page in compare regress; do
+  # What is embedded is results.json, but for the escape of "<".
+  sed -n 's/.*id="results">\(.*\)<\/script>$/\1/p' pages/$page.html | sed 's/\\u003c/</g' | tr -d '\n' | cmp - pages/$page.json ||
+    fail "$page.html does not hold results.json"
+
   open_page pages/$page.html plain.html
   quiet "$page.html"
 

@@ -30,7 +30,8 @@ Rgb clean_color(const Size& size, int x, int y) {
   const float glow = 2.5f * std::exp(-30 * ((u - 0.22f) * (u - 0.22f) * aspect * aspect + (v - 0.3f) * (v - 0.3f)));
   const Rgb fog = Rgb{0.05f, 0.08f, 0.13f} + glow * Rgb{1.0f, 0.62f, 0.3f};
   if (ball >= 1) return fog + (v > 0.82f ? Rgb{0.12f, 0.1f, 0.09f} : Rgb{});
-  const float z = std::sqrt(1 - ball * ball), light = std::max(0.0f, 0.75f * z - 0.9f * (u - 0.6f) * aspect - 0.8f * (v - 0.55f));
+  const float z = std::sqrt(1 - ball * ball),
+              light = std::max(0.0f, 0.75f * z - 0.9f * (u - 0.6f) * aspect - 0.8f * (v - 0.55f));
   return Rgb{0.02f, 0.03f, 0.05f} + light * Rgb{0.7f, 0.45f, 0.35f};
 }
 
@@ -67,16 +68,33 @@ ordered_json variant(const Strategy& s) {
   ordered_json points = ordered_json::array();
   for (double part = 1.0 / 64; part <= 1; part *= 2) {
     const double relmse = s.error * std::pow(part, s.slope);
-    points.push_back({{"seconds", 10.02 * part}, {"samples", std::max(1, static_cast<int>(s.samples * part))}, {"mse", relmse / 3},
-                      {"relmse", relmse}, {"relmse_low", relmse * 0.8}, {"relmse_high", relmse * 1.3}});
+    points.push_back({{"seconds", 10.02 * part},
+                      {"samples", std::max(1, static_cast<int>(s.samples * part))},
+                      {"mse", relmse / 3},
+                      {"relmse", relmse},
+                      {"relmse_low", relmse * 0.8},
+                      {"relmse_high", relmse * 1.3}});
   }
   const bool biased = s.slope > -0.9;
-  return {{"name", s.name}, {"options", s.options}, {"build_seconds", 0.0123}, {"samples", s.samples}, {"seconds", 10.02}, {"mse", s.error / 3},
-          {"relmse", s.error}, {"relmse_trimmed", s.error * 0.8}, {"mape", std::sqrt(s.error)}, {"smape", std::sqrt(s.error) * 0.9},
-          {"slope", s.slope}, {"slope_low", s.slope - 0.06}, {"slope_high", s.slope + 0.05},
-          {"slope_note", biased ? "flatter than -1: a sign of bias" : ""}, {"efficiency", interval(s.efficiency)},
-          {"efficiency_trimmed", biased ? ordered_json{{"relative", nullptr}, {"low", nullptr}, {"high", nullptr}} : interval(s.efficiency * 0.97)},
-          {"mean_rgb", {0.2123, 0.1871, 0.1502}}, {"image", "variant.exr"},
+  return {{"name", s.name},
+          {"options", s.options},
+          {"build_seconds", 0.0123},
+          {"samples", s.samples},
+          {"seconds", 10.02},
+          {"mse", s.error / 3},
+          {"relmse", s.error},
+          {"relmse_trimmed", s.error * 0.8},
+          {"mape", std::sqrt(s.error)},
+          {"smape", std::sqrt(s.error) * 0.9},
+          {"slope", s.slope},
+          {"slope_low", s.slope - 0.06},
+          {"slope_high", s.slope + 0.05},
+          {"slope_note", biased ? "flatter than -1: a sign of bias" : ""},
+          {"efficiency", interval(s.efficiency)},
+          {"efficiency_trimmed",
+           biased ? ordered_json{{"relative", nullptr}, {"low", nullptr}, {"high", nullptr}} : interval(s.efficiency * 0.97)},
+          {"mean_rgb", {0.2123, 0.1871, 0.1502}},
+          {"image", "variant.exr"},
           {"health", {{"non_finite", biased ? 3 : 0}, {"majorant_violations", 0}, {"caps_hit", 0}, {"parity_errors", 0}}},
           {"checkpoints", points}};
 }
@@ -86,33 +104,69 @@ ordered_json machine() { return {{"cpu", "Example CPU 9000"}, {"threads", 2}, {"
 ordered_json compare_results(const Size& size) {
   ordered_json variants = ordered_json::array();
   for (const Strategy& s : kStrategies) variants.push_back(variant(s));
-  return {{"version", "0.1.0"}, {"scene", "plume_hall.pbrt"},
-          {"reference", {{"source", "rendered"}, {"file", "reference.exr"}, {"samples", 2048}, {"seed", 123}, {"seconds", 98.1}, {"relmse", 0.0009}, {"noise_subtracted", true}}},
-          {"machine", machine()},
-          {"settings", {{"budget", "10 s"}, {"seeds", {1, 2, 3, 4, 5}}, {"width", size.width}, {"height", size.height}, {"eps", 0.01},
-                        {"options", "--max-depth 8"}, {"command", "tyndall compare plume_hall.pbrt --variants lights --time 10 --max-depth 8 -o report"}}},
-          {"warnings", {"uniform: the error falls more slowly than 1/time; it may be biased", std::string("a name: ") + kHostile}},
-          {"variants", variants}};
+  return {
+      {"version", "0.1.0"},
+      {"scene", "plume_hall.pbrt"},
+      {"reference",
+       {{"source", "rendered"},
+        {"file", "reference.exr"},
+        {"samples", 2048},
+        {"seed", 123},
+        {"seconds", 98.1},
+        {"relmse", 0.0009},
+        {"noise_subtracted", true}}},
+      {"machine", machine()},
+      {"settings",
+       {{"budget", "10 s"},
+        {"seeds", {1, 2, 3, 4, 5}},
+        {"width", size.width},
+        {"height", size.height},
+        {"eps", 0.01},
+        {"options", "--max-depth 8"},
+        {"command", "tyndall compare plume_hall.pbrt --variants lights --time 10 --max-depth 8 -o report"}}},
+      {"warnings", {"uniform: the error falls more slowly than 1/time; it may be biased", std::string("a name: ") + kHostile}},
+      {"variants", variants}};
 }
 
 ordered_json layer_test(const std::string& what, bool same) {
-  return {{"what", what}, {"same", same}, {"verdict", same ? "same: no alarm in 64 blocks" : "differs: 5 alarms in 64 blocks, the mean of G by 2.1 %"},
-          {"alarms", same ? 0 : 5}, {"blocks", 64}, {"worst_p", same ? 0.0213 : 3.2e-9}, {"mean_difference", {0.0004, same ? -0.0002 : 0.0211, 0.0001}}, {"uniformity_p", same ? 0.41 : 0.002}};
+  return {{"what", what},
+          {"same", same},
+          {"verdict", same ? "same: no alarm in 64 blocks" : "differs: 5 alarms in 64 blocks, the mean of G by 2.1 %"},
+          {"alarms", same ? 0 : 5},
+          {"blocks", 64},
+          {"worst_p", same ? 0.0213 : 3.2e-9},
+          {"mean_difference", {0.0004, same ? -0.0002 : 0.0211, 0.0001}},
+          {"uniformity_p", same ? 0.41 : 0.002}};
 }
 
 ordered_json regress_results() {
-  const std::array<std::array<std::string, 2>, 7> cases{{{"area_light", "pass"}, {"cloud", "pass"}, {"fog", "fail"}, {"glass_in_smoke", "crash"},
-                                                        {kHostile, "fail"}, {"street", "new"}, {"furnace", "pass"}}};
+  const std::array<std::array<std::string, 2>, 7> cases{{{"area_light", "pass"},
+                                                         {"cloud", "pass"},
+                                                         {"fog", "fail"},
+                                                         {"glass_in_smoke", "crash"},
+                                                         {kHostile, "fail"},
+                                                         {"street", "new"},
+                                                         {"furnace", "pass"}}};
   ordered_json list = ordered_json::array();
   double seconds = 1.4;
   for (const auto& [name, status] : cases) {
     const bool failed = status == "fail", crashed = status == "crash";
     ordered_json tests = ordered_json::array();
-    if (!crashed) tests = {layer_test("RGB", !failed), layer_test("Albedo", true), {{"what", "bytes"}, {"same", true}, {"verdict", ""}}};
-    list.push_back({{"name", name}, {"status", status}, {"seconds", seconds *= 1.17}, {"samples", crashed ? ordered_json(nullptr) : ordered_json(64)},
-                    {"message", failed ? "RGB differs from the reference" : crashed ? "the render was ended by signal 11" : ""}, {"tests", tests}});
+    if (!crashed)
+      tests = {layer_test("RGB", !failed), layer_test("Albedo", true), {{"what", "bytes"}, {"same", true}, {"verdict", ""}}};
+    list.push_back({{"name", name},
+                    {"status", status},
+                    {"seconds", seconds *= 1.17},
+                    {"samples", crashed ? ordered_json(nullptr) : ordered_json(64)},
+                    {"message", failed    ? "RGB differs from the reference"
+                                : crashed ? "the render was ended by signal 11"
+                                          : ""},
+                    {"tests", tests}});
   }
-  return {{"version", "0.1.0"}, {"suite", "tests/regression/suite"}, {"seed", 7}, {"machine", machine()}, {"seconds", 130.2}, {"passed", 4}, {"failed", 3}, {"cases", list}};
+  return {{"version", "0.1.0"}, {"suite", "tests/regression/suite"},
+          {"seed", 7},          {"machine", machine()},
+          {"seconds", 130.2},   {"passed", 4},
+          {"failed", 3},        {"cases", list}};
 }
 
 void write(const std::string& path, const std::string& text) {
@@ -127,7 +181,8 @@ void write(const std::string& path, const std::string& text) {
 std::vector<PagePicture> compare_pictures(const Size& size) {
   std::vector<PagePicture> pictures{{"", "reference", picture(size, 0, 0)}};
   unsigned seed = 1;
-  for (const Strategy& s : kStrategies) pictures.push_back({"", s.name, picture(size, static_cast<float>(std::sqrt(s.error)), seed++)});
+  for (const Strategy& s : kStrategies)
+    pictures.push_back({"", s.name, picture(size, static_cast<float>(std::sqrt(s.error)), seed++)});
   pictures.back().image.channels[0].values[5] = std::numeric_limits<float>::quiet_NaN();
   return pictures;
 }

@@ -5,55 +5,95 @@ const variantPath = (variant, field) => `variants.${RESULTS.variants.indexOf(var
 /** The interval of an efficiency as a bar with a dot, all rows on one logarithmic scale; a thin line marks 1. */
 function intervalBar(variant, field) {
   const every = RESULTS.variants.flatMap((v) => [1, v[field]?.low, v[field]?.high, v[field]?.relative].filter(isPositive));
-  const { low, high, relative } = variant[field] ?? {};
+  const {low, high, relative} = variant[field] ?? {};
   if (!isPositive(relative)) return null;
   const x = logScale(logDomain(every), 0, 90);
-  const range = isPositive(low) && isPositive(high) ? svg("line", { class: "range", x1: x(low), x2: x(high), y1: 7, y2: 7 }) : null;
-  return svg("svg", { class: "bar", viewBox: "0 0 90 14", width: 90, height: 14, "aria-hidden": "true", style: `color: ${seriesColor(RESULTS.variants.indexOf(variant))}` },
-    svg("line", { class: "one", x1: x(1), x2: x(1), y1: 0, y2: 14 }), range, svg("circle", { cx: x(relative), cy: 7, r: 4 }));
+  const range =
+      isPositive(low) && isPositive(high) ? svg('line', {class: 'range', x1: x(low), x2: x(high), y1: 7, y2: 7}) : null;
+  return svg(
+      'svg', {
+        class: 'bar',
+        viewBox: '0 0 90 14',
+        width: 90,
+        height: 14,
+        'aria-hidden': 'true',
+        style: `color: ${seriesColor(RESULTS.variants.indexOf(variant))}`
+      },
+      svg('line', {class: 'one', x1: x(1), x2: x(1), y1: 0, y2: 14}), range, svg('circle', {cx: x(relative), cy: 7, r: 4}));
 }
 
 function efficiencyColumn(field, label, title) {
-  return { label, title, first: -1, key: (v) => v[field]?.relative, cell: (v) => [intervalBar(v, field),
-    datumWithInterval(variantPath(v, `${field}.relative`), variantPath(v, `${field}.low`), variantPath(v, `${field}.high`), formatFactor)] };
+  return {
+    label,
+    title,
+    first: -1,
+    key: (v) => v[field]?.relative,
+    cell: (v) =>
+        [intervalBar(v, field),
+         datumWithInterval(
+             variantPath(v, `${field}.relative`), variantPath(v, `${field}.low`), variantPath(v, `${field}.high`),
+             formatFactor)]
+  };
 }
 
 function numberColumn(field, label, title, format = formatNumber, first = 1) {
-  return { label, title, first, key: (v) => v[field], cell: (v) => datum(variantPath(v, field), format) };
+  return {label, title, first, key: (v) => v[field], cell: (v) => datum(variantPath(v, field), format)};
 }
 
 function slopeCell(variant) {
-  const note = variant.slope_note ? element("div", { class: "bad" }, datum(variantPath(variant, "slope_note"), formatText)) : null;
-  return [datumWithInterval(variantPath(variant, "slope"), variantPath(variant, "slope_low"), variantPath(variant, "slope_high")), note];
+  const note =
+      variant.slope_note ? element('div', {class: 'bad'}, datum(variantPath(variant, 'slope_note'), formatText)) : null;
+  return [
+    datumWithInterval(variantPath(variant, 'slope'), variantPath(variant, 'slope_low'), variantPath(variant, 'slope_high')),
+    note
+  ];
 }
 
 /** Counters that should be zero and are not. */
 function healthCell(variant) {
   const faults = Object.keys(variant.health ?? {}).filter((counter) => variant.health[counter] !== 0);
-  if (!faults.length) return element("span", { class: "quiet" }, variant.health ? "no faults" : DASH);
-  return faults.map((counter) => element("div", { class: "bad" }, `${counter.replaceAll("_", " ")} `, datum(variantPath(variant, `health.${counter}`))));
+  if (!faults.length) return element('span', {class: 'quiet'}, variant.health ? 'no faults' : DASH);
+  return faults.map(
+      (counter) =>
+          element('div', {class: 'bad'}, `${counter.replaceAll('_', ' ')} `, datum(variantPath(variant, `health.${counter}`))));
 }
 
 function nameCell(variant) {
-  const dot = element("span", { class: "dot", "aria-hidden": "true", style: `background: ${seriesColor(RESULTS.variants.indexOf(variant))}` });
-  return [dot, datum(variantPath(variant, "name"), formatText), element("code", {}, datum(variantPath(variant, "options"), formatText))];
+  const dot = element(
+      'span', {class: 'dot', 'aria-hidden': 'true', style: `background: ${seriesColor(RESULTS.variants.indexOf(variant))}`});
+  return [
+    dot, datum(variantPath(variant, 'name'), formatText),
+    element('code', {}, datum(variantPath(variant, 'options'), formatText))
+  ];
 }
 
 const VARIANT_COLUMNS = [
-  { label: "variant", text: true, title: "Name and options", key: (v) => v.name, cell: nameCell },
-  efficiencyColumn("efficiency", "efficiency", "1 / (MSE × time) relative to the first variant, with a 95 % interval over the seeds"),
-  efficiencyColumn("efficiency_trimmed", "trimmed", "The same for relMSE without the worst 0.1 % of pixels"),
-  numberColumn("relmse", "relMSE", "Mean of (x − r)² / (r² + eps)"),
-  numberColumn("relmse_trimmed", "trimmed", "relMSE without the worst 0.1 % of pixels"),
-  numberColumn("mse", "MSE", "Mean squared error"),
-  numberColumn("mape", "MAPE", "Mean of |x − r| / (|r| + eps)"),
-  numberColumn("smape", "SMAPE", "Mean of 2 |x − r| / (|x| + |r| + eps)"),
-  { label: "slope", title: "Of log error against log time; −1 is Monte Carlo's", key: (v) => v.slope, cell: slopeCell },
-  numberColumn("build_seconds", "build", "Time to build, not part of the efficiency", formatSeconds),
-  numberColumn("seconds", "render", "Render time of one seed", formatSeconds),
-  numberColumn("samples", "samples", "Samples a pixel in that time", formatNumber, -1),
-  { label: "mean R, G, B", title: "Mean colour of the picture, linear", key: (v) => v.mean_rgb?.[1], cell: (v) => datum(variantPath(v, "mean_rgb"), formatList) },
-  { label: "health", text: true, title: "Counts that should be zero", key: (v) => Object.values(v.health ?? {}).reduce((a, b) => a + b, 0), cell: healthCell },
+  {label: 'variant', text: true, title: 'Name and options', key: (v) => v.name, cell: nameCell},
+  efficiencyColumn(
+      'efficiency', 'efficiency', '1 / (MSE × time) relative to the first variant, with a 95 % interval over the seeds'),
+  efficiencyColumn('efficiency_trimmed', 'trimmed', 'The same for relMSE without the worst 0.1 % of pixels'),
+  numberColumn('relmse', 'relMSE', 'Mean of (x − r)² / (r² + eps)'),
+  numberColumn('relmse_trimmed', 'trimmed', 'relMSE without the worst 0.1 % of pixels'),
+  numberColumn('mse', 'MSE', 'Mean squared error'),
+  numberColumn('mape', 'MAPE', 'Mean of |x − r| / (|r| + eps)'),
+  numberColumn('smape', 'SMAPE', 'Mean of 2 |x − r| / (|x| + |r| + eps)'),
+  {label: 'slope', title: 'Of log error against log time; −1 is Monte Carlo\'s', key: (v) => v.slope, cell: slopeCell},
+  numberColumn('build_seconds', 'build', 'Time to build, not part of the efficiency', formatSeconds),
+  numberColumn('seconds', 'render', 'Render time of one seed', formatSeconds),
+  numberColumn('samples', 'samples', 'Samples a pixel in that time', formatNumber, -1),
+  {
+    label: 'mean R, G, B',
+    title: 'Mean colour of the picture, linear',
+    key: (v) => v.mean_rgb?.[1],
+    cell: (v) => datum(variantPath(v, 'mean_rgb'), formatList)
+  },
+  {
+    label: 'health',
+    text: true,
+    title: 'Counts that should be zero',
+    key: (v) => Object.values(v.health ?? {}).reduce((a, b) => a + b, 0),
+    cell: healthCell
+  },
 ];
 
 /** The result in one sentence. */
@@ -61,51 +101,75 @@ function headline() {
   const variants = RESULTS.variants ?? [], [base] = variants;
   const best = variants.reduce((a, b) => ((b.efficiency?.relative ?? 0) > (a?.efficiency?.relative ?? 0) ? b : a), null);
   if (!best || variants.length < 2) return null;
-  const lead = [element("strong", {}, best.name), " is the most efficient"];
-  if (best === base) return element("p", { class: "headline" }, lead, ".");
+  const lead = [element('strong', {}, best.name), ' is the most efficient'];
+  if (best === base) return element('p', {class: 'headline'}, lead, '.');
   const path = (field) => variantPath(best, `efficiency.${field}`);
-  return element("p", { class: "headline" }, lead, ": ", datum(path("relative"), formatFactor), " as efficient as ", element("strong", {}, base.name),
-    " (95 % interval ", datum(path("low")), " to ", datum(path("high")), ").");
+  return element(
+      'p', {class: 'headline'}, lead, ': ', datum(path('relative'), formatFactor), ' as efficient as ',
+      element('strong', {}, base.name), ' (95 % interval ', datum(path('low')), ' to ', datum(path('high')), ').');
 }
 
 function header() {
-  const { settings = {} } = RESULTS;
-  return element("header", {}, element("div", { class: "brand" }, "Tyndall compare", themeSwitch()), element("h1", {}, datum("scene", formatText)),
-    element("p", { class: "subtitle" }, datum("variants.length"), " variants, ", datum("settings.budget", formatText), " each, ", datum("settings.width"), " × ", datum("settings.height"),
-      `, ${settings.seeds?.length ?? 0} seeds`), headline());
+  const {settings = {}} = RESULTS;
+  return element(
+      'header', {}, element('div', {class: 'brand'}, 'Tyndall compare', themeSwitch()),
+      element('h1', {}, datum('scene', formatText)),
+      element(
+          'p', {class: 'subtitle'}, datum('variants.length'), ' variants, ', datum('settings.budget', formatText), ' each, ',
+          datum('settings.width'), ' × ', datum('settings.height'), `, ${settings.seeds?.length ?? 0} seeds`),
+      headline());
 }
 
 function settingsFacts() {
-  return factList("Settings", [["budget of each variant", datum("settings.budget", formatText)], ["seeds", datum("settings.seeds", formatList)],
-    ["picture", [datum("settings.width"), " × ", datum("settings.height")]], ["eps of relative errors", datum("settings.eps")], ["options for all", datum("settings.options", formatText)]]);
+  return factList('Settings', [
+    ['budget of each variant', datum('settings.budget', formatText)], ['seeds', datum('settings.seeds', formatList)],
+    ['picture', [datum('settings.width'), ' × ', datum('settings.height')]], ['eps of relative errors', datum('settings.eps')],
+    ['options for all', datum('settings.options', formatText)]
+  ]);
 }
 
 function referenceFacts() {
-  const noise = (subtracted) => (subtracted === true ? "subtracted from the errors" : subtracted === false ? "not subtracted" : DASH);
-  return factList("Reference", [["source", datum("reference.source", formatText)], ["file", datum("reference.file", formatText)], ["samples", datum("reference.samples")],
-    ["seed", datum("reference.seed")], ["time", datum("reference.seconds", formatSeconds)], ["own relMSE", datum("reference.relmse")], ["own noise", datum("reference.noise_subtracted", noise)]]);
+  const noise = (subtracted) =>
+      (subtracted === true      ? 'subtracted from the errors' :
+           subtracted === false ? 'not subtracted' :
+                                  DASH);
+  return factList('Reference', [
+    ['source', datum('reference.source', formatText)], ['file', datum('reference.file', formatText)],
+    ['samples', datum('reference.samples')], ['seed', datum('reference.seed')],
+    ['time', datum('reference.seconds', formatSeconds)], ['own relMSE', datum('reference.relmse')],
+    ['own noise', datum('reference.noise_subtracted', noise)]
+  ]);
 }
 
 function pictureSection() {
-  const pictures = picturesOf("");
+  const pictures = picturesOf('');
   if (!pictures.length) return null;
   const viewer = new Viewer(pictures, RESULTS.settings?.eps ?? 0.01);
   activeViewer = viewer;
   const caption = (picture) => {
     const i = RESULTS.variants.findIndex((variant) => variant.name === picture.name);
-    return [element("strong", {}, picture.name), i < 0 ? null : element("span", {}, "relMSE ", datum(`variants.${i}.relmse`))];
+    return [element('strong', {}, picture.name), i < 0 ? null : element('span', {}, 'relMSE ', datum(`variants.${i}.relmse`))];
   };
-  return section("Pictures", viewer.root, new Sheet(viewer, caption).root);
+  return section('Pictures', viewer.root, new Sheet(viewer, caption).root);
 }
 
 function comparePage() {
-  const variants = RESULTS.variants ?? [];
-  const table = new SortableTable("Variants", VARIANT_COLUMNS, variants);
+  const variants = RESULTS.variants ??= [];
+  const table = new SortableTable('Variants', VARIANT_COLUMNS, variants);
   table.sort(1, -1);
   const plot = new ErrorPlot(variants);
-  document.getElementById("page").append(...[header(), warningList("warnings"), section("Convergence", plot.root, checkpointTable(variants)),
-    section("Results", table.root, element("p", { class: "note" }, "Efficiency is 1 / (MSE × time) relative to the first variant, with a 95 % interval over the seeds; build time is not in it. A click on a header sorts.")),
-    pictureSection(), section("How it was measured", element("div", { class: "fact-lists" }, settingsFacts(), referenceFacts(), machineFacts()), commandLine("settings.command"))].filter(Boolean));
+  document.getElementById('page').append(
+      ...[header(), warningList('warnings'), section('Convergence', plot.root, checkpointTable(variants)),
+          section(
+              'Results', table.root,
+              element(
+                  'p', {class: 'note'},
+                  'Efficiency is 1 / (MSE × time) relative to the first variant, with a 95 % interval over the seeds; build time is not in it. A click on a header sorts.')),
+          pictureSection(),
+          section(
+              'How it was measured', element('div', {class: 'fact-lists'}, settingsFacts(), referenceFacts(), machineFacts()),
+              commandLine('settings.command'))]
+          .filter(Boolean));
 }
 
 comparePage();

@@ -1,7 +1,7 @@
 // The pictures of the page: unfolded when first looked at, kept as half floats.
 
 /** The number behind each of the 65536 bit patterns of a half float (IEEE 754 binary16). */
-const HALF_TO_FLOAT = Float32Array.from({ length: 65536 }, (_, bits) => {
+const HALF_TO_FLOAT = Float32Array.from({length: 65536}, (_, bits) => {
   const sign = bits & 0x8000 ? -1 : 1, exponent = (bits >> 10) & 31, fraction = bits & 1023;
   if (exponent === 31) return fraction ? NaN : sign * Infinity;
   return exponent ? sign * (1 + fraction / 1024) * 2 ** (exponent - 15) : sign * fraction * 2 ** -24;
@@ -15,7 +15,7 @@ function bytesOfBase64(text) {
 }
 
 async function inflate(bytes) {
-  const stream = new DecompressionStream("deflate");
+  const stream = new DecompressionStream('deflate');
   const writer = stream.writable.getWriter();
   writer.write(bytes).then(() => writer.close()).catch(() => {});  // the reader below meets the same failure
   return new Uint8Array(await new Response(stream.readable).arrayBuffer());
@@ -44,8 +44,9 @@ class Picture {
   }
 
   load() {
-    this.loading ??= inflate(bytesOfBase64(this.script.textContent))
-      .then((bytes) => { this.halves = unshuffle(bytes, this.width * this.height); });
+    this.loading ??= inflate(bytesOfBase64(this.script.textContent)).then((bytes) => {
+      this.halves = unshuffle(bytes, this.width * this.height);
+    });
     return this.loading;
   }
 
@@ -58,8 +59,9 @@ class Picture {
 
 /** The pictures of one group, the reference first, the others as they come. */
 function picturesOf(group) {
-  const all = [...document.querySelectorAll("script.picture")].map((script) => new Picture(script))
-    .filter((picture) => picture.group === group);
-  const isReference = (picture) => picture.name === "reference";
+  const all = [...document.querySelectorAll('script.picture')]
+                  .map((script) => new Picture(script))
+                  .filter((picture) => picture.group === group);
+  const isReference = (picture) => picture.name === 'reference';
   return [...all.filter(isReference), ...all.filter((picture) => !isReference(picture))];
 }

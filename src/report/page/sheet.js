@@ -3,7 +3,8 @@
 /** Calls work() for one item after another, when the browser is idle or has been busy for long. */
 async function whenIdle(items, work) {
   for (const item of items) {
-    await new Promise((resolve) => (window.requestIdleCallback ? requestIdleCallback(resolve, { timeout: 200 }) : setTimeout(resolve)));
+    await new Promise(
+        (resolve) => (window.requestIdleCallback ? requestIdleCallback(resolve, {timeout: 200}) : setTimeout(resolve)));
     await work(item);
   }
 }
@@ -12,21 +13,28 @@ async function whenIdle(items, work) {
 const sheetScale = (picture) => Math.min(1, Math.max(480, picture.width / 2) / picture.width);
 
 class Sheet {
-  /** `caption(picture)` gives what stands below a picture; a click shows it in the viewer. `errors`: pictures whose error maps follow. */
+  /**
+   * `caption(picture)` gives what stands below a picture; a click shows it in the viewer. `errors`: pictures whose error maps
+   * follow.
+   */
   constructor(viewer, caption, errors = []) {
     this.viewer = viewer;
-    const shown = [...viewer.pictures.map((picture) => [picture, "picture"]), ...errors.map((picture) => [picture, "error"])];
+    const shown = [...viewer.pictures.map((picture) => [picture, 'picture']), ...errors.map((picture) => [picture, 'error'])];
     this.cards = shown.map(([picture, mode]) => {
-      const canvas = element("canvas", { width: Math.round(picture.width * sheetScale(picture)), height: Math.round(picture.height * sheetScale(picture)) });
+      const canvas = element(
+          'canvas',
+          {width: Math.round(picture.width * sheetScale(picture)), height: Math.round(picture.height * sheetScale(picture))});
       const show = () => {
-        viewer.set({ current: picture, mode });
-        viewer.root.scrollIntoView({ block: "nearest", behavior: "smooth" });
+        viewer.set({current: picture, mode});
+        viewer.root.scrollIntoView({block: 'nearest', behavior: 'smooth'});
       };
-      const card = element("figure", {}, element("button", { type: "button", onclick: show, "aria-label": `Show the ${mode} ${picture.name}` }, canvas),
-        element("figcaption", {}, mode === "error" ? `error of ${picture.name}` : caption(picture)));
-      return { picture, mode, canvas, card };
+      const card = element(
+          'figure', {},
+          element('button', {type: 'button', onclick: show, 'aria-label': `Show the ${mode} ${picture.name}`}, canvas),
+          element('figcaption', {}, mode === 'error' ? `error of ${picture.name}` : caption(picture)));
+      return {picture, mode, canvas, card};
     });
-    this.root = element("div", { class: "sheet" }, this.cards.map(({ card }) => card));
+    this.root = element('div', {class: 'sheet'}, this.cards.map(({card}) => card));
     viewer.listeners.push(() => this.follow());
     this.follow();
   }
@@ -41,12 +49,12 @@ class Sheet {
 
   draw(stops) {
     const table = toneTable(stops);
-    return whenIdle(this.cards, async ({ picture, mode, canvas }) => {
+    return whenIdle(this.cards, async ({picture, mode, canvas}) => {
       if (stops !== this.stops) return;
-      const { reference, eps } = this.viewer;
-      await Promise.all([picture.load(), mode === "error" ? reference.load() : null]);
-      const painted = mode === "error" ? errorMap(picture, reference, eps) : toned(picture, table);
-      canvas.getContext("2d").drawImage(painted, 0, 0, canvas.width, canvas.height);
+      const {reference, eps} = this.viewer;
+      await Promise.all([picture.load(), mode === 'error' ? reference.load() : null]);
+      const painted = mode === 'error' ? errorMap(picture, reference, eps) : toned(picture, table);
+      canvas.getContext('2d').drawImage(painted, 0, 0, canvas.width, canvas.height);
     });
   }
 }

@@ -1,6 +1,6 @@
 // Linear colour to what a canvas shows: sRGB at an exposure, and false colour for errors.
 
-const NOT_FINITE = [255, 0, 255];  // magenta marks NaN and infinity
+const NOT_FINITE = [0, 255, 0];  // green marks NaN and infinity
 
 /** 8-bit sRGB (IEC 61966-2-1) of each half float after `stops`; -1 where it is not finite. */
 function toneTable(stops) {
@@ -14,8 +14,8 @@ function toneTable(stops) {
 
 /** A canvas of the picture's size, filled by paint(data, pixels). */
 function paintedCanvas(picture, paint) {
-  const canvas = element("canvas", { width: picture.width, height: picture.height });
-  const context = canvas.getContext("2d");
+  const canvas = element('canvas', {width: picture.width, height: picture.height});
+  const context = canvas.getContext('2d');
   const image = context.createImageData(picture.width, picture.height);
   paint(image.data, picture.width * picture.height);
   context.putImageData(image, 0, 0);
@@ -37,13 +37,12 @@ function toned(picture, table) {
 }
 
 /** (x - r)^2 / (r^2 + eps), as in relMSE. */
-function relativeSquaredError(x, r, eps) {
-  return (x - r) ** 2 / (r * r + eps);
-}
+function relativeSquaredError(x, r, eps) { return (x - r) ** 2 / (r * r + eps); }
 
-// False colour over decades of the relative squared error: black at 1e-6 and below, white at 10 and above.
-const ERROR_DECADES = [-6, 1];
-const ERROR_COLORS = [[0, 0, 4], [40, 17, 89], [114, 31, 129], [183, 55, 121], [241, 96, 93], [254, 175, 119], [252, 253, 232]];
+// False colour over decades of the relative squared error, as in `tyndall diff -o`: black at 1e-4 and below, pale yellow at
+// 10 and above; lightness rises all the way.
+const ERROR_DECADES = [-4, 1];
+const ERROR_COLORS = [[0, 0, 0], [84, 20, 128], [199, 46, 77], [250, 148, 26], [255, 250, 191]];
 
 function errorColor(t) {
   const place = Math.min(Math.max(t, 0), 1) * (ERROR_COLORS.length - 1);
@@ -51,7 +50,7 @@ function errorColor(t) {
   return ERROR_COLORS[i].map((c, k) => Math.round(c + f * (ERROR_COLORS[i + 1][k] - c)));
 }
 
-const ERROR_TABLE = Array.from({ length: 256 }, (_, i) => errorColor(i / 255));
+const ERROR_TABLE = Array.from({length: 256}, (_, i) => errorColor(i / 255));
 
 /** The picture's relative squared error, mean over the channels, in false colour. */
 function errorMap(picture, reference, eps) {
@@ -72,10 +71,14 @@ function errorMap(picture, reference, eps) {
 /** The scale of errorMap, to stand below a picture. */
 function errorLegend() {
   const [low, high] = ERROR_DECADES;
-  const stops = ERROR_COLORS.map((c) => `rgb(${c.join(" ")})`).join(", ");
-  const ticks = Array.from({ length: high - low + 1 }, (_, i) => element("span", {}, `1e${low + i}`));
-  return element("div", { class: "error-legend" },
-    element("div", { class: "error-bar", style: `background: linear-gradient(to right, ${stops})` }),
-    element("div", { class: "error-ticks", "aria-hidden": "true" }, ticks),
-    element("p", {}, `Relative squared error of a pixel, mean of R, G and B: black 1e${low} and below, white 1e${high} and above; magenta: not finite.`));
+  const stops = ERROR_COLORS.map((c) => `rgb(${c.join(' ')})`).join(', ');
+  const ticks = Array.from({length: high - low + 1}, (_, i) => element('span', {}, `1e${low + i}`));
+  return element(
+      'div', {class: 'error-legend'},
+      element('div', {class: 'error-bar', style: `background: linear-gradient(to right, ${stops})`}),
+      element('div', {class: 'error-ticks', 'aria-hidden': 'true'}, ticks),
+      element(
+          'p', {},
+          `Relative squared error of a pixel, mean of R, G and B: black 1e${low} and below, white 1e${
+              high} and above; green: not finite.`));
 }

@@ -2,7 +2,7 @@
 
 class View {
   constructor(pictureWidth, pictureHeight) {
-    Object.assign(this, { pictureWidth, pictureHeight, width: 1, height: 1, scale: 1, left: 0, top: 0, fitted: true });
+    Object.assign(this, {pictureWidth, pictureHeight, width: 1, height: 1, scale: 1, left: 0, top: 0, fitted: true});
   }
 
   get fitScale() { return Math.min(this.width / this.pictureWidth, this.height / this.pictureHeight); }
@@ -46,11 +46,11 @@ class View {
     this.top = held(this.top, this.pictureHeight * this.scale, this.height);
   }
 
-  toPicture(x, y) { return { x: (x - this.left) / this.scale, y: (y - this.top) / this.scale }; }
+  toPicture(x, y) { return {x: (x - this.left) / this.scale, y: (y - this.top) / this.scale}; }
 
   /** The pixel at x, y of the window, or null outside the picture. */
   pixelAt(x, y) {
-    const p = this.toPicture(x, y), pixel = { x: Math.floor(p.x), y: Math.floor(p.y) };
+    const p = this.toPicture(x, y), pixel = {x: Math.floor(p.x), y: Math.floor(p.y)};
     const inside = pixel.x >= 0 && pixel.y >= 0 && pixel.x < this.pictureWidth && pixel.y < this.pictureHeight;
     return inside ? pixel : null;
   }

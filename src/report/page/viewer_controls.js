@@ -2,25 +2,32 @@
 
 /** The digit that shows a picture, or "" beyond nine. */
 function keyOf(viewer, picture) {
-  if (picture === viewer.reference) return "0";
+  if (picture === viewer.reference) return '0';
   const place = viewer.pictures.filter((p) => p !== viewer.reference).indexOf(picture) + 1;
-  return place <= 9 ? String(place) : "";
+  return place <= 9 ? String(place) : '';
 }
 
 function pictureTabs(viewer) {
   const buttons = viewer.pictures.map((picture) => {
     const key = keyOf(viewer, picture);
-    return element("button", { type: "button", "data-picture": picture.name, "aria-keyshortcuts": key || null, onclick: () => viewer.set({ current: picture }) },
-      key ? element("kbd", {}, key) : null, picture.name);
+    return element(
+        'button', {
+          type: 'button',
+          'data-picture': picture.name,
+          'aria-keyshortcuts': key || null,
+          onclick: () => viewer.set({current: picture})
+        },
+        key ? element('kbd', {}, key) : null, picture.name);
   });
-  viewer.listeners.push(() => buttons.forEach((button, i) => button.setAttribute("aria-pressed", String(viewer.pictures[i] === viewer.current))));
-  return element("div", { class: "tabs", role: "group", "aria-label": "Picture" }, buttons);
+  viewer.listeners.push(
+      () => buttons.forEach((button, i) => button.setAttribute('aria-pressed', String(viewer.pictures[i] === viewer.current))));
+  return element('div', {class: 'tabs', role: 'group', 'aria-label': 'Picture'}, buttons);
 }
 
 function pixelText(viewer, picture) {
-  const { x, y } = viewer.pixel;
+  const {x, y} = viewer.pixel;
   const color = picture.color(x, y), values = color.map((c) => (Number.isFinite(c) ? formatNumber(c) : String(c)));
-  const text = `${picture.name}  ${values.join("  ")}`;
+  const text = `${picture.name}  ${values.join('  ')}`;
   if (!viewer.reference?.halves || picture === viewer.reference) return text;
   const target = viewer.reference.color(x, y);
   const error = color.reduce((sum, c, k) => sum + relativeSquaredError(c, target[k], viewer.eps), 0) / 3;
@@ -29,39 +36,46 @@ function pixelText(viewer, picture) {
 
 /** Linear R, G, B of the pixel under the pointer, of what is shown and of the reference. */
 function readout(viewer) {
-  const out = element("div", { class: "readout" });
+  const out = element('div', {class: 'readout'});
   viewer.listeners.push(() => {
-    const wanted = [...new Set([viewer.current, viewer.mode === "wipe" ? viewer.other : viewer.current, viewer.reference])].filter(Boolean);
-    if (viewer.pixel) for (const picture of wanted) picture.load();
+    const wanted =
+        [...new Set([viewer.current, viewer.mode === 'wipe' ? viewer.other : viewer.current, viewer.reference])].filter(
+            Boolean);
+    if (viewer.pixel)
+      for (const picture of wanted) picture.load();
     const shown = viewer.pixel ? wanted.filter((picture) => picture.halves) : [];
-    const place = viewer.pixel ? `x ${viewer.pixel.x}, y ${viewer.pixel.y}` : "Point at a pixel to read its linear R, G, B and its relative squared error.";
-    out.replaceChildren(element("span", { class: "place" }, place), ...shown.map((picture) => element("span", {}, pixelText(viewer, picture))));
+    const place = viewer.pixel ? `x ${viewer.pixel.x}, y ${viewer.pixel.y}` :
+                                 'Point at a pixel to read its linear R, G, B and its relative squared error.';
+    out.replaceChildren(
+        element('span', {class: 'place'}, place), ...shown.map((picture) => element('span', {}, pixelText(viewer, picture))));
   });
   return out;
 }
 
 function slider(label, attributes, changed) {
-  const input = element("input", { type: "range", "aria-label": label, ...attributes, oninput: () => changed(Number(input.value)) });
+  const input =
+      element('input', {type: 'range', 'aria-label': label, ...attributes, oninput: () => changed(Number(input.value))});
   return input;
 }
 
 function exposureControl(viewer) {
-  const input = slider("Exposure in stops", { min: -10, max: 10, step: 0.1, class: "exposure" }, (stops) => viewer.set({ stops }));
-  const value = element("output", {});
+  const input = slider('Exposure in stops', {min: -10, max: 10, step: 0.1, class: 'exposure'}, (stops) => viewer.set({stops}));
+  const value = element('output', {});
   viewer.listeners.push(() => {
     input.value = viewer.stops;
-    value.textContent = `${viewer.stops > 0 ? "+" : ""}${viewer.stops.toFixed(1)} EV`;
+    value.textContent = `${viewer.stops > 0 ? '+' : ''}${viewer.stops.toFixed(1)} EV`;
   });
-  return element("label", { class: "control" }, element("span", {}, "Exposure"), input, value);
+  return element('label', {class: 'control'}, element('span', {}, 'Exposure'), input, value);
 }
 
 function wipeControl(viewer) {
-  const input = slider("Place of the wipe", { min: 0, max: 1, step: 0.005, class: "wipe" }, (wipe) => viewer.set({ wipe }));
-  const select = element("select", { "aria-label": "Picture on the right", onchange: () => viewer.set({ other: viewer.pictures[select.value] }) },
-    viewer.pictures.map((picture, i) => element("option", { value: i }, picture.name)));
-  const row = element("div", { class: "control" }, element("span", {}, "Wipe"), input, element("label", {}, "against ", select));
+  const input = slider('Place of the wipe', {min: 0, max: 1, step: 0.005, class: 'wipe'}, (wipe) => viewer.set({wipe}));
+  const select = element(
+      'select', {'aria-label': 'Picture on the right', onchange: () => viewer.set({other: viewer.pictures[select.value]})},
+      viewer.pictures.map((picture, i) => element('option', {value: i}, picture.name)));
+  const row = element('div', {class: 'control'}, element('span', {}, 'Wipe'), input, element('label', {}, 'against ', select));
   viewer.listeners.push(() => {
-    row.hidden = viewer.mode !== "wipe";
+    row.hidden = viewer.mode !== 'wipe';
     input.value = viewer.wipe;
     select.value = viewer.pictures.indexOf(viewer.other);
   });
@@ -69,28 +83,37 @@ function wipeControl(viewer) {
 }
 
 function zoomButtons(viewer) {
-  const value = element("output", {});
-  viewer.listeners.push(() => { value.textContent = `${formatNumber(100 * viewer.view.scale)} %`; });
-  const button = (label, text, action) => element("button", { type: "button", "aria-label": label, title: label, onclick: action }, text);
+  const value = element('output', {});
+  viewer.listeners.push(() => {
+    value.textContent = `${formatNumber(100 * viewer.view.scale)} %`;
+  });
+  const button = (label, text, action) =>
+      element('button', {type: 'button', 'aria-label': label, title: label, onclick: action}, text);
   const actual = () => zoom(viewer, 1 / viewer.view.scale);
-  return element("div", { class: "control zoom" }, button("Zoom out", "−", () => zoom(viewer, Math.SQRT1_2)), button("Zoom in", "+", () => zoom(viewer, Math.SQRT2)),
-    button("Fit into the window", "Fit", () => fitView(viewer)), button("One to one", "1:1", actual), value);
+  return element(
+      'div', {class: 'control zoom'}, button('Zoom out', '−', () => zoom(viewer, Math.SQRT1_2)),
+      button('Zoom in', '+', () => zoom(viewer, Math.SQRT2)), button('Fit into the window', 'Fit', () => fitView(viewer)),
+      button('One to one', '1:1', actual), value);
 }
 
-const KEY_HELP = [["0", "reference"], ["1–9", "pictures"], ["x", "back to the last"], ["w", "wipe"], ["e", "error"], ["[ ]", "exposure"], ["\\", "reset it"],
-  ["+ −", "zoom (or wheel, pinch)"], ["f", "fit"], ["arrows", "move"]];
+const KEY_HELP = [
+  ['0', 'reference'], ['1–9', 'pictures'], ['x', 'back to the last'], ['w', 'wipe'], ['e', 'error'], ['[ ]', 'exposure'],
+  ['\\', 'reset it'], ['+ −', 'zoom (or wheel, pinch)'], ['f', 'fit'], ['arrows', 'move']
+];
 
 function keyHelp() {
-  return element("p", { class: "keys" }, KEY_HELP.map(([key, does]) => element("span", {}, element("kbd", {}, key), ` ${does}`)));
+  return element('p', {class: 'keys'}, KEY_HELP.map(([key, does]) => element('span', {}, element('kbd', {}, key), ` ${does}`)));
 }
 
 function viewerControls(viewer) {
-  const choices = [["picture", "Picture"], ["wipe", "Wipe A|B"], ...(viewer.reference ? [["error", "Error"]] : [])];
-  const modes = segmented("What is shown", choices, (mode) => viewer.set({ mode }));
+  const choices = [['picture', 'Picture'], ['wipe', 'Wipe A|B'], ...(viewer.reference ? [['error', 'Error']] : [])];
+  const modes = segmented('What is shown', choices, (mode) => viewer.set({mode}));
   const legend = errorLegend();
   viewer.listeners.push(() => {
     modes.press(viewer.mode);
-    legend.hidden = viewer.mode !== "error";
+    legend.hidden = viewer.mode !== 'error';
   });
-  return element("div", { class: "controls" }, modes.group, exposureControl(viewer), zoomButtons(viewer), wipeControl(viewer), legend, keyHelp());
+  return element(
+      'div', {class: 'controls'}, modes.group, exposureControl(viewer), zoomButtons(viewer), wipeControl(viewer), legend,
+      keyHelp());
 }

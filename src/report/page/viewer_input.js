@@ -5,10 +5,13 @@ let activeViewer = null;
 
 function windowPoint(viewer, event) {
   const box = viewer.canvas.getBoundingClientRect();
-  return { x: event.clientX - box.left, y: event.clientY - box.top };
+  return {x: event.clientX - box.left, y: event.clientY - box.top};
 }
 
-function zoom(viewer, factor, point = { x: viewer.view.width / 2, y: viewer.view.height / 2 }) {
+function zoom(viewer, factor, point = {
+  x: viewer.view.width / 2,
+  y: viewer.view.height / 2
+}) {
   viewer.view.zoomAt(factor, point.x, point.y);
   viewer.update();
 }
@@ -20,7 +23,7 @@ function fitView(viewer) {
 
 function pan(viewer, dx, dy) {
   viewer.view.pan(dx, dy);
-  viewer.set({ pixel: viewer.view.pixelAt(viewer.view.width / 2, viewer.view.height / 2) });
+  viewer.set({pixel: viewer.view.pixelAt(viewer.view.width / 2, viewer.view.height / 2)});
 }
 
 /** One pointer drags the picture, or the line of a wipe when it starts near it; two pinch. */
@@ -32,19 +35,22 @@ class Drag {
   }
 
   down(event) {
-    const point = windowPoint(this.viewer, event), { viewer } = this;
+    const point = windowPoint(this.viewer, event), {viewer} = this;
     this.points.set(event.pointerId, point);
-    this.onLine = viewer.mode === "wipe" && Math.abs(point.x - viewer.wipe * viewer.view.width) < 20;
+    this.onLine = viewer.mode === 'wipe' && Math.abs(point.x - viewer.wipe * viewer.view.width) < 20;
     if (event.isTrusted) viewer.canvas.setPointerCapture(event.pointerId);
-    viewer.set({ pixel: viewer.view.pixelAt(point.x, point.y) });
+    viewer.set({pixel: viewer.view.pixelAt(point.x, point.y)});
   }
 
   move(event) {
-    const { viewer, points } = this, point = windowPoint(viewer, event), last = points.get(event.pointerId);
+    const {viewer, points} = this, point = windowPoint(viewer, event), last = points.get(event.pointerId);
     viewer.pixel = viewer.view.pixelAt(point.x, point.y);
-    if (last && points.size === 2) this.pinch(event.pointerId, point);
-    else if (last && this.onLine) viewer.wipe = Math.min(Math.max(point.x / viewer.view.width, 0), 1);
-    else if (last) viewer.view.pan(point.x - last.x, point.y - last.y);
+    if (last && points.size === 2)
+      this.pinch(event.pointerId, point);
+    else if (last && this.onLine)
+      viewer.wipe = Math.min(Math.max(point.x / viewer.view.width, 0), 1);
+    else if (last)
+      viewer.view.pan(point.x - last.x, point.y - last.y);
     if (last) points.set(event.pointerId, point);
     viewer.update();
   }
@@ -59,37 +65,40 @@ class Drag {
 }
 
 function listenToPointer(viewer) {
-  const { canvas } = viewer, drag = new Drag(viewer);
-  canvas.addEventListener("pointerdown", (event) => drag.down(event));
-  canvas.addEventListener("pointermove", (event) => drag.move(event));
-  for (const end of ["pointerup", "pointercancel"]) canvas.addEventListener(end, (event) => drag.up(event));
-  canvas.addEventListener("pointerleave", () => viewer.set({ pixel: null }));
-  canvas.addEventListener("wheel", (event) => {
+  const {canvas} = viewer, drag = new Drag(viewer);
+  canvas.addEventListener('pointerdown', (event) => drag.down(event));
+  canvas.addEventListener('pointermove', (event) => drag.move(event));
+  for (const end of ['pointerup', 'pointercancel']) canvas.addEventListener(end, (event) => drag.up(event));
+  canvas.addEventListener('pointerleave', () => viewer.set({pixel: null}));
+  canvas.addEventListener('wheel', (event) => {
     event.preventDefault();
     zoom(viewer, 2 ** (-event.deltaY / (event.deltaMode ? 12 : 400)), windowPoint(viewer, event));
-  }, { passive: false });
-  canvas.addEventListener("dblclick", () => fitView(viewer));
-  const activate = () => { activeViewer = viewer; };
-  viewer.root.addEventListener("pointerenter", activate);
-  viewer.root.addEventListener("focusin", activate);
+  }, {passive: false});
+  canvas.addEventListener('dblclick', () => fitView(viewer));
+  const activate = () => {
+    activeViewer = viewer;
+  };
+  viewer.root.addEventListener('pointerenter', activate);
+  viewer.root.addEventListener('focusin', activate);
 }
 
-const toggled = (viewer, mode) => viewer.set({ mode: viewer.mode === mode ? "picture" : mode });
+const toggled = (viewer, mode) => viewer.set({mode: viewer.mode === mode ? 'picture' : mode});
 
 const VIEWER_KEYS = {
-  w: (viewer) => toggled(viewer, "wipe"),
-  e: (viewer) => toggled(viewer, "error"),
-  x: (viewer) => viewer.set({ current: viewer.before }),
+  w: (viewer) => toggled(viewer, 'wipe'),
+  e: (viewer) => toggled(viewer, 'error'),
+  x: (viewer) => viewer.set({current: viewer.before}),
   f: fitView,
-  "+": (viewer) => zoom(viewer, Math.SQRT2),
-  "=": (viewer) => zoom(viewer, Math.SQRT2),
-  "-": (viewer) => zoom(viewer, Math.SQRT1_2),
-  "[": (viewer) => viewer.set({ stops: viewer.stops - 0.5 }),
-  "]": (viewer) => viewer.set({ stops: viewer.stops + 0.5 }),
-  "\\": (viewer) => viewer.set({ stops: 0 }),
+  '+': (viewer) => zoom(viewer, Math.SQRT2),
+  '=': (viewer) => zoom(viewer, Math.SQRT2),
+  '-': (viewer) => zoom(viewer, Math.SQRT1_2),
+  '[': (viewer) => viewer.set({stops: viewer.stops - 0.5}),
+  ']': (viewer) => viewer.set({stops: viewer.stops + 0.5}),
+  '\\': (viewer) => viewer.set({stops: 0}),
 };
 
-const CANVAS_KEYS = {  // only while the picture has the focus: elsewhere arrows scroll the page
+const CANVAS_KEYS = {
+  // only while the picture has the focus: elsewhere arrows scroll the page
   ArrowLeft: (viewer) => pan(viewer, 40, 0),
   ArrowRight: (viewer) => pan(viewer, -40, 0),
   ArrowUp: (viewer) => pan(viewer, 0, 40),
@@ -99,17 +108,19 @@ const CANVAS_KEYS = {  // only while the picture has the focus: elsewhere arrows
 /** 0: the reference; 1 to 9: the others in their order. */
 function pictureOfKey(viewer, key) {
   if (!/^[0-9]$/.test(key)) return null;
-  if (key === "0") return viewer.reference;
+  if (key === '0') return viewer.reference;
   return viewer.pictures.filter((picture) => picture !== viewer.reference)[Number(key) - 1] ?? null;
 }
 
-document.addEventListener("keydown", (event) => {
+document.addEventListener('keydown', (event) => {
   const viewer = activeViewer;
-  const typing = event.target instanceof Element && event.target.matches("select, textarea, input:not([type=range])");
+  const typing = event.target instanceof Element && event.target.matches('select, textarea, input:not([type=range])');
   if (!viewer || typing || event.ctrlKey || event.metaKey || event.altKey) return;
   const picture = pictureOfKey(viewer, event.key);
   const action = VIEWER_KEYS[event.key] ?? (event.target === viewer.canvas ? CANVAS_KEYS[event.key] : null);
-  if (picture) viewer.set({ current: picture });
-  else if (action) action(viewer);
+  if (picture)
+    viewer.set({current: picture});
+  else if (action)
+    action(viewer);
   if (picture || action) event.preventDefault();
 });

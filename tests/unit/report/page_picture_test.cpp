@@ -51,8 +51,10 @@ Image noise(int width, int height) {
 TEST_CASE("every half float comes back as itself") {
   for (int bits = 0; bits < 65536; ++bits) {
     const double value = from_half(static_cast<std::uint16_t>(bits));
-    if (std::isnan(value)) CHECK(std::isnan(from_half(to_half(static_cast<float>(value)))));
-    else REQUIRE(to_half(static_cast<float>(value)) == bits);
+    if (std::isnan(value))
+      CHECK(std::isnan(from_half(to_half(static_cast<float>(value)))));
+    else
+      REQUIRE(to_half(static_cast<float>(value)) == bits);
   }
 }
 
@@ -86,11 +88,13 @@ TEST_CASE("a picture unfolds to the planes it was made of, R first") {
   const std::string packed = from_base64(encode_picture(image));
   std::string bytes(6 * 13 * 7, '\0');
   uLongf size = bytes.size();
-  REQUIRE(uncompress(reinterpret_cast<Bytef*>(bytes.data()), &size, reinterpret_cast<const Bytef*>(packed.data()), packed.size()) == Z_OK);
+  REQUIRE(uncompress(reinterpret_cast<Bytef*>(bytes.data()), &size, reinterpret_cast<const Bytef*>(packed.data()),
+                     packed.size()) == Z_OK);
   REQUIRE(size == bytes.size());
   for (std::size_t k = 0; k < 3; ++k) {
     for (std::size_t i = 0; i < 91; ++i) {
-      const auto high = static_cast<unsigned char>(bytes[182 * k + i]), low = static_cast<unsigned char>(bytes[182 * k + 91 + i]);
+      const auto high = static_cast<unsigned char>(bytes[182 * k + i]),
+                 low = static_cast<unsigned char>(bytes[182 * k + 91 + i]);
       const float value = image.channels[2 - k].values[i];
       REQUIRE(from_half(static_cast<std::uint16_t>(high << 8 | low)) == doctest::Approx(value).epsilon(5e-4));
     }

@@ -43,7 +43,8 @@ const std::string kResultsBegin = "<script type=\"application/json\" id=\"result
 }  // namespace
 
 TEST_CASE("results.json is in the page, equal to what was given") {
-  const ordered_json results = {{"scene", "hall.pbrt"}, {"variants", {{{"name", kHostile}, {"relmse", 0.1 + 0.2}, {"slope", nullptr}}}}};
+  const ordered_json results = {{"scene", "hall.pbrt"},
+                                {"variants", {{{"name", kHostile}, {"relmse", 0.1 + 0.2}, {"slope", nullptr}}}}};
   const std::string page = compare_page(results, {});
   CHECK(ordered_json::parse(between(page, kResultsBegin, "</script>")) == results);
   CHECK(between(page, "<title>", "</title>") == "Tyndall: hall.pbrt");
@@ -86,7 +87,8 @@ TEST_CASE("a page is whole: every part is in it, and none asks for anything outs
   REQUIRE(page_parts().size() > 10);
   for (const PagePart& part : page_parts()) {
     CAPTURE(part.name);
-    if (part.name != "page.html") CHECK((compare.find(part.text) != std::string::npos || regress.find(part.text) != std::string::npos));
+    if (part.name != "page.html")
+      CHECK((compare.find(part.text) != std::string::npos || regress.find(part.text) != std::string::npos));
   }
   for (const char* outside : {"https://", "src=", "@import", "url("}) CHECK(count(compare + regress, outside) == 0);
   CHECK(count(compare + regress, "http://") == 2);  // the name of SVG
