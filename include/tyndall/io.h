@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tyndall/image.h"
@@ -47,6 +48,9 @@ Image read_exr_header(const std::string& path);
 void write_exr(const Image& image, const std::string& path);
 /// Write an 8-bit sRGB PNG of R G B after `exposure` stops.
 void write_png(const Image& image, const std::string& path, float exposure = 0);
+
+/// Write bytes as they are, in the same safe way as an image. Throws Error (output).
+void write_file(std::string_view bytes, const std::string& path);
 
 /// What a .vdb, .nvdb, .exr (or other image) or .pbrt holds: rows of (subject, property, value).
 struct Property {

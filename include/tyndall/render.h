@@ -89,8 +89,9 @@ struct RenderReport {
 /// n samples is the same however they were grouped.
 class RenderJob {
  public:
-  /// Called by one thread at a time while a pass runs, with the samples a pixel that it has done. Must not throw.
-  using PassProgress = std::function<void(double samples)>;
+  /// Called by one thread at a time while a pass runs, with the samples a pixel that it has done. Return false to give
+  /// the pass up. Must not throw.
+  using PassWatch = std::function<bool(double samples)>;
 
   /// `world` must outlive the job. Of `settings`, `spp`, `time` and `error` are the caller's to keep.
   /// Throws Error (usage) for settings that cannot be, or a light strategy that the world was not built with.
@@ -99,9 +100,11 @@ class RenderJob {
   RenderJob& operator=(RenderJob&&) noexcept;
   ~RenderJob();
 
-  void advance(int samples, const PassProgress& progress = {});  ///< samples > 0 more for every pixel
-  int samples() const;                                           ///< a pixel, so far
-  double seconds() const;                                        ///< spent in advance()
+  /// `samples` > 0 more for every pixel. False: given up; the job is then good for nothing but its report.
+  bool advance(int samples, const PassWatch& watch = {});
+  PixelBounds pixels() const;  ///< of the frame, that are rendered
+  int samples() const;     ///< a pixel, so far
+  double seconds() const;  ///< spent in advance()
   /// relMSE that the two replicates of each pixel predict: mean of variance / (mean^2 + 0.01) over pixels and
   /// channels. Infinity below 2 samples.
   double estimated_relmse() const;

@@ -13,6 +13,10 @@ namespace tyndall {
 
 /// How one light is chosen for next-event estimation. ALGORITHMS: see README.
 enum class LightStrategy { uniform, power, exhaustive, tree_binary };
+/// What stands for a stretch of medium when its light is chosen: a tracked collision.
+enum class MediaStrategy { vertex };
+/// How the distance of a scattering event along a ray is sampled.
+enum class DistanceStrategy { tracking };
 /// Estimator of transmittance along shadow rays.
 enum class TransmittanceStrategy { residual, ratio, delta };
 
@@ -26,19 +30,27 @@ struct RenderSettings {
   std::uint64_t seed = 0;
   int threads = 0;               ///< 0: all cores
   LightStrategy lights = LightStrategy::tree_binary;  ///< one that the World was built with
+  MediaStrategy media = MediaStrategy::vertex;
+  DistanceStrategy distance = DistanceStrategy::tracking;
   TransmittanceStrategy transmittance = TransmittanceStrategy::residual;
   std::vector<std::string> aovs{};  ///< names from aov_names()
   std::optional<PixelBounds> crop{};
   bool reproducible = false;     ///< leave times and dates out of the image header
 };
 
-/// Names as on the command line ("tree-binary"); empty optional for an unknown one.
-std::optional<LightStrategy> parse_light_strategy(std::string_view name);
-std::optional<TransmittanceStrategy> parse_transmittance_strategy(std::string_view name);
+/// A choice between methods that give the same picture: an option of the command line and of the Integrator line.
+struct StrategyAxis {
+  std::string_view option;              ///< "lights"
+  std::string_view about;               ///< for --help
+  std::vector<std::string_view> names;  ///< of the strategies, as on the command line: "tree-binary" ...
+  bool (*set)(RenderSettings& settings, std::string_view name);  ///< false: no strategy has this name
+  std::string_view (*get)(const RenderSettings& settings);
+};
+/// All of them. What lists or reads strategies goes through here, so a new row is known everywhere.
+const std::vector<StrategyAxis>& strategy_axes();
+
 std::string_view name_of(LightStrategy strategy);
 std::string_view name_of(TransmittanceStrategy strategy);
-std::vector<std::string_view> light_strategy_names();
-std::vector<std::string_view> transmittance_strategy_names();
 /// Every AOV that `aovs` accepts: "Albedo", "N", ...
 std::vector<std::string_view> aov_names();
 

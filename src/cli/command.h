@@ -3,11 +3,15 @@
 
 #include <CLI/CLI.hpp>
 
+#include <string>
+
 namespace tyndall::cli {
 
 void add_render(CLI::App& app, int& exit_code);
 void add_info(CLI::App& app, int& exit_code);
 void add_check(CLI::App& app, int& exit_code);
 void add_merge(CLI::App& app, int& exit_code);
+/// `command_line`: what the report states as the command that made it.
+void add_compare(CLI::App& app, int& exit_code, const std::string& command_line);
 
 }  // namespace tyndall::cli

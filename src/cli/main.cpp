@@ -14,6 +14,17 @@ constexpr const char* kExitCodes =
     "Exit codes: 0 done, 1 run-time failure, 2 usage, 3 scene or asset, 4 output, 5 differs, 7 incomplete,\n"
     "130/143 interrupted (while rendering: the image so far is written).";
 
+/// As typed, near enough to be typed again.
+std::string command_line(int argc, char** argv) {
+  std::string line = "tyndall";
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    const bool plain = !argument.empty() && argument.find_first_of(" \t\"'\\;&|<>()$*?") == std::string::npos;
+    line += plain ? " " + argument : " '" + argument + "'";
+  }
+  return line;
+}
+
 int run(int argc, char** argv) {
   CLI::App app("Tyndall renders smoke, cloud and fire lit by many lights.", "tyndall");
   app.set_version_flag("--version", "tyndall " + std::string(tyndall::version()));
@@ -24,6 +35,7 @@ int run(int argc, char** argv) {
   tyndall::cli::add_info(app, exit_code);
   tyndall::cli::add_check(app, exit_code);
   tyndall::cli::add_merge(app, exit_code);
+  tyndall::cli::add_compare(app, exit_code, command_line(argc, argv));
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

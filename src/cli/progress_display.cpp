@@ -5,6 +5,8 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -27,24 +29,33 @@ ProgressDisplay::ProgressDisplay(const std::string& kind) : kind_(kind) {
   if (kind_ == "auto") kind_ = isatty(STDERR_FILENO) ? "bar" : "line";
 }
 
+void ProgressDisplay::begin(const std::string& activity) {
+  finish();
+  activity_ = activity.empty() ? "" : activity + ": ";
+  last_line_ = 0;
+}
+
 void ProgressDisplay::show(const Progress& p) {
   if (kind_ == "json") {
-    log("{{\"samples\":{},\"fraction\":{:.4f},\"seconds\":{:.2f},\"remaining\":{:.2f}}}\n", p.samples_done,
+    const std::string activity = nlohmann::json(activity_.substr(0, activity_.find(':'))).dump();
+    log("{{{}\"samples\":{},\"fraction\":{:.4f},\"seconds\":{:.2f},\"remaining\":{:.2f}}}\n", activity_.empty() ? "" : "\"activity\":" + activity + ",", p.samples_done,
                p.fraction, p.seconds, p.remaining);
   } else if (kind_ == "bar") {
     const int full = static_cast<int>(std::lround(p.fraction * kBarWidth));
-    log("\r[{:=<{}}{: <{}}] {:3.0f}%  {} spp  {} left   ", "", full, "", kBarWidth - full,
-               100 * p.fraction, p.samples_done, duration(p.remaining));
+    const std::string samples = p.samples_done > 0 ? fmt::format("  {} spp", p.samples_done) : "";
+    log("\r{}[{:=<{}}{: <{}}] {:3.0f}%{}  {} left   ", activity_, "", full, "", kBarWidth - full,
+               100 * p.fraction, samples, duration(p.remaining));
     drawn_ = true;
   } else if (kind_ == "line" && p.seconds - last_line_ >= kLineSeconds) {
     last_line_ = p.seconds;
-    log("{:.0f}%, {} spp, {} done, {} left\n", 100 * p.fraction, p.samples_done, duration(p.seconds),
+    const std::string samples = p.samples_done > 0 ? fmt::format("{} spp, ", p.samples_done) : "";
+    log("{}{:.0f}%, {}{} done, {} left\n", activity_, 100 * p.fraction, samples, duration(p.seconds),
                duration(p.remaining));
   }
 }
 
 void ProgressDisplay::finish() {
-  if (drawn_) log("\r{: <{}}\r", "", kBarWidth + 40);
+  if (drawn_) log("\r{: <{}}\r", "", kBarWidth + 40 + static_cast<int>(activity_.size()));
   drawn_ = false;
 }
 

@@ -16,11 +16,13 @@ class ProgressDisplay {
   ProgressDisplay(const ProgressDisplay&) = delete;
   ProgressDisplay& operator=(const ProgressDisplay&) = delete;
 
+  /// What the next reports are about; each activity starts a clock of its own. Empty: the only one.
+  void begin(const std::string& activity);
   void show(const Progress& progress);
   void finish();  ///< leaves the cursor on a fresh line
 
  private:
-  std::string kind_;
+  std::string kind_, activity_;
   double last_line_ = 0;
   bool drawn_ = false;
 };

@@ -1,14 +1,16 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <csignal>
 #include <filesystem>
 
 #include "cli/command.h"
+#include "cli/error_log.h"
 #include "cli/log.h"
+#include "cli/output_paths.h"
 #include "cli/progress_display.h"
 #include "cli/render_options.h"
+#include "cli/stopwatch.h"
 #include "cli/summary.h"
 #include "tyndall/io.h"
 
@@ -28,36 +30,6 @@ void on_signal(int signal) {
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
   if (write(STDERR_FILENO, kStopping, sizeof kStopping - 1) < 0) return;
-}
-
-class Stopwatch {
- public:
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    const double seconds = std::chrono::duration<double>(now - last_).count();
-    last_ = now;
-    return seconds;
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
-
-/// Found out before the work, not after it.
-void check_writable(const std::string& path) {
-  namespace fs = std::filesystem;
-  fs::path folder = fs::path(path).parent_path();
-  if (folder.empty()) folder = ".";
-  std::error_code ignored;
-  if (fs::is_directory(path, ignored)) {
-    throw Error(Failure::output, path + ": is a folder; give a file name with -o");
-  }
-  if (!fs::is_directory(folder, ignored)) {
-    throw Error(Failure::output, path + ": folder " + folder.string() + " does not exist; make it first");
-  }
-  if (access(folder.c_str(), W_OK) != 0) {
-    throw Error(Failure::output, path + ": folder " + folder.string() + " is not writable; choose another with -o");
-  }
 }
 
 void write_image(const Image& image, const std::string& path) {
@@ -83,20 +55,25 @@ int run_render(const RenderOptions& options) {
   const RenderSettings settings = file.scene.settings;
   summary.output = output_path(options, file.scene);
   check_writable(summary.output);
+  if (!options.error_log.empty()) check_writable(options.error_log);
   summary.read_seconds = watch.lap();
 
   const World world = build(std::move(file.scene),
-                            {.lights = {settings.lights}, .sanitize = options.sanitize, .threads = settings.threads});
+                            {.lights = {settings.lights}, .sanitize = options.picture.sanitize, .threads = settings.threads});
   summary.build = world.summary();
   summary.build_seconds = watch.lap();
   if (!options.quiet) print_notes(file, world);
 
+  std::optional<ErrorLog> errors;
+  if (!options.error_log.empty()) errors.emplace(options.reference, options.error_log, RenderJob(world, settings).pixels());
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
   ProgressDisplay display(options.quiet ? "none" : options.progress);
-  const Rendering rendering =
-      render(world, settings, {.progress = [&](const Progress& p) { display.show(p); }, .stop = &stop_requested});
+  RenderControl control{.progress = [&](const Progress& p) { display.show(p); }, .stop = &stop_requested};
+  if (errors) control.checkpoint = [&](const RenderJob& job) { errors->add(job); };
+  const Rendering rendering = render(world, settings, control);
   display.finish();
+  if (errors) errors->finish(rendering);
   summary.render = rendering.report;
   summary.width = rendering.image.width();
   summary.height = rendering.image.height();

@@ -73,8 +73,39 @@ void set_samples(const RenderOptions& options, RenderSettings& settings) {
 
 }  // namespace
 
+bool MethodOptions::any() const {
+  return std::any_of(strategies.begin(), strategies.end(), [](const std::string& s) { return !s.empty(); });
+}
+
+void declare(CLI::App& command, MethodOptions& o) {
+  for (std::size_t i = 0; i < strategy_axes().size(); ++i) {
+    const StrategyAxis& axis = strategy_axes()[i];
+    const std::string option = "--" + std::string(axis.option);
+    command.add_option(option, o.strategies[i],
+                       std::string(axis.about) + ": " + join(axis.names, ", ") + " [the Integrator's, else " +
+                           std::string(axis.get({})) + "]; " + option + " " + std::string(axis.names.back()));
+  }
+}
+
+void declare(CLI::App& command, PictureOptions& o) {
+  command.add_option("--crop", o.crop, "pixels x0,x1,y0,y1 to render, ends excluded [the Film's]; --crop 0,480,0,270");
+  command.add_option("--resolution", o.resolution, "frame size in pixels [the Film's]; --resolution 960x540");
+  command.add_option("--max-depth", o.max_depth, "scattering events a path, at most [the Integrator's, else 5]; --max-depth 16")
+      ->check(CLI::Range(0, 1 << 20));
+  command.add_flag("--sanitize", o.sanitize, "NaN and infinite voxels become 0 instead of an error");
+}
+
+void declare_progress(CLI::App& command, std::string& progress) {
+  command.add_option("--progress", progress, "bar, line, json or none, on stderr [bar on a terminal, else line]; --progress json")
+      ->check(CLI::IsMember({"auto", "bar", "line", "json", "none"}));
+}
+
+void declare_scene(CLI::App& command, std::string& scene) {
+  command.add_option("scene", scene, "scene file, .pbrt or .pbrt.gz")->required();
+}
+
 void declare(CLI::App& command, RenderOptions& o) {
-  command.add_option("scene", o.scene, "scene file, .pbrt or .pbrt.gz")->required();
+  declare_scene(command, o.scene);
   command.add_option("-o,--output", o.output, "image to write, .exr or .png [the Film's name, else SCENE.exr]; -o plume.exr");
   command.add_option("--spp", o.spp, "samples a pixel, at most [the Sampler's, else 16]; --spp 256")->check(CLI::Range(1, 1 << 30));
   command.add_option("--time", o.time, "seconds to render for, at most; without --spp the samples are as many as that gives [none]; --time 60")
@@ -83,51 +114,49 @@ void declare(CLI::App& command, RenderOptions& o) {
       ->check(CLI::PositiveNumber);
   command.add_option("--threads", o.threads, "threads [0: one a core]; --threads 2")->check(CLI::Range(0, 4096));
   command.add_option("--seed", o.seed, "of the random numbers [0]; --seed 7")->check(CLI::NonNegativeNumber);
-  command.add_option("--crop", o.crop, "pixels x0,x1,y0,y1 to render, ends excluded [the Film's]; --crop 0,480,0,270");
-  command.add_option("--resolution", o.resolution, "frame size in pixels [the Film's]; --resolution 960x540");
-  command.add_option("--max-depth", o.max_depth, "scattering events a path, at most [the Integrator's, else 5]; --max-depth 16")
-      ->check(CLI::Range(0, 1 << 20));
-  command.add_option("--lights", o.lights,
-                     "how a light is chosen: " + join(light_strategy_names(), ", ") + " [tree-binary]; --lights power");
-  command.add_option("--transmittance", o.transmittance,
-                     "estimator along shadow rays: " + join(transmittance_strategy_names(), ", ") +
-                         " [residual]; --transmittance ratio");
+  declare(command, o.picture);
+  declare(command, o.methods);
   command.add_option("--aov", o.aovs, "extra channels, comma-separated: " + join(aov_names(), ", ") + " [none]; --aov Albedo,N");
-  command.add_flag("--sanitize", o.sanitize, "NaN and infinite voxels become 0 instead of an error");
+  auto* reference = command.add_option("--reference", o.reference, "image that the error is measured against for --error-log; --reference best.exr");
+  auto* log = command.add_option("--error-log", o.error_log, "file that gets a line of JSON at 1, 2, 4, 8 ... samples and at the end: seconds, samples, errors; --error-log error.jsonl");
+  reference->needs(log);
+  log->needs(reference);
   command.add_flag("--reproducible", o.reproducible, "leave dates and times out of the image header");
-  command.add_option("--progress", o.progress, "bar, line, json or none, on stderr [bar on a terminal, else line]; --progress json")
-      ->check(CLI::IsMember({"auto", "bar", "line", "json", "none"}));
+  declare_progress(command, o.progress);
   command.add_flag("--quiet", o.quiet, "no progress, notes or summary; errors only");
   command.add_flag("--json", o.json, "summary as JSON on stdout");
+}
+
+void apply(const MethodOptions& o, RenderSettings& settings) {
+  for (std::size_t i = 0; i < strategy_axes().size(); ++i) {
+    const StrategyAxis& axis = strategy_axes()[i];
+    const std::string& name = o.strategies[i];
+    if (!name.empty() && !axis.set(settings, name)) bad("--" + std::string(axis.option), name, join(axis.names, ", "));
+  }
+}
+
+void apply(const PictureOptions& o, Scene& scene) {
+  if (o.max_depth) scene.settings.max_depth = *o.max_depth;
+  if (!o.resolution.empty()) set_resolution(o.resolution, scene);
+  if (!o.crop.empty()) {
+    const auto c = integers(o.crop, ',');
+    if (c.size() != 4 || c[0] >= c[1] || c[2] >= c[3]) bad("--crop", o.crop, "x0,x1,y0,y1 with x0 < x1 and y0 < y1");
+    scene.settings.crop = PixelBounds{c[0], c[2], c[1], c[3]};
+  }
 }
 
 void apply(const RenderOptions& o, Scene& scene) {
   RenderSettings& s = scene.settings;
   set_samples(o, s);
-  if (o.max_depth) s.max_depth = *o.max_depth;
   if (o.threads) s.threads = *o.threads;
   if (o.seed) s.seed = *o.seed;
   s.reproducible = s.reproducible || o.reproducible;
-  if (!o.lights.empty()) {
-    const auto strategy = parse_light_strategy(o.lights);
-    if (!strategy) bad("--lights", o.lights, join(light_strategy_names(), ", "));
-    s.lights = *strategy;
-  }
-  if (!o.transmittance.empty()) {
-    const auto strategy = parse_transmittance_strategy(o.transmittance);
-    if (!strategy) bad("--transmittance", o.transmittance, join(transmittance_strategy_names(), ", "));
-    s.transmittance = *strategy;
-  }
+  apply(o.methods, s);
+  apply(o.picture, scene);
   if (!o.aovs.empty()) s.aovs = names_in(o.aovs);
   for (const std::string& name : s.aovs) {
     const auto known = aov_names();
     if (std::find(known.begin(), known.end(), name) == known.end()) bad("--aov", name, join(known, ", "));
-  }
-  if (!o.resolution.empty()) set_resolution(o.resolution, scene);
-  if (!o.crop.empty()) {
-    const auto c = integers(o.crop, ',');
-    if (c.size() != 4 || c[0] >= c[1] || c[2] >= c[3]) bad("--crop", o.crop, "x0,x1,y0,y1 with x0 < x1 and y0 < y1");
-    s.crop = PixelBounds{c[0], c[2], c[1], c[3]};
   }
 }
 

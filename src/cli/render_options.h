@@ -11,19 +11,41 @@
 
 namespace tyndall::cli {
 
+/// Options that choose between methods: any of them gives the same picture, sooner or later.
+struct MethodOptions {
+  std::vector<std::string> strategies = std::vector<std::string>(strategy_axes().size());  ///< by axis; empty: not given
+
+  bool any() const;
+};
+
+/// Options that say what the right picture is.
+struct PictureOptions {
+  std::optional<int> max_depth;
+  std::string crop, resolution;
+  bool sanitize = false;
+};
+
 /// What the command line gave; the scene decides the rest.
 struct RenderOptions {
   std::string scene, output;
-  std::optional<int> spp, max_depth, threads;
+  MethodOptions methods;
+  PictureOptions picture;
+  std::optional<int> spp, threads;
   std::optional<double> time, error;
   std::optional<std::uint64_t> seed;
-  std::string crop, resolution, lights, transmittance, aovs, progress = "auto";
-  bool sanitize = false, reproducible = false, quiet = false, json = false;
+  std::string reference, error_log, aovs, progress = "auto";
+  bool reproducible = false, quiet = false, json = false;
 };
 
-void declare(CLI::App& command, RenderOptions& options);
+void declare(CLI::App& command, MethodOptions& options);
+void declare(CLI::App& command, PictureOptions& options);
+void declare(CLI::App& command, RenderOptions& options);  ///< these and the rest
+void declare_progress(CLI::App& command, std::string& progress);
+void declare_scene(CLI::App& command, std::string& scene);
 
-/// Override what the scene says: its settings and its film. Throws Error (usage).
+/// Override what the scene says: its settings and its film. Throw Error (usage).
+void apply(const MethodOptions& options, RenderSettings& settings);
+void apply(const PictureOptions& options, Scene& scene);
 void apply(const RenderOptions& options, Scene& scene);
 
 /// Where the image goes: --output, else what the scene's Film names, else the scene's name with .exr, in the

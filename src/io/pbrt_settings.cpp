@@ -15,16 +15,12 @@ int at_least(ParamList& params, std::string_view name, int otherwise, int least)
   return value;
 }
 
-template <typename Strategy>
-void read_strategy(ParamList& params, std::string_view name, std::optional<Strategy> (*parse)(std::string_view),
-                   const std::vector<std::string_view>& known, Strategy& out) {
-  if (!params.find(name, {ParamType::string})) return;
-  const std::string text = params.string(name, "");
-  const auto strategy = parse(text);
-  if (!strategy)
-    throw params.error(name, "\"" + printable(text) + "\" is no value of \"" + std::string(name) + "\"; " +
-                                 suggestion(text, {known.begin(), known.end()}));
-  out = *strategy;
+void read_strategy(ParamList& params, const StrategyAxis& axis, RenderSettings& settings) {
+  if (!params.find(axis.option, {ParamType::string})) return;
+  const std::string text = params.string(axis.option, "");
+  if (axis.set(settings, text)) return;
+  throw params.error(axis.option, "\"" + printable(text) + "\" is no value of \"" + std::string(axis.option) + "\"; " +
+                                      suggestion(text, {axis.names.begin(), axis.names.end()}));
 }
 
 /// Samples a pixel as pbrt's sampler of this type takes them.
@@ -39,14 +35,13 @@ int read_pixel_samples(ParamList& params, const std::string& type) {
   return at_least(params, "pixelsamples", type == "independent" ? 4 : 16, 1);
 }
 
-/// pbrt's own light samplers; "lights" names ours and wins.
+/// pbrt's own light samplers.
 void read_light_sampler(ParamList& params, RenderSettings& settings) {
   const std::string sampler = params.choice("lightsampler", "", {"", "uniform", "power", "bvh", "exhaustive"});
-  if (sampler == "bvh")
-    settings.lights = LightStrategy::tree_binary;
-  else if (const auto strategy = parse_light_strategy(sampler))
-    settings.lights = *strategy;
-  read_strategy(params, "lights", parse_light_strategy, light_strategy_names(), settings.lights);
+  if (sampler == "bvh") settings.lights = LightStrategy::tree_binary;
+  if (sampler == "uniform") settings.lights = LightStrategy::uniform;
+  if (sampler == "power") settings.lights = LightStrategy::power;
+  if (sampler == "exhaustive") settings.lights = LightStrategy::exhaustive;
 }
 
 /// Tyndall's options under the names of the command line.
@@ -61,7 +56,11 @@ void read_own_options(State& state, ParamList& params) {
     s.time = *time;
   }
   s.threads = at_least(params, "threads", s.threads, 0);
-  read_strategy(params, "transmittance", parse_transmittance_strategy, transmittance_strategy_names(), s.transmittance);
+  if (const auto error = params.maybe_number("error")) {
+    if (!(*error > 0)) throw params.error("error", "error must be above 0; it is a relMSE, as 0.001");
+    s.error = *error;
+  }
+  for (const StrategyAxis& axis : strategy_axes()) read_strategy(params, axis, s);  // "lights" wins over "lightsampler"
   s.reproducible = params.boolean("reproducible", s.reproducible);
   if (params.find("aov", {ParamType::string})) s.aovs = params.strings("aov");
   const std::vector<std::string_view> known = aov_names();

@@ -1,19 +1,25 @@
 #include "tyndall/settings.h"
 
 #include <array>
+#include <cstddef>
 #include <utility>
 
 namespace tyndall {
 namespace {
 
-// Registering a strategy is adding a row here; the command line, the scene reader and the help text follow.
-constexpr std::array<std::pair<std::string_view, LightStrategy>, 4> kLightStrategies{{
+// Registering a strategy is adding a row to its table; an axis of strategies, to the list at the end.
+template <typename Strategy, std::size_t N>
+using Table = std::array<std::pair<std::string_view, Strategy>, N>;
+
+constexpr Table<LightStrategy, 4> kLights{{
     {"uniform", LightStrategy::uniform},
     {"power", LightStrategy::power},
     {"exhaustive", LightStrategy::exhaustive},
     {"tree-binary", LightStrategy::tree_binary},
 }};
-constexpr std::array<std::pair<std::string_view, TransmittanceStrategy>, 3> kTransmittanceStrategies{{
+constexpr Table<MediaStrategy, 1> kMedia{{{"vertex", MediaStrategy::vertex}}};
+constexpr Table<DistanceStrategy, 1> kDistances{{{"tracking", DistanceStrategy::tracking}}};
+constexpr Table<TransmittanceStrategy, 3> kTransmittances{{
     {"residual", TransmittanceStrategy::residual},
     {"ratio", TransmittanceStrategy::ratio},
     {"delta", TransmittanceStrategy::delta},
@@ -22,39 +28,47 @@ constexpr std::array<std::string_view, 13> kAovs{
     "Albedo",        "N",               "P",            "Z",              "Zvol",     "Variance", "SampleCount",
     "Transmittance", "SurfaceDirect",   "SurfaceIndirect", "VolumeDirect", "VolumeIndirect", "Emission"};
 
-template <typename Table, typename Value = typename Table::value_type::second_type>
-std::optional<Value> find_value(const Table& table, std::string_view name) {
-  for (const auto& [key, value] : table) {
-    if (key == name) return value;
-  }
-  return std::nullopt;
-}
-
-template <typename Table, typename Value>
-std::string_view find_name(const Table& table, Value wanted) {
-  for (const auto& [key, value] : table) {
-    if (value == wanted) return key;
+template <typename Table, typename Strategy>
+std::string_view find_name(const Table& table, Strategy wanted) {
+  for (const auto& [name, strategy] : table) {
+    if (strategy == wanted) return name;
   }
   return {};
 }
 
-template <typename Table>
-std::vector<std::string_view> all_names(const Table& table) {
-  std::vector<std::string_view> names;
-  for (const auto& row : table) names.push_back(row.first);
-  return names;
+/// The axis of one table and the setting that it is about.
+template <const auto& table, auto member>
+StrategyAxis axis(std::string_view option, std::string_view about) {
+  StrategyAxis axis;
+  axis.option = option;
+  axis.about = about;
+  for (const auto& row : table) axis.names.push_back(row.first);
+  axis.set = [](RenderSettings& settings, std::string_view wanted) {
+    for (const auto& [name, strategy] : table) {
+      if (name != wanted) continue;
+      settings.*member = strategy;
+      return true;
+    }
+    return false;
+  };
+  axis.get = [](const RenderSettings& settings) { return find_name(table, settings.*member); };
+  return axis;
 }
 
 }  // namespace
 
-std::optional<LightStrategy> parse_light_strategy(std::string_view name) { return find_value(kLightStrategies, name); }
-std::optional<TransmittanceStrategy> parse_transmittance_strategy(std::string_view name) {
-  return find_value(kTransmittanceStrategies, name);
+const std::vector<StrategyAxis>& strategy_axes() {
+  static const std::vector<StrategyAxis> axes{
+      axis<kLights, &RenderSettings::lights>("lights", "how a light is chosen"),
+      axis<kMedia, &RenderSettings::media>("media", "what stands for a stretch of medium when its light is chosen"),
+      axis<kDistances, &RenderSettings::distance>("distance", "how the distance of a scattering event is sampled"),
+      axis<kTransmittances, &RenderSettings::transmittance>("transmittance", "estimator along shadow rays"),
+  };
+  return axes;
 }
-std::string_view name_of(LightStrategy strategy) { return find_name(kLightStrategies, strategy); }
-std::string_view name_of(TransmittanceStrategy strategy) { return find_name(kTransmittanceStrategies, strategy); }
-std::vector<std::string_view> light_strategy_names() { return all_names(kLightStrategies); }
-std::vector<std::string_view> transmittance_strategy_names() { return all_names(kTransmittanceStrategies); }
+
+std::string_view name_of(LightStrategy strategy) { return find_name(kLights, strategy); }
+std::string_view name_of(TransmittanceStrategy strategy) { return find_name(kTransmittances, strategy); }
 std::vector<std::string_view> aov_names() { return {kAovs.begin(), kAovs.end()}; }
 
 }  // namespace tyndall

@@ -9,8 +9,11 @@ namespace tyndall {
 namespace {
 
 std::string options_text(const RenderSettings& settings) {
-  return "--max-depth " + std::to_string(settings.max_depth) + " --lights " + std::string(name_of(settings.lights)) +
-         " --transmittance " + std::string(name_of(settings.transmittance));
+  std::string text = "--max-depth " + std::to_string(settings.max_depth);
+  for (const StrategyAxis& axis : strategy_axes()) {
+    text += " --" + std::string(axis.option) + " " + std::string(axis.get(settings));
+  }
+  return text;
 }
 
 std::string utc_now() {

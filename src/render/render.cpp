@@ -11,7 +11,10 @@ class RenderLoop {
 
   Rendering run() {
     while (const int count = schedule_.next_pass(job_)) {
-      job_.advance(count, [&](double samples) { report_progress(samples); });
+      job_.advance(count, [&](double samples) {
+        report_progress(samples);
+        return true;
+      });
       report_progress(0);
       if (control_.checkpoint && PassSchedule::is_checkpoint(job_.samples())) control_.checkpoint(job_);
       if (stop_requested()) break;

@@ -66,13 +66,15 @@ class RenderJob::Impl {
         film_(world.scene.film, full_crop(world.scene, settings), parse_aovs(settings.aovs)),
         pool_(settings.threads) {}
 
-  void advance(int count, const PassProgress& progress) {
+  bool advance(int count, const PassWatch& watch) {
     const auto start = Clock::now();
     const PixelBounds& crop = film_.crop();
     const int across = (crop.width() + kTile - 1) / kTile;
     const int down = (crop.height() + kTile - 1) / kTile;
     int tiles_done = 0;
+    std::atomic<bool> given_up{false};
     pool_.for_each(static_cast<std::size_t>(across) * down, 1, [&](std::size_t tile) {
+      if (given_up) return;
       const FlushDenormals guard;
       Counters counters;
       const int x0 = crop.x0 + static_cast<int>(tile % across) * kTile;
@@ -80,10 +82,11 @@ class RenderJob::Impl {
       render_tile({x0, y0, std::min(x0 + kTile, crop.x1), std::min(y0 + kTile, crop.y1)}, count, counters);
       const std::scoped_lock lock(mutex_);
       counters_ += counters;
-      if (progress) progress(static_cast<double>(++tiles_done) / (across * down) * count);
+      if (watch && !watch(static_cast<double>(++tiles_done) / (across * down) * count)) given_up = true;
     });
-    samples_ += count;
     seconds_ += std::chrono::duration<double>(Clock::now() - start).count();
+    if (!given_up) samples_ += count;
+    return !given_up;
   }
 
   Image image() const {
@@ -93,6 +96,7 @@ class RenderJob::Impl {
   }
 
   double estimated_relmse() const { return film_.estimated_relmse(samples_); }
+  const PixelBounds& pixels() const { return film_.crop(); }
   int samples() const { return samples_; }
   double seconds() const { return seconds_; }
 
@@ -168,7 +172,8 @@ RenderJob::RenderJob(RenderJob&&) noexcept = default;
 RenderJob& RenderJob::operator=(RenderJob&&) noexcept = default;
 RenderJob::~RenderJob() = default;
 
-void RenderJob::advance(int samples, const PassProgress& progress) { impl_->advance(samples, progress); }
+bool RenderJob::advance(int samples, const PassWatch& watch) { return impl_->advance(samples, watch); }
+PixelBounds RenderJob::pixels() const { return impl_->pixels(); }
 int RenderJob::samples() const { return impl_->samples(); }
 double RenderJob::seconds() const { return impl_->seconds(); }
 double RenderJob::estimated_relmse() const { return impl_->estimated_relmse(); }

@@ -49,6 +49,16 @@ TEST_CASE("a job gives the same picture however it is advanced, and the one that
   CHECK(one.report().paths == many.report().paths);
 }
 
+TEST_CASE("a pass can be given up") {
+  const World world = world_of();
+  RenderJob job(world, settings_of(1));
+  CHECK(job.advance(1));
+  int calls = 0;
+  CHECK_FALSE(job.advance(1, [&](double) { return ++calls < 2; }));
+  CHECK(calls == 2);
+  CHECK(job.samples() == 1);
+}
+
 TEST_CASE("the estimated error is what the variance channels say") {
   const World world = world_of();
   RenderJob job(world, settings_of(1));

@@ -1,0 +1,116 @@
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "cli/command.h"
+#include "cli/compare_options.h"
+#include "cli/log.h"
+#include "cli/output_paths.h"
+#include "cli/progress_display.h"
+#include "cli/stopwatch.h"
+#include "report/compare_results.h"
+#include "report/page.h"
+#include "tyndall/io.h"
+
+namespace tyndall::cli {
+namespace {
+
+constexpr std::uint64_t kReferenceSeed = 0x7265666572656e63;  ///< apart from any seed that a run is likely to have
+
+World build_for(Scene scene, const ComparePlan& plan, const RenderSettings& base, const CompareOptions& o) {
+  BuildSettings settings{.lights = {base.lights}, .sanitize = o.picture.sanitize, .threads = o.threads};
+  for (const CompareVariant& v : plan.variants) {
+    auto& known = settings.lights;
+    if (std::find(known.begin(), known.end(), v.settings.lights) == known.end()) known.push_back(v.settings.lights);
+  }
+  return build(std::move(scene), settings);
+}
+
+Reference make_reference(const World& world, RenderSettings settings, const ComparePlan& plan, const CompareOptions& o,
+                         ProgressDisplay& display) {
+  if (!o.reference.empty()) return read_reference(o.reference);
+  settings.seed = kReferenceSeed;
+  ReferenceGoal goal{.relmse = o.reference_error};
+  if (o.reference_time) {
+    goal.seconds = *o.reference_time;
+  } else if (plan.budget.seconds) {
+    goal.seconds = *plan.budget.seconds * static_cast<double>(plan.variants.size() * plan.seeds.size());
+  }
+  display.begin("reference");
+  return render_reference(world, settings, goal, [&](const Progress& p) { display.show(p); });
+}
+
+void warn_of_reference(const Reference& reference, const CompareOptions& o, CompareResult& result) {
+  if (o.reference.empty() && reference.relmse > o.reference_error) {
+    result.warnings.insert(result.warnings.begin(),
+                           fmt::format("the reference reached relMSE {:.2g} and not {:.2g} in the time it had; its noise is taken "
+                                       "off the errors, but --reference-time gives it more", reference.relmse, o.reference_error));
+  }
+  if (!reference.has_variance) {
+    result.warnings.insert(result.warnings.begin(), "the reference has no variance channels: its noise, if any, is in every error");
+  }
+}
+
+void write_report(const std::string& folder, const nlohmann::ordered_json& results, const Reference& reference, const CompareResult& result) {
+  std::vector<PagePicture> pictures{{"", "reference", reference.image}};
+  write_exr(reference.image, folder + "/reference.exr");
+  for (const VariantResult& v : result.variants) {
+    if (v.given_up) continue;
+    write_exr(v.image, folder + "/" + picture_file(v.name));
+    pictures.push_back({"", v.name, v.image});
+  }
+  write_file(error_csv(result), folder + "/error.csv");
+  write_file(results.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n", folder + "/results.json");
+  write_file(compare_page(results, pictures), folder + "/index.html");
+}
+
+int run_compare(const CompareOptions& o, const std::string& command) {
+  SceneFile file = read_scene(o.scene);
+  apply(o.picture, file.scene);
+  apply(o.methods, file.scene.settings);
+  RenderSettings base = file.scene.settings;
+  base.threads = o.threads;
+  base.reproducible = true;
+  base.aovs = {"Variance"};
+  const ComparePlan plan = plan_of(o, base);
+  make_folder(o.folder);
+  const World world = build_for(std::move(file.scene), plan, base, o);
+  if (!o.quiet) {
+    for (const Warning& w : file.warnings) log("warning: {}: {}\n", w.where.str(), w.message);
+    for (const std::string& note : world.summary().notes) log("note: {}\n", note);
+  }
+
+  ProgressDisplay display(o.quiet ? "none" : o.progress);
+  const Reference reference = make_reference(world, base, plan, o, display);
+  reference.require_size(RenderJob(world, base).pixels());
+  display.begin(fmt::format("{} variants, {} seeds", plan.variants.size(), plan.seeds.size()));
+  const Stopwatch watch;
+  CompareResult result = compare(world, plan, reference, [&](double fraction) {
+    const double seconds = watch.seconds();
+    display.show({.samples_done = 0, .fraction = fraction, .seconds = seconds, .remaining = seconds * (1 - fraction) / std::max(fraction, 1e-9)});
+  });
+  display.finish();
+  warn_of_reference(reference, o, result);
+
+  const CompareContext context{.scene = o.scene, .options = common_options(o), .command = command, .width = reference.image.width(),
+                               .height = reference.image.height(), .threads = o.threads};
+  const auto results = compare_json(context, plan, reference, result);
+  write_report(o.folder, results, reference, result);
+  if (!o.quiet) {
+    for (const std::string& w : result.warnings) log("warning: {}\n", w);
+    fmt::print(o.json ? stderr : stdout, "{}{}/index.html\n", compare_table(result), o.folder);
+  }
+  if (o.json) fmt::print("{}\n", results.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+  return 0;
+}
+
+}  // namespace
+
+void add_compare(CLI::App& app, int& exit_code, const std::string& command_line) {
+  auto* command = app.add_subcommand("compare", "methods side by side on one scene: error against time, as a report");
+  auto options = std::make_shared<CompareOptions>();
+  declare(*command, *options);
+  command->callback([options, &exit_code, command_line] { exit_code = run_compare(*options, command_line); });
+}
+
+}  // namespace tyndall::cli

@@ -1,0 +1,19 @@
+/// The methods that `compare` is asked to set side by side.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "report/compare.h"
+
+namespace tyndall::cli {
+
+/// "lights, media, distance, transmittance, all": one preset for each axis of strategies, and all of them.
+std::string preset_names();
+
+/// `specs`: presets and "name:--lights power --media vertex", also several in one, separated by commas or semicolons.
+/// What a variant does not set is as in `base`. Equal methods under the name of several presets appear once.
+/// Throws Error (usage) that lists what is known.
+std::vector<CompareVariant> parse_variants(const std::vector<std::string>& specs, const RenderSettings& base);
+
+}  // namespace tyndall::cli

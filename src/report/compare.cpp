@@ -1,0 +1,194 @@
+#include "report/compare.h"
+
+#include <algorithm>
+
+namespace tyndall {
+namespace {
+
+using Runs = std::vector<RaceRun>;  // of one variant, by seed
+
+std::vector<double> collect(const Runs& runs, const std::function<double(const RaceRun&)>& value) {
+  std::vector<double> values;
+  for (const RaceRun& r : runs) values.push_back(value(r));
+  return values;
+}
+
+double mean_of(const Runs& runs, const std::function<double(const RaceRun&)>& value) {
+  double sum = 0;
+  for (const RaceRun& r : runs) sum += value(r);
+  return sum / static_cast<double>(runs.size());
+}
+
+const RaceCheckpoint& last(const RaceRun& run) { return run.checkpoints.back(); }
+
+CurvePoint curve_point(const Runs& runs, const std::function<const RaceCheckpoint&(const RaceRun&)>& at) {
+  CurvePoint p;
+  p.seconds = mean_of(runs, [&](const RaceRun& r) { return at(r).seconds; });
+  p.samples = mean_of(runs, [&](const RaceRun& r) { return at(r).samples; });
+  p.mse = mean_of(runs, [&](const RaceRun& r) { return at(r).error.mse; });
+  const auto relmse = collect(runs, [&](const RaceRun& r) { return at(r).error.relmse; });
+  const double mean = mean_of(runs, [&](const RaceRun& r) { return at(r).error.relmse; });
+  p.relmse = mean_interval(relmse).value_or(Interval{mean, mean, mean});
+  return p;
+}
+
+/// Runs of equal time end at different counts; the curve has the powers of two that all reached, and the end.
+std::vector<CurvePoint> curve_of(const Runs& runs) {
+  std::size_t common = runs.front().checkpoints.size() - 1;
+  for (const RaceRun& r : runs) common = std::min(common, r.checkpoints.size() - 1);
+  std::vector<CurvePoint> curve;
+  for (std::size_t i = 0; i < common; ++i) {
+    curve.push_back(curve_point(runs, [i](const RaceRun& r) -> const RaceCheckpoint& { return r.checkpoints[i]; }));
+  }
+  curve.push_back(curve_point(runs, last));
+  return curve;
+}
+
+/// One slope a seed, so that their spread is the slope's error. Points below the reference's noise say nothing.
+std::optional<Interval> slope_of(const Runs& runs, double floor, double (*x)(const RaceCheckpoint&)) {
+  std::vector<double> slopes;
+  for (const RaceRun& r : runs) {
+    std::vector<ErrorPoint> points;
+    for (const RaceCheckpoint& c : r.checkpoints) {
+      if (c.error.relmse > floor) points.push_back({x(c), c.error.relmse});
+    }
+    if (const auto slope = log_slope(points)) slopes.push_back(*slope);
+  }
+  if (slopes.size() < runs.size()) return std::nullopt;
+  return mean_interval(slopes);
+}
+
+std::array<double, 3> mean_color(const Runs& runs) {
+  std::array<double, 3> mean{};
+  for (int k = 0; k < 3; ++k) mean[k] = mean_of(runs, [k](const RaceRun& r) { return r.mean_rgb[k]; });
+  return mean;
+}
+
+ErrorMetrics mean_error(const Runs& runs) {
+  ErrorMetrics mean;
+  for (double ErrorMetrics::*m : {&ErrorMetrics::mse, &ErrorMetrics::relmse, &ErrorMetrics::relmse_trimmed,
+                                  &ErrorMetrics::mape, &ErrorMetrics::smape}) {
+    mean.*m = mean_of(runs, [m](const RaceRun& r) { return last(r).error.*m; });
+  }
+  return mean;
+}
+
+void add_health(const Runs& runs, VariantResult& v) {
+  for (const RaceRun& r : runs) {
+    v.non_finite += r.report.non_finite;
+    v.majorant_violations += r.report.majorant_violations;
+    v.caps_hit += r.report.caps_hit;
+    v.parity_errors += r.report.parity_errors;
+  }
+}
+
+double build_seconds_of(const World& world, LightStrategy strategy) {
+  for (const LightStrategyBuild& b : world.summary().light_strategies) {
+    if (b.strategy == strategy) return b.seconds;
+  }
+  return 0;
+}
+
+VariantResult summarize(const CompareVariant& variant, const Runs& runs, double noise_floor) {
+  VariantResult v;
+  v.name = variant.name;
+  v.options = variant.options;
+  add_health(runs, v);
+  v.given_up = runs.empty() || std::any_of(runs.begin(), runs.end(), [](const RaceRun& r) { return r.given_up; });
+  if (v.given_up) return v;
+  v.samples = mean_of(runs, [](const RaceRun& r) { return last(r).samples; });
+  v.seconds = mean_of(runs, [](const RaceRun& r) { return last(r).seconds; });
+  v.error = mean_error(runs);
+  v.curve = curve_of(runs);
+  v.slope = slope_of(runs, noise_floor, [](const RaceCheckpoint& c) { return c.seconds; });
+  v.slope_samples = slope_of(runs, noise_floor, [](const RaceCheckpoint& c) { return double(c.samples); });
+  v.mean_rgb = mean_color(runs);
+  v.image = runs.front().image;
+  return v;
+}
+
+/// Error x time of each run at its end.
+std::vector<double> costs(const Runs& runs, double ErrorMetrics::*metric) {
+  return collect(runs, [metric](const RaceRun& r) { return last(r).error.*metric * last(r).seconds; });
+}
+
+/// Variants that are still in. Once out, a variant is left out of later seeds: it has cost several budgets already.
+std::vector<std::size_t> entrants(const std::vector<Runs>& runs) {
+  std::vector<std::size_t> in;
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (runs[i].empty() || !runs[i].back().given_up) in.push_back(i);
+  }
+  return in;
+}
+
+void run_seed(const World& world, const ComparePlan& plan, std::uint64_t seed, const RaceControl& control,
+              std::vector<Runs>& runs) {
+  const auto in = entrants(runs);
+  std::vector<RenderSettings> methods;
+  for (const std::size_t i : in) {
+    methods.push_back(plan.variants[i].settings);
+    methods.back().seed = seed;
+    methods.back().aovs = {"Variance"};
+  }
+  auto results = race(world, methods, plan.budget, control);
+  for (std::size_t k = 0; k < in.size(); ++k) {
+    if (!runs[in[k]].empty()) results[k].image = {};  // one picture a variant is shown
+    runs[in[k]].push_back(std::move(results[k]));
+  }
+}
+
+void add_efficiency(const Runs& base, const Runs& runs, VariantResult& v) {
+  const bool is_base = &base == &runs;
+  const auto relative = [&](double ErrorMetrics::*metric) {
+    auto interval = relative_efficiency(costs(base, metric), costs(runs, metric));
+    if (interval && is_base) interval = Interval{1, 1, 1};
+    return interval;
+  };
+  v.efficiency = relative(&ErrorMetrics::mse);
+  v.efficiency_trimmed = relative(&ErrorMetrics::relmse_trimmed);
+}
+
+void add_warnings(const VariantResult& v, const ComparePlan& plan, std::vector<std::string>& warnings) {
+  if (v.given_up) {
+    warnings.push_back(v.name + ": gave up, since one sample a pixel took more than four times the budget");
+  } else if (plan.budget.seconds && v.seconds > 1.1 * *plan.budget.seconds) {
+    warnings.push_back(v.name + ": took longer than the budget, since a sample a pixel is the least there is");
+  }
+  if (!v.slope_note().empty()) warnings.push_back(v.name + ": its error falls " + v.slope_note());
+  if (v.non_finite > 0) warnings.push_back(v.name + ": " + std::to_string(v.non_finite) + " samples were not finite");
+  if (v.majorant_violations > 0) warnings.push_back(v.name + ": " + std::to_string(v.majorant_violations) + " majorant violations");
+}
+
+}  // namespace
+
+std::string VariantResult::slope_note() const {
+  if (!slope || !slope_samples || slope->low <= -1) return "";
+  if (slope_samples->low <= -1) return "flatter than -1 in time but not in samples: the machine slowed down";
+  return "flatter than -1: a sign of bias";
+}
+
+CompareResult compare(const World& world, const ComparePlan& plan, const Reference& reference,
+                      const std::function<void(double)>& progress) {
+  std::vector<Runs> runs(plan.variants.size());
+  for (std::size_t i = 0; i < plan.seeds.size(); ++i) {
+    const auto all = static_cast<double>(plan.seeds.size());
+    run_seed(world, plan, plan.seeds[i],
+             {.measure = [&](const Image& image) { return reference.error_of(image); },
+              .progress = [&](double fraction) { progress((static_cast<double>(i) + fraction) / all); }},
+             runs);
+  }
+  CompareResult result;
+  for (std::size_t i = 0; i < plan.variants.size(); ++i) {
+    VariantResult v = summarize(plan.variants[i], runs[i], reference.relmse);
+    v.build_seconds = build_seconds_of(world, plan.variants[i].settings.lights);
+    if (!v.given_up && !runs.front().back().given_up) add_efficiency(runs.front(), runs[i], v);
+    add_warnings(v, plan, result.warnings);
+    result.variants.push_back(std::move(v));
+  }
+  if (result.variants.front().given_up) {
+    result.warnings.push_back("no efficiencies, since the first variant, which they are relative to, was given up");
+  }
+  return result;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,63 @@
+/// Methods side by side on one scene: error against time.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "report/efficiency.h"
+#include "report/race.h"
+#include "report/reference.h"
+
+namespace tyndall {
+
+/// A method under its name.
+struct CompareVariant {
+  std::string name;
+  std::string options;  ///< as on the command line
+  RenderSettings settings;
+};
+
+struct ComparePlan {
+  std::vector<CompareVariant> variants;  ///< the first is what the others are measured by
+  RaceBudget budget;
+  std::vector<std::uint64_t> seeds;      ///< a run of every variant for each
+};
+
+/// One point of a variant's curve: means over the seeds, at equal samples.
+struct CurvePoint {
+  double seconds = 0, samples = 0;
+  double mse = 0;
+  Interval relmse;
+};
+
+/// What the runs of a variant say together. What cannot be said is absent.
+struct VariantResult {
+  std::string name, options;
+  double build_seconds = 0;  ///< of what only this strategy needs
+  double samples = 0, seconds = 0;
+  ErrorMetrics error;                  ///< at the end, mean over the seeds
+  std::vector<CurvePoint> curve;
+  std::optional<Interval> slope;          ///< of log relMSE against log seconds
+  std::optional<Interval> slope_samples;  ///< against log samples: without the machine's moods
+  std::optional<Interval> efficiency, efficiency_trimmed;  ///< relative to the first variant
+  std::array<double, 3> mean_rgb{};
+  Image image;  ///< of the first seed
+  std::uint64_t non_finite = 0, majorant_violations = 0, caps_hit = 0, parity_errors = 0;
+  bool given_up = false;
+
+  /// "", or what the slopes are a sign of.
+  std::string slope_note() const;
+};
+
+struct CompareResult {
+  std::vector<VariantResult> variants;
+  std::vector<std::string> warnings;
+};
+
+/// Run the plan on `world`, which must have been built for every light strategy in it.
+CompareResult compare(const World& world, const ComparePlan& plan, const Reference& reference,
+                      const std::function<void(double)>& progress);
+
+}  // namespace tyndall

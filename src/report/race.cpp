@@ -1,0 +1,114 @@
+#include "report/race.h"
+
+#include <algorithm>
+#include <bit>
+#include <chrono>
+#include <numeric>
+
+namespace tyndall {
+namespace {
+
+constexpr double kTurnSeconds = 0.25;  ///< aim for one turn: short against the drift of a machine, long against a pass's overhead
+constexpr double kPatience = 4;        ///< budgets that a first sample may take
+
+std::array<double, 3> mean_color(const Image& image) {
+  std::array<double, 3> mean{};
+  for (int k = 0; k < 3; ++k) {
+    const std::vector<float>& values = image.find(std::string(1, "RGB"[k]))->values;
+    mean[k] = std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  }
+  return mean;
+}
+
+class Runner {
+ public:
+  Runner(const World& world, const RenderSettings& settings, const RaceBudget& budget)
+      : job_(world, settings), budget_(budget) {}
+
+  bool done() const { return run_.given_up || samples_left() == 0; }
+
+  void turn(const RaceControl& control) {
+    const int samples = next_pass();
+    const auto patient = [&](double) { return !budget_.seconds || watch_seconds() < kPatience * *budget_.seconds; };
+    pass_start_ = Clock::now();
+    const bool first = job_.samples() == 0;
+    if (!job_.advance(samples, first ? RenderJob::PassWatch(patient) : RenderJob::PassWatch())) {
+      run_.given_up = true;
+      return;
+    }
+    const int done = job_.samples();
+    if (std::has_single_bit(static_cast<unsigned>(done)) || samples_left() == 0) {
+      run_.checkpoints.push_back({job_.seconds(), done, control.measure(job_.image())});
+    }
+  }
+
+  double fraction() const {
+    if (done()) return 1;
+    if (budget_.seconds) return std::min(1.0, job_.seconds() / *budget_.seconds);
+    return static_cast<double>(job_.samples()) / *budget_.samples;
+  }
+
+  RaceRun finish() {
+    run_.report = job_.report();
+    if (!run_.given_up) {
+      run_.image = job_.image();
+      run_.mean_rgb = mean_color(run_.image);
+    }
+    return std::move(run_);
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  double watch_seconds() const { return std::chrono::duration<double>(Clock::now() - pass_start_).count(); }
+  double a_sample() const { return job_.seconds() / job_.samples(); }
+
+  /// Samples that the budget still holds, to the nearest whole one.
+  int samples_left() const {
+    const int done = job_.samples();
+    if (budget_.samples) return *budget_.samples - done;
+    if (done == 0) return 1;
+    const double left = (*budget_.seconds - job_.seconds()) / a_sample();
+    return static_cast<int>(std::clamp(left + 0.5, 0.0, 1e9));
+  }
+
+  int next_pass() const {
+    const int done = job_.samples();
+    if (done == 0) return 1;
+    const int to_checkpoint = static_cast<int>(std::bit_ceil(static_cast<unsigned>(done) + 1)) - done;
+    const int a_turn = static_cast<int>(std::clamp(kTurnSeconds / a_sample(), 1.0, 1e6));
+    return std::min({a_turn, to_checkpoint, samples_left()});
+  }
+
+  RenderJob job_;
+  RaceBudget budget_;
+  RaceRun run_;
+  Clock::time_point pass_start_;
+};
+
+double mean_fraction(const std::vector<Runner>& runners) {
+  double sum = 0;
+  for (const Runner& r : runners) sum += r.fraction();
+  return sum / static_cast<double>(runners.size());
+}
+
+}  // namespace
+
+std::vector<RaceRun> race(const World& world, const std::vector<RenderSettings>& methods, const RaceBudget& budget,
+                          const RaceControl& control) {
+  std::vector<Runner> runners;
+  for (const RenderSettings& m : methods) runners.emplace_back(world, m, budget);
+  const auto running = [](const Runner& r) { return !r.done(); };
+  // Who has come least far is next: all reach each point of the race at about the same time.
+  while (std::any_of(runners.begin(), runners.end(), running)) {
+    std::min_element(runners.begin(), runners.end(), [](const Runner& a, const Runner& b) {
+      return a.fraction() < b.fraction();
+    })->turn(control);
+    if (control.progress) control.progress(mean_fraction(runners));
+  }
+  std::vector<RaceRun> runs;
+  for (Runner& r : runners) runs.push_back(r.finish());
+  return runs;
+}
+
+}  // namespace tyndall

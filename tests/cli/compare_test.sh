@@ -1,0 +1,65 @@
+# `tyndall compare`, and what render shares with it: --error, --reference, --error-log.
+. "$TYNDALL_SOURCE_DIR/tests/cli/support.bash"
+T=$TYNDALL_BIN
+small_scene >s.pbrt
+small="--resolution 24x16 --spp 16 --reference-error 0.003"
+
+# Every preset, each with the strategies that exist.
+expect 0 "$T" compare s.pbrt --variants lights $small -o report
+for file in index.html results.json error.csv reference.exr uniform.exr tree-binary.exr; do [ -s report/$file ] || fail "no report/$file"; done
+for key in scene reference machine variants name options samples seconds relmse slope efficiency efficiency_trimmed relative low high mean_rgb checkpoints mse; do
+  says "\"$key\"" report/results.json
+done
+for name in uniform power exhaustive tree-binary; do says "\"name\": \"$name\"" report/results.json; done
+says 'variant,seconds,samples,mse' report/error.csv
+[ "$(grep -c '^power,' report/error.csv)" = 5 ] || fail "error.csv has no point at 1, 2, 4, 8, 16 samples"
+says 'tree-binary' out.txt
+for preset in media distance transmittance all; do
+  expect 0 "$T" compare s.pbrt --variants $preset --resolution 8x8 --spp 4 --reference-time 0.2 -o preset --quiet
+done
+says '"name": "ratio"' preset/results.json
+says '"name": "power"' preset/results.json
+
+# Explicit variants; options for all; equal time; a reference that is given.
+expect 0 "$T" render s.pbrt --resolution 24x16 --spp 256 --seed 77 --max-depth 1 --aov Variance -o ref.exr --quiet
+expect 0 "$T" compare s.pbrt --variants "base:--lights power, sharp one:--lights tree-binary --transmittance ratio" --time 0.2 \
+  --resolution 24x16 --max-depth 1 --reference ref.exr --json -o timed
+says '"name": "sharp one"' out.txt
+says '"options": "--lights tree-binary --transmittance ratio"' out.txt
+says '"options": "--resolution 24x16 --max-depth 1"' out.txt
+says '"noise_subtracted": true' out.txt
+says '"budget": "0.2 s"' out.txt
+[ -s timed/sharp_one.exr ] || fail "no picture of a variant with a blank in its name"
+[ "$(head -c 1 out.txt)" = "{" ] || fail "stdout does not start with JSON"
+
+# Usage errors say what is known.
+expect 2 "$T" compare s.pbrt --variants lamps -o r
+says 'lights, media, distance, transmittance, all' err.txt
+expect 2 "$T" compare s.pbrt --variants "a:--max-depth 2" -o r
+says 'give it to compare itself' err.txt
+expect 2 "$T" compare s.pbrt --variants "a:--lights magic" -o r
+says 'tree-binary' err.txt
+expect 2 "$T" compare s.pbrt --variants "a:--lights power,a:--lights uniform" -o r
+expect 2 "$T" compare s.pbrt --spp 4 --time 1 -o r
+expect 2 "$T" compare s.pbrt --seeds 2 -o r
+expect 2 "$T" compare s.pbrt --variants lights --reference ref.exr --spp 2 -o r
+says '24x16' err.txt
+expect 3 "$T" compare absent.pbrt -o r
+expect 3 "$T" compare s.pbrt --reference absent.exr --resolution 24x16 -o r
+echo file >occupied
+expect 4 "$T" compare s.pbrt $small -o occupied
+
+# render: an error goal ends at a power of two from 64 on; the log has the same checkpoints as compare.
+expect 0 "$T" render s.pbrt --resolution 24x16 --error 1000 --json -o goal.exr
+says '"samples": 64' out.txt
+expect 0 "$T" render s.pbrt --resolution 24x16 --max-depth 1 --spp 20 --reference ref.exr --error-log log.jsonl -o logged.exr
+[ "$(grep -c relmse_trimmed log.jsonl)" = 6 ] || fail "not a line at 1, 2, 4, 8, 16 and 20 samples: $(cat log.jsonl)"
+says '"samples":20' log.jsonl
+expect 0 "$T" render s.pbrt --resolution 24x16 --max-depth 1 --spp 20 --reproducible -o plain.exr
+expect 0 "$T" render s.pbrt --resolution 24x16 --max-depth 1 --spp 20 --reproducible --reference ref.exr --error-log log.jsonl -o logged.exr
+cmp plain.exr logged.exr || fail "--error-log changes the picture"
+expect 2 "$T" render s.pbrt --reference ref.exr -o a.exr
+expect 2 "$T" render s.pbrt --error 0 -o a.exr
+expect 2 "$T" render s.pbrt --reference ref.exr --error-log log.jsonl -o a.exr
+expect 4 "$T" render s.pbrt --reference ref.exr --error-log nowhere/log.jsonl -o a.exr
+finish

@@ -1,0 +1,105 @@
+#include "report/race.h"
+
+#include <doctest/doctest.h>
+
+#include "report/compare.h"
+#include "tyndall/io.h"
+
+namespace tyndall {
+namespace {
+
+constexpr const char* kScene = R"(
+Film "rgb" "integer xresolution" 24 "integer yresolution" 16
+Camera "perspective" "float fov" 50
+WorldBegin
+LightSource "point" "rgb I" [ 1 2 3 ] "point3 from" [ 1 1 2 ]
+LightSource "point" "rgb I" [ 1 1 1 ] "point3 from" [ -3 1 2 ]
+Translate 0 0 4
+Shape "sphere" "float radius" 1.5
+)";
+
+World world() {
+  return build(read_scene_text(kScene, "test.pbrt").scene, {.lights = {LightStrategy::uniform, LightStrategy::power}, .threads = 1});
+}
+
+RenderSettings method(LightStrategy lights, std::uint64_t seed = 3) {
+  RenderSettings s;
+  s.lights = lights;
+  s.threads = 1;
+  s.seed = seed;
+  s.reproducible = true;
+  s.aovs = {"Variance"};
+  return s;
+}
+
+Image plain(const World& w, LightStrategy lights, int spp) {
+  RenderSettings s = method(lights);
+  s.spp = spp;
+  return render(w, s).image;
+}
+
+TEST_CASE("a race of equal samples ends with the pictures that plain renders give") {
+  const World w = world();
+  const Image black = [&] {
+    Image image = plain(w, LightStrategy::power, 1);
+    for (Channel& c : image.channels) std::fill(c.values.begin(), c.values.end(), 0.0f);
+    return image;
+  }();
+  double last = 0;
+  const auto runs = race(w, {method(LightStrategy::uniform), method(LightStrategy::power)}, {.seconds = std::nullopt, .samples = 21},
+                         {.measure = [&](const Image& i) { return measure_error(i, black); }, .progress = [&](double f) { CHECK(f >= last); last = f; }});
+  CHECK(last == 1);
+  REQUIRE(runs.size() == 2);
+  CHECK(runs[0].image.find("R")->values == plain(w, LightStrategy::uniform, 21).find("R")->values);
+  CHECK(runs[1].image.find("B")->values == plain(w, LightStrategy::power, 21).find("B")->values);
+  for (const RaceRun& run : runs) {
+    std::vector<int> samples;
+    for (const RaceCheckpoint& c : run.checkpoints) samples.push_back(c.samples);
+    CHECK(samples == std::vector<int>{1, 2, 4, 8, 16, 21});
+    CHECK(run.checkpoints[2].error.mse == doctest::Approx(measure_error(plain(w, &run == &runs[0] ? LightStrategy::uniform : LightStrategy::power, 4), black).mse));
+    CHECK(run.checkpoints.back().seconds >= run.checkpoints.front().seconds);
+  }
+}
+
+TEST_CASE("a race of equal time stops at it, and gives up on what has no sample by four times that") {
+  const World w = world();
+  const auto measure = [](const Image&) { return ErrorMetrics{}; };
+  const auto runs = race(w, {method(LightStrategy::uniform)}, {.seconds = 0.05, .samples = std::nullopt}, {.measure = measure});
+  CHECK(runs[0].checkpoints.size() > 3);
+  const auto hurried = race(w, {method(LightStrategy::uniform)}, {.seconds = 1e-9, .samples = std::nullopt}, {.measure = measure});
+  CHECK(hurried[0].given_up);
+  CHECK(hurried[0].checkpoints.empty());
+}
+
+TEST_CASE("compare: an unbiased pair, a reference with noise, and a biased one that the slope gives away") {
+  const World w = world();
+  const Reference reference = render_reference(w, method(LightStrategy::power, 99), {.relmse = 1e-5}, {});
+  CHECK(reference.relmse < 1e-5);
+  CHECK(reference.samples >= 64);
+  const ComparePlan plan{{{"a", "--lights uniform", method(LightStrategy::uniform)}, {"b", "--lights power", method(LightStrategy::power)}},
+                         {.seconds = std::nullopt, .samples = 64}, {1, 2, 3, 4, 5}};
+  const CompareResult result = compare(w, plan, reference, [](double) {});
+  REQUIRE(result.variants.size() == 2);
+  for (const VariantResult& v : result.variants) {
+    CHECK(v.curve.size() == 7);
+    CHECK(v.samples == 64);
+    REQUIRE(v.slope_samples);
+    CHECK(v.slope_samples->value < -0.95);
+    CHECK(v.error.relmse > 0);
+    CHECK(v.error.relmse < v.curve.front().relmse.value / 30);
+  }
+  CHECK(result.variants[0].efficiency->value == 1);
+  CHECK(result.variants[1].efficiency->low < result.variants[1].efficiency->high);
+
+  Reference wrong = reference;  // as if the methods lost light
+  for (const char* name : {"R", "G", "B"}) {
+    for (Channel& c : wrong.image.channels) {
+      if (c.name == name) for (float& v : c.values) v *= 1.4f;
+    }
+  }
+  const CompareResult biased = compare(w, plan, wrong, [](double) {});
+  CHECK(biased.variants[1].slope_samples->low > -1);
+}
+
+}  // namespace
+}  // namespace tyndall
