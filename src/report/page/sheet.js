@@ -21,9 +21,8 @@ class Sheet {
     this.viewer = viewer;
     const shown = [...viewer.pictures.map((picture) => [picture, 'picture']), ...errors.map((picture) => [picture, 'error'])];
     this.cards = shown.map(([picture, mode]) => {
-      const canvas = element(
-          'canvas',
-          {width: Math.round(picture.width * sheetScale(picture)), height: Math.round(picture.height * sheetScale(picture))});
+      const scale = sheetScale(picture), size = {width: Math.round(picture.width * scale), height: Math.round(picture.height * scale)};
+      const canvas = element('canvas', {...size, class: picture.width < 200 ? 'small' : null});
       const show = () => {
         viewer.set({current: picture, mode});
         viewer.root.scrollIntoView({block: 'nearest', behavior: 'smooth'});

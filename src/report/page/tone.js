@@ -79,6 +79,6 @@ function errorLegend() {
       element('div', {class: 'error-ticks', 'aria-hidden': 'true'}, ticks),
       element(
           'p', {},
-          `Relative squared error of a pixel, mean of R, G and B: black 1e${low} and below, white 1e${
+          `Relative squared error of a pixel, mean of R, G and B: black 1e${low} and below, pale yellow 1e${
               high} and above; green: not finite.`));
 }
