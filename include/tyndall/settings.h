@@ -30,6 +30,8 @@ struct RenderSettings {
   std::uint64_t seed = 0;
   int threads = 0;               ///< 0: all cores
   LightStrategy lights = LightStrategy::tree_binary;  ///< one that the World was built with
+  int candidates = 1;   ///< lights chosen at a vertex, >= 1; exhaustive takes all and traces all
+  int shadow_rays = 1;  ///< of the candidates, are traced, >= 0; 0: every one
   MediaStrategy media = MediaStrategy::vertex;
   DistanceStrategy distance = DistanceStrategy::tracking;
   TransmittanceStrategy transmittance = TransmittanceStrategy::residual;

@@ -44,6 +44,8 @@ std::string common_options(const CompareOptions& o) {
     if (!value.empty()) text += (text.empty() ? "--" : " --") + option + " " + value;
   };
   for (std::size_t i = 0; i < strategy_axes().size(); ++i) add(std::string(strategy_axes()[i].option), o.methods.strategies[i]);
+  if (o.methods.candidates) add("candidates", std::to_string(*o.methods.candidates));
+  if (o.methods.shadow_rays) add("shadow-rays", std::to_string(*o.methods.shadow_rays));
   add("crop", o.picture.crop);
   add("resolution", o.picture.resolution);
   if (o.picture.max_depth) add("max-depth", std::to_string(*o.picture.max_depth));

@@ -73,10 +73,6 @@ void set_samples(const RenderOptions& options, RenderSettings& settings) {
 
 }  // namespace
 
-bool MethodOptions::any() const {
-  return std::any_of(strategies.begin(), strategies.end(), [](const std::string& s) { return !s.empty(); });
-}
-
 void declare(CLI::App& command, MethodOptions& o) {
   for (std::size_t i = 0; i < strategy_axes().size(); ++i) {
     const StrategyAxis& axis = strategy_axes()[i];
@@ -85,6 +81,10 @@ void declare(CLI::App& command, MethodOptions& o) {
                        std::string(axis.about) + ": " + join(axis.names, ", ") + " [the Integrator's, else " +
                            std::string(axis.get({})) + "]; " + option + " " + std::string(axis.names.back()));
   }
+  command.add_option("--candidates", o.candidates, "lights chosen at a vertex and looked at without visibility [the Integrator's, else 1]; --candidates 8")
+      ->check(CLI::Range(1, 4096));
+  command.add_option("--shadow-rays", o.shadow_rays, "of these are traced, resampled by their contribution; 0: all [the Integrator's, else 1]; --shadow-rays 0")
+      ->check(CLI::Range(0, 4096));
 }
 
 void declare(CLI::App& command, PictureOptions& o) {
@@ -133,6 +133,8 @@ void apply(const MethodOptions& o, RenderSettings& settings) {
     const std::string& name = o.strategies[i];
     if (!name.empty() && !axis.set(settings, name)) bad("--" + std::string(axis.option), name, join(axis.names, ", "));
   }
+  if (o.candidates) settings.candidates = *o.candidates;
+  if (o.shadow_rays) settings.shadow_rays = *o.shadow_rays;
 }
 
 void apply(const PictureOptions& o, Scene& scene) {

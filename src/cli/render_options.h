@@ -15,7 +15,7 @@ namespace tyndall::cli {
 struct MethodOptions {
   std::vector<std::string> strategies = std::vector<std::string>(strategy_axes().size());  ///< by axis; empty: not given
 
-  bool any() const;
+  std::optional<int> candidates, shadow_rays;
 };
 
 /// Options that say what the right picture is.

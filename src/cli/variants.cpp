@@ -27,7 +27,7 @@ std::vector<std::string> split(const std::string& text, const char* separators) 
 std::string method_option_names() {
   std::string names;
   for (const StrategyAxis& axis : strategy_axes()) names += (names.empty() ? "--" : ", --") + std::string(axis.option);
-  return names;
+  return names + ", --candidates, --shadow-rays";
 }
 
 CompareVariant variant_of(const std::string& name, const std::string& options, const RenderSettings& base) {
@@ -69,7 +69,8 @@ bool add_preset(const std::string& name, const RenderSettings& base, std::vector
 
 bool same_method(const RenderSettings& a, const RenderSettings& b) {
   const auto& axes = strategy_axes();
-  return std::all_of(axes.begin(), axes.end(), [&](const StrategyAxis& axis) { return axis.get(a) == axis.get(b); });
+  return a.candidates == b.candidates && a.shadow_rays == b.shadow_rays &&
+         std::all_of(axes.begin(), axes.end(), [&](const StrategyAxis& axis) { return axis.get(a) == axis.get(b); });
 }
 
 /// A method that several presets hold appears once; two of one name are a mistake.

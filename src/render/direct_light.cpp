@@ -1,25 +1,88 @@
 #include "render/direct_light.h"
 
+#include <algorithm>
+
+#include "math/small_vector.h"
+
 namespace tyndall {
 namespace {
 
 /// Shadow rays end this fraction short of the light, so that they do not meet the emitter itself.
 constexpr float kShadowEnd = 1 - 1e-4f;
+constexpr double kBelowOne = 0x1.fffffffffffffp-1;
 
-/// One light's contribution, divided by the probability `pmf` of having chosen it.
-Rgb sample_light(const LightContext& context, const Vertex& vertex, Rgb beta, SelectedLight selected) {
-  const auto light = context.world.lights.sample(selected.light, vertex.p(), context.sampler.next_2d(), true);
-  if (!light || is_black(light->L) || !(light->pdf > 0)) return {};
-  const float density = selected.pmf * light->pdf;
-  if (!(density > 0)) return {};
+/// A light looked at without visibility.
+struct Candidate {
+  LightSample light;
+  Rgb contribution;  ///< were it visible: scattering x radiance x MIS weight / density, of all candidates together
+  float weight;      ///< in resampling: the contribution's size
+};
+
+/// `tries`: times that light is tried, on average.
+std::optional<Candidate> look_at(const LightContext& context, const Vertex& vertex, Rgb beta, SelectedLight tried, Vec2 u) {
+  const auto light = context.world.lights.sample(tried.light, vertex.p(), u, true);
+  if (!light || is_black(light->L) || !(light->pdf > 0)) return std::nullopt;
+  const float density = tried.pmf * light->pdf;
+  if (!(density > 0)) return std::nullopt;
   const Rgb f = vertex.eval(light->wi);
-  if (is_black(f)) return {};
+  if (is_black(f)) return std::nullopt;
+  // The density of the candidates stands for the technique: it is known for every direction, unlike the resampled one.
+  const float mis = light->delta ? 1.0f : mis_weight(density, vertex.pdf(light->wi, beta));
+  const Rgb contribution = f * light->L * (mis / density);
+  const float weight = mean(beta * contribution);
+  if (!(weight > 0)) return std::nullopt;
+  return Candidate{*light, contribution, weight};
+}
 
-  const Vec3 origin = vertex.origin(context.world.geometry, light->wi);
-  const Rgb T = visibility(context, vertex.media_toward(context.world.geometry, light->wi), origin, light->wi, light->distance);
-  if (is_black(T)) return {};
-  const float weight = light->delta ? 1.0f : mis_weight(density, vertex.pdf(light->wi, beta));
-  return f * light->L * T * (weight / density);
+/// The candidate's contribution dimmed by what is in between.
+Rgb trace(const LightContext& context, const Vertex& vertex, const Candidate& c) {
+  const World::Parts& world = context.world;
+  const Vec3 origin = vertex.origin(world.geometry, c.light.wi);
+  return c.contribution * visibility(context, vertex.media_toward(world.geometry, c.light.wi), origin, c.light.wi, c.light.distance);
+}
+
+Rgb trace_all(const LightContext& context, const Vertex& vertex, Rgb beta) {
+  Rgb sum;
+  for (LightId id = 0; id < context.world.lights.size(); ++id) {
+    if (const auto c = look_at(context, vertex, beta, {id, 1}, context.sampler.next_2d())) sum += trace(context, vertex, *c);
+  }
+  return sum;
+}
+
+using Candidates = SmallVector<Candidate, 8>;
+
+/// One number gives all their selections: the i-th of n lies in the i-th n-th of [0, 1), so that they spread.
+Candidates find_candidates(const LightContext& context, const Vertex& vertex, Rgb beta) {
+  const int n = context.settings.candidates;
+  const double u = context.sampler.next_wide();
+  const PointQuery query = vertex.light_query();
+  Candidates found;
+  for (int i = 0; i < n; ++i) {
+    const Vec2 on_light = context.sampler.next_2d();  // drawn in any case: later dimensions stay where they are
+    const auto selected = context.selector.select(query, std::min((i + u) / n, kBelowOne));
+    if (!selected) continue;
+    const auto c = look_at(context, vertex, beta, {selected->light, selected->pmf * static_cast<float>(n)}, on_light);
+    if (c) found.push_back(*c);
+  }
+  return found;
+}
+
+/// Resampled importance sampling: `rays` of the candidates, drawn with replacement in proportion to their weights, stand
+/// for all [Talbot et al. 2005, eq. 4]. Strata of one number draw them.
+Rgb trace_some(const LightContext& context, const Vertex& vertex, const Candidates& candidates, int rays, float u) {
+  float total = 0;
+  for (const Candidate& c : candidates) total += c.weight;
+  if (!(total > 0)) return {};
+  Rgb sum;
+  std::size_t i = 0;
+  float passed = candidates[0].weight;  // cumulative weight up to and with candidate i
+  for (int k = 0; k < rays; ++k) {
+    const float target = (static_cast<float>(k) + u) / static_cast<float>(rays) * total;
+    while (passed <= target && i + 1 < candidates.size()) passed += candidates[++i].weight;
+    const Candidate& c = candidates[i];
+    sum += trace(context, vertex, c) * (total / (c.weight * static_cast<float>(rays)));
+  }
+  return sum;
 }
 
 }  // namespace
@@ -38,24 +101,30 @@ Rgb visibility(const LightContext& context, const MediaState& media, Vec3 origin
   SpanWalk walk(world.media_context(), media, *crossings, t_end);
   while (const auto interval = walk.next()) {
     const MediaView view(interval->media.data(), interval->media.size());
-    T *= transmittance(context.transmittance, view, ray, interval->t0, interval->t1, rng, context.counters.tracking);
+    T *= transmittance(context.settings.transmittance, view, ray, interval->t0, interval->t1, rng, context.counters.tracking);
     if (is_black(T)) break;
   }
   context.counters.parity_errors += walk.parity_errors();
   return T;
 }
 
+float expected_candidates(const LightContext& context, const PointQuery& query, LightId light) {
+  if (context.selector.exhaustive()) return 1;
+  return context.selector.pmf(query, light) * static_cast<float>(context.settings.candidates);
+}
+
 Rgb direct_light(const LightContext& context, const Vertex& vertex, Rgb beta) {
-  const Lights& lights = context.world.lights;
-  if (lights.empty() || !vertex.has_smooth()) return {};
-  if (context.selector.exhaustive()) {
-    Rgb sum;
-    for (LightId id = 0; id < lights.size(); ++id) sum += sample_light(context, vertex, beta, {id, 1.0f});
-    return sum;
-  }
-  const auto selected = context.selector.select(vertex.light_query(), context.sampler.next_wide());
-  if (!selected) return {};
-  return sample_light(context, vertex, beta, *selected);
+  if (context.world.lights.empty() || !vertex.has_smooth()) return {};
+  if (context.selector.exhaustive()) return trace_all(context, vertex, beta);
+
+  const Candidates candidates = find_candidates(context, vertex, beta);
+  const float u = context.settings.candidates > 1 ? context.sampler.next_1d() : 0.0f;
+  if (candidates.empty()) return {};
+  const int rays = context.settings.shadow_rays;
+  if (rays > 0 && candidates.size() > static_cast<std::size_t>(rays)) return trace_some(context, vertex, candidates, rays, u);
+  Rgb sum;
+  for (const Candidate& c : candidates) sum += trace(context, vertex, c);
+  return sum;
 }
 
 }  // namespace tyndall

@@ -13,7 +13,8 @@ std::string options_text(const RenderSettings& settings) {
   for (const StrategyAxis& axis : strategy_axes()) {
     text += " --" + std::string(axis.option) + " " + std::string(axis.get(settings));
   }
-  return text;
+  return text + " --candidates " + std::to_string(settings.candidates) + " --shadow-rays " +
+         std::to_string(settings.shadow_rays);
 }
 
 std::string utc_now() {

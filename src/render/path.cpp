@@ -135,7 +135,7 @@ void Path::dim_through_media(const Trace& trace, float t_end) {
   SpanWalk walk(context_.world.media_context(), media_, trace.crossings, t_end);
   while (const auto interval = walk.next()) {
     const MediaView view(interval->media.data(), interval->media.size());
-    beta_ *= transmittance(context_.transmittance, view, ray_, interval->t0, interval->t1, rng,
+    beta_ *= transmittance(context_.settings.transmittance, view, ray_, interval->t0, interval->t1, rng,
                            context_.counters.tracking);
     if (is_black(beta_)) return;
   }
@@ -157,8 +157,8 @@ void Path::add_environment() {
     if (is_black(L)) continue;
     float weight = 1;
     if (light_sampled_) {
-      const float pmf = context_.selector.pmf(query_, id);
-      weight = mis_weight(pdf_, pmf * lights.environment_pdf(id, ray_.d, true));
+      const float tries = expected_candidates(context_, query_, id);
+      weight = mis_weight(pdf_, tries * lights.environment_pdf(id, ray_.d, true));
     }
     add(beta_ * L * weight, depth_);
   }
@@ -173,8 +173,8 @@ void Path::add_surface_emission(const SurfaceHit& hit) {
   if (is_black(L)) return;
   float weight = 1;
   if (light_sampled_) {
-    const float pmf = context_.selector.pmf(query_, *id);
-    weight = mis_weight(pdf_, pmf * lights.pdf(*id, query_.p, emitter));
+    const float tries = expected_candidates(context_, query_, *id);
+    weight = mis_weight(pdf_, tries * lights.pdf(*id, query_.p, emitter));
   }
   add(beta_ * L * weight, depth_);
 }
@@ -212,7 +212,7 @@ void Path::record_transmittance(const Trace& trace, float t_end) {
   SpanWalk walk(context_.world.media_context(), media_, trace.crossings, t_end);
   while (const auto interval = walk.next()) {
     const MediaView view(interval->media.data(), interval->media.size());
-    record_.transmittance *= transmittance(context_.transmittance, view, ray_, interval->t0, interval->t1, rng,
+    record_.transmittance *= transmittance(context_.settings.transmittance, view, ray_, interval->t0, interval->t1, rng,
                                            context_.counters.tracking);
   }
 }

@@ -44,6 +44,8 @@ PixelBounds full_crop(const Scene& scene, const RenderSettings& settings) {
 
 void check(const RenderSettings& settings) {
   if (settings.spp < 1) throw Error(Failure::usage, "spp is " + std::to_string(settings.spp) + "; give 1 or more");
+  if (settings.candidates < 1) throw Error(Failure::usage, "candidates is " + std::to_string(settings.candidates) + "; give 1 or more");
+  if (settings.shadow_rays < 0) throw Error(Failure::usage, "shadow rays is negative; give 0 or more");
   if (settings.max_depth < 0) throw Error(Failure::usage, "max depth is negative; give 0 or more");
   if (settings.error && !(*settings.error > 0)) throw Error(Failure::usage, "error must be positive; give a relMSE");
   if (settings.time && !(*settings.time > 0)) throw Error(Failure::usage, "time must be positive; give seconds");
@@ -132,7 +134,7 @@ class RenderJob::Impl {
     const FilterSampler::Offset offset = world_.filter.sample(sampler.next_2d());
     const Vec2 lens = sampler.next_2d();
     const Vec2 on_film{static_cast<float>(x) + 0.5f + offset.p.x, static_cast<float>(y) + 0.5f + offset.p.y};
-    const LightContext context{world_, selector_, settings_.transmittance, sampler, counters};
+    const LightContext context{world_, selector_, settings_, sampler, counters};
     const Path::Limits limits{.max_depth = settings_.max_depth,
                               .want_transmittance = film_.wants(Aov::transmittance),
                               .want_albedo = film_.wants(Aov::albedo)};

@@ -78,6 +78,14 @@ TEST_CASE("light strategies") {
                         {"tree-binary", scene, {.lights = LightStrategy::tree_binary}}});
 }
 
+TEST_CASE("several candidates, resampled to fewer shadow rays or all traced") {
+  const std::string scene = many_lights();
+  check_same("resampling", {{"one", scene},
+                            {"4 to 1", scene, {.candidates = 4}},
+                            {"5 to 2, by power", scene, {.lights = LightStrategy::power, .candidates = 5, .shadow_rays = 2}},
+                            {"3, all traced", scene, {.candidates = 3, .shadow_rays = 0}}});
+}
+
 TEST_CASE("transmittance estimators") {
   Coefficients dense = kSmoke;
   dense.sigma_a = kSmoke.sigma_a * 3;

@@ -22,6 +22,8 @@ RenderSettings settings_of(const Scene& scene, const Variant& variant) {
   settings.lights = variant.lights;
   settings.transmittance = variant.transmittance;
   settings.threads = variant.threads;
+  settings.candidates = variant.candidates;
+  settings.shadow_rays = variant.shadow_rays;
   settings.reproducible = true;
   return settings;
 }

@@ -16,6 +16,7 @@ struct Variant {
   LightStrategy lights = LightStrategy::tree_binary;
   TransmittanceStrategy transmittance = TransmittanceStrategy::residual;
   int threads = 0;
+  int candidates = 1, shadow_rays = 1;
 };
 
 /// Builds a world and renders it as often as asked.
