@@ -49,6 +49,9 @@ void write_exr(const Image& image, const std::string& path);
 /// Write an 8-bit sRGB PNG of R G B after `exposure` stops.
 void write_png(const Image& image, const std::string& path, float exposure = 0);
 
+/// A binary polygon file (.ply) of the mesh: float positions, with normals and uvs when there are any, 32-bit indices.
+/// Throws Error (output) for a mesh without triangles, or whose indices or counts do not agree.
+std::string encode_ply(const TriangleMesh& mesh);
 /// Write bytes as they are, in the same safe way as an image. Throws Error (output).
 void write_file(std::string_view bytes, const std::string& path);
 
