@@ -15,7 +15,8 @@ BEGIN {
   allow("io", "math")  # and no grid, surface or light: a reader fills the public Scene
   allow("render", "volume surface light texture math")
   allow("report", "")  # io and render through include/tyndall
-  allow("cli", "report io render")
+  allow("example", "math")  # writes files through include/tyndall
+  allow("cli", "report io render example")
 
   # A library as its include lines begin, and the files that may see it.
   door("^(openvdb|nanovdb)/", "^src/volume/vdb_")
@@ -26,8 +27,8 @@ BEGIN {
   # report: a page carries its pictures deflated, for the browser; that is no file format of io.
   door("^zlib\\.h", "^src/(io/|volume/vdb_|report/page_picture\\.cpp$)")
   door("^blosc\\.h", "^src/volume/vdb_")
-  door("^nlohmann/", "^src/(report|cli)/")
-  door("^(CLI|spdlog|fmt)/", "^src/cli/")
+  door("^(nlohmann|fmt)/", "^src/(report|cli)/")
+  door("^(CLI|spdlog)/", "^src/cli/")
   # Not libraries: the compiler and the operating system.
   door("^([a-z]*intrin\\.h|experimental/simd)$", "^src/")
   door("^(unistd\\.h|fcntl\\.h|signal\\.h|sys/[a-z]*\\.h)$", "^src/")
