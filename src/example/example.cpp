@@ -18,15 +18,13 @@ const std::vector<Entry>& entries() {
   constexpr auto kNone = std::nullopt;
   static const std::vector<Entry> list{
       {{"glossy-lights", "coloured lights over metal of six roughnesses", 10000, kNone, kNone, 5}, make_glossy_lights},
-      {{"mesh-light-fog", "a glowing knot, one mesh of many emissive triangles, caged in fog", 20000, 1.0, kNone, 16},
+      {{"mesh-light-fog", "a glowing knot in fog: one mesh of many emissive triangles", 20000, 1.0, kNone, 16},
        make_mesh_light_fog},
       {{"ceiling", "a Cornell box with small lights all over its ceiling", 10000, kNone, kNone, 5}, make_ceiling},
       {{"smoke-lights", "a plume of smoke with lights around and inside it", 10000, 1.0, LampShape::triangle, 16},
        make_smoke_lights},
-      {{"fog-street", "a wet street at night: windows, lamps, neon and strings of bulbs in fog", 2000, 1.0, kNone, 16},
-       make_fog_street},
-      {{"furnace", "white objects and media in a white surrounding: every pixel is 1", kNone, kNone, kNone, 1000},
-       make_furnace},
+      {{"fog-street", "a street at night in fog: windows, lamps, neon, bulbs", 2000, 1.0, kNone, 16}, make_fog_street},
+      {{"furnace", "white objects and media in white light: every pixel is 1", kNone, kNone, kNone, 1000}, make_furnace},
   };
   return list;
 }

@@ -61,7 +61,7 @@ void add_cage(PbrtText& text) {
   constexpr float kRadius = 1.75f;
   text << "# A cage of slats, on a floor.\nAttributeBegin\n  Material \"diffuse\" \"rgb reflectance\" [0.16 0.13 0.11]\n";
   for (int i = 0; i < kSlats; ++i) {
-    const float angle = 2 * kPi * (static_cast<float>(i) + 0.5f) / kSlats;
+    const float angle = 2 * kPi * static_cast<float>(i) / kSlats;  // a gap toward the camera
     text << block(
         {.foot = {kRadius * std::cos(angle), 0, kRadius * std::sin(angle)}, .size = {0.06f, 2.0f, 0.56f}, .turn = -angle});
   }
@@ -83,7 +83,7 @@ std::vector<ExampleFile> make_mesh_light_fog(const ExampleSettings& s) {
 
   Rng rng = stream(s.seed, 1);
   const TriangleMesh mesh = knot(s.lights, rng);
-  constexpr float kPower = 240;
+  constexpr float kPower = 280;
   text << "# The knot: " << static_cast<int>(mesh.indices.size() / 3) << " emissive triangles.\nAttributeBegin\n";
   add_emission(text, Rgb(1.8f, 0.88f, 0.32f) * (kPower / (kPi * static_cast<float>(area_of(mesh)))));
   text << "  Shape \"plymesh\" \"string filename\" \"knot.ply\"\nAttributeEnd\n";
