@@ -33,7 +33,7 @@ std::size_t count_non_finite(const MeanImage& image) {
   return count;
 }
 
-/// Two exact, equal values: nothing was measured.
+/// Equal to the last bit: black in both, or one and the same render.
 bool says_nothing(const CautiousBlock& block) { return block.difference.welch.t == 0 && block.plain_p == 1; }
 
 void test_blocks(const std::vector<CautiousBlock>& blocks, ImageTest& test, double level) {
@@ -103,7 +103,7 @@ void judge(ImageTest& test) {
   if (!test.same) {
     test.verdict = "differs: " + reasons;
   } else {
-    test.verdict = text("same: none of %zu blocks off, mean ", test.blocks) + mean_text(test, 0) + ", " + mean_text(test, 1) + ", " +
+    test.verdict = (test.blocks == 0 ? "same: every block equal, mean " : text("same: none of %zu blocks off, mean ", test.blocks)) + mean_text(test, 0) + ", " + mean_text(test, 1) + ", " +
                    mean_text(test, 2);
   }
 }

@@ -19,7 +19,7 @@ struct ImageTest {
   bool same = false;    ///< no alarm of any kind
   std::string verdict;  ///< one line for people
 
-  std::size_t blocks = 0;       ///< tested, over all channels; equal ones without noise, black in both say, tell nothing
+  std::size_t blocks = 0;       ///< tested, over all channels; exactly equal ones, black in both say, tell nothing
   std::size_t alarms = 0;       ///< of them with p below block_level
   double block_level = 0;       ///< Sidak's, for `blocks` tests
   BlockDifference worst_block;  ///< the most significant one; x and y in blocks
