@@ -83,6 +83,7 @@ Json as_json(const ImageTest& test, const ImageTestSettings& settings) {
     j["means"].push_back({{"relative_bias", test.relative_bias[k]}, {"relative_error", test.relative_error[k]}, {"p", test.means[k].p}});
   }
   j["mean_level"] = test.mean_level;
+  j["small_p"] = test.small_p;
   j["uniformity_p"] = test.uniformity_p;
   j["uniformity_level"] = test.uniformity_level;
   return j;

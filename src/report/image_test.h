@@ -28,7 +28,8 @@ struct ImageTest {
   std::array<double, 3> relative_bias{};      ///< (mean a - mean b) / mean b; 0 when both are 0
   std::array<double, 3> relative_error{};     ///< one standard error of it
   double mean_level = 0;                      ///< of each of the three tests
-  std::array<double, 3> uniformity_p{1, 1, 1};  ///< that so many p-values are small by chance, by channel
+  std::array<double, 3> small_p{};              ///< part of the blocks with p < 0.05, by channel
+  std::array<double, 3> uniformity_p{1, 1, 1};  ///< that so many are by chance
   double uniformity_level = 0;                ///< of each of the three tests
 
   std::size_t non_finite = 0;  ///< values or variances that are NaN or infinite; any is an alarm
@@ -37,8 +38,8 @@ struct ImageTest {
 /// The image test in three parts, each over R, G and B:
 /// 1. Welch's test on the means of blocks [Jung et al. 2020] at Sidak's level: finds what is off in some place.
 /// 2. Welch's test on the mean of the picture: finds a small bias that is everywhere.
-/// 3. Are the blocks' p-values uniform? Too many small ones: finds small differences of either sign in many places.
-///    Too many large ones are no alarm: renders of equal seeds are closer than chance allows, and still equal.
+/// 3. Are the blocks' p-values uniform? Too many below 0.05: finds small differences of either sign in many places.
+///    Too few are no alarm: renders of equal seeds are closer than chance allows, and still equal.
 /// `a` and `b` hold pixels, with the variances of their means. Noise with long tails: see cautious_blocks.h.
 /// Throws Error (usage) when the sizes differ or a setting is out of its range.
 ImageTest test_images(const MeanImage& a, const MeanImage& b, const ImageTestSettings& settings = {});

@@ -57,6 +57,12 @@ double student_t_cdf(double t, double dof) {
   return t < 0 ? tail : 1 - tail;
 }
 
+double binomial_tail(std::size_t trials, double p, std::size_t count) {
+  if (count == 0) return 1;
+  if (count > trials) return 0;
+  return incomplete_beta(static_cast<double>(count), static_cast<double>(trials - count + 1), p);
+}
+
 double sidak(double family_alpha, double tests) { return -std::expm1(std::log1p(-family_alpha) / tests); }
 
 double Estimate::standard_error() const { return std::sqrt(variance); }

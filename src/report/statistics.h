@@ -1,6 +1,7 @@
 /// Distributions and tests that decide whether two noisy measurements agree.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 namespace tyndall {
@@ -15,6 +16,9 @@ double incomplete_beta(double a, double b, double x);
 double student_t_cdf(double t, double dof);
 /// P(|T| >= |t|), without cancellation for large |t|.
 double student_t_two_sided(double t, double dof);
+
+/// P(X >= count), X binomial: `trials` of chance `p` each, in (0, 1).
+double binomial_tail(std::size_t trials, double p, std::size_t count);
 
 /// Level of each of `tests` independent tests for a family level `family_alpha` [Sidak 1967].
 double sidak(double family_alpha, double tests);

@@ -47,12 +47,9 @@ MeanImage scaled(MeanImage image, double factor) {
   return image;
 }
 
-/// P(X >= count), X binomial.
-double binomial_tail(int trials, double p, int count) { return count <= 0 ? 1 : incomplete_beta(count, trials - count + 1, p); }
-
 /// The fewest alarms whose chance is below 1e-3 when each trial has `p`.
-int refused_alarms(int trials, double p) {
-  int count = 0;
+std::size_t refused_alarms(std::size_t trials, double p) {
+  std::size_t count = 0;
   while (binomial_tail(trials, p, count) >= 1e-3) ++count;
   return count;
 }
@@ -60,22 +57,22 @@ int refused_alarms(int trials, double p) {
 }  // namespace
 
 TEST_CASE("1,000 pairs at 8 spp: alarms as rare as stated, 1 % of bias found in 99 % of them") {
-  constexpr int kPairs = 1000;
+  constexpr std::size_t kPairs = 1000;
   constexpr std::array<double, 3> kLevels{1e-3, 1e-2, 5e-2};
-  std::array<int, 3> alarms{};
-  int found = 0;
+  std::array<std::size_t, 3> alarms{};
+  std::size_t found = 0;
   Renders renders(8, "alarm rate");
-  for (int i = 0; i < kPairs; ++i) {
+  for (std::size_t i = 0; i < kPairs; ++i) {
     const MeanImage a = renders.next(), b = renders.next();
     for (std::size_t l = 0; l < kLevels.size(); ++l) alarms[l] += !test_images(a, b, {.family_level = kLevels[l]}).same;
     found += !test_images(scaled(a, i % 2 ? 1.01 : 1 / 1.01), b).same;
   }
   for (std::size_t l = 0; l < kLevels.size(); ++l) {
-    const int refused = refused_alarms(kPairs, kLevels[l]);
-    std::printf("  family level %g: %d alarms in %d pairs, refused from %d\n", kLevels[l], alarms[l], kPairs, refused);
+    const std::size_t refused = refused_alarms(kPairs, kLevels[l]);
+    std::printf("  family level %g: %zu alarms in %zu pairs, refused from %zu\n", kLevels[l], alarms[l], kPairs, refused);
     CHECK(alarms[l] < refused);
   }
-  std::printf("  a bias of 1 %%: found in %d of %d\n", found, kPairs);
+  std::printf("  a bias of 1 %%: found in %zu of %zu\n", found, kPairs);
   CHECK(found >= 990);
   CHECK_MESSAGE(renders.faults().empty(), renders.faults());
 }

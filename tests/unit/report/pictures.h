@@ -1,6 +1,8 @@
 /// Small pictures for the tests of src/report.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
@@ -22,6 +24,9 @@ inline Image picture(int width, int height, const std::function<double(int, int,
   }
   return image;
 }
+
+/// Equal to a fraction of their size (doctest's Approx allows that fraction of 1 as well).
+inline bool close(double a, double b, double fraction) { return std::abs(a - b) <= fraction * std::max(std::abs(a), std::abs(b)); }
 
 inline Image flat(int width, int height, double r, double g, double b) {
   return picture(width, height, [&](int, int, int k) { return k == 0 ? r : (k == 1 ? g : b); });
