@@ -12,7 +12,8 @@ namespace {
 
 constexpr const char* kFooter =
     "The second image is the reference: differences are image - reference. Which of the criteria above are given must all\n"
-    "hold; with none, --test if both images have R G B and Variance.R .G .B (render --aov Variance), else --exact. NaN, infinity,\n"
+    "hold; with none, --test if both images have R G B and Variance.R .G .B (render --aov Variance), else --exact. NaN, "
+    "infinity,\n"
     "different data windows and a channel that one image lacks always differ (--channels RGB looks at the picture alone).\n"
     "Exit codes: 0 same, 5 differs, 2 usage, 3 an image cannot be read, 4 the error picture or stdout cannot be written.\n"
     "Examples:\n"
@@ -51,28 +52,41 @@ int run_diff(const DiffOptions& options) {
 void declare(CLI::App& command, DiffOptions& o) {
   command.add_option("image", o.image, "image to judge (.exr, .png, .hdr, .jpg, .tga, .bmp)")->required();
   command.add_option("reference", o.reference, "image it is held against")->required();
-  command.add_option("-o,--output", o.picture, "error picture, a PNG: relative squared error, black up to 1e-4, pale yellow from 10");
+  command.add_option("-o,--output", o.picture,
+                     "error picture, a PNG: relative squared error, black up to 1e-4, pale yellow from 10");
   command.add_flag("--json", o.json, "as JSON on stdout");
-  command.add_option("--channels", o.settings.channels, "look at these only: channels (Z) or groups (RGB, Albedo); example: RGB,Z")
+  command
+      .add_option("--channels", o.settings.channels, "look at these only: channels (Z) or groups (RGB, Albedo); example: RGB,Z")
       ->delimiter(',');
-  command.add_flag("--reference-noise", o.settings.reference_noise,
-                   "also errors of RGB without the reference's own noise, known from its Variance; --max-relmse then judges these");
-  command.add_flag_callback("--no-flip", [&o] { o.settings.flip = false; }, "leave out FLIP, the slowest of the metrics");
+  command.add_flag(
+      "--reference-noise", o.settings.reference_noise,
+      "also errors of RGB without the reference's own noise, known from its Variance; --max-relmse then judges these");
+  command.add_flag_callback(
+      "--no-flip", [&o] { o.settings.flip = false; }, "leave out FLIP, the slowest of the metrics");
   command.add_option("--ppd", o.settings.flip_settings.pixels_per_degree, "pixels a degree of the viewer's field, for FLIP")
       ->capture_default_str();
 
   const std::string criteria = "Criteria";
-  command.add_flag("--test", o.criteria.test, "RGB is the same but for noise: blocks, means and p-values of Welch's test")->group(criteria);
+  command.add_flag("--test", o.criteria.test, "RGB is the same but for noise: blocks, means and p-values of Welch's test")
+      ->group(criteria);
   command.add_flag("--exact", o.criteria.exact, "every value of every channel is equal")->group(criteria);
   command.add_option("--max-error", o.criteria.max_error, "no value is off by more, absolutely; example: 0.001")
-      ->check(CLI::NonNegativeNumber)->group(criteria);
+      ->check(CLI::NonNegativeNumber)
+      ->group(criteria);
   command.add_option("--max-relmse", o.criteria.max_relmse, "no group's relMSE (eps 0.01) is larger; example: 0.001")
-      ->check(CLI::NonNegativeNumber)->group(criteria);
+      ->check(CLI::NonNegativeNumber)
+      ->group(criteria);
   command.add_option("--max-flip", o.criteria.max_flip, "mean HDR-FLIP of RGB is not larger, 0 to 1; example: 0.05")
-      ->check(CLI::Range(0.0, 1.0))->group(criteria);
-  command.add_option("--level", o.settings.test.family_level, "of --test: chance of calling two equal pictures different, above 0 and below 1")
-      ->capture_default_str()->group(criteria);
-  command.add_option("--block", o.settings.test.block_size, "of --test: pixels a side of a block")->capture_default_str()->group(criteria);
+      ->check(CLI::Range(0.0, 1.0))
+      ->group(criteria);
+  command
+      .add_option("--level", o.settings.test.family_level,
+                  "of --test: chance of calling two equal pictures different, above 0 and below 1")
+      ->capture_default_str()
+      ->group(criteria);
+  command.add_option("--block", o.settings.test.block_size, "of --test: pixels a side of a block")
+      ->capture_default_str()
+      ->group(criteria);
 }
 
 }  // namespace

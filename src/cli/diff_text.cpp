@@ -35,14 +35,17 @@ std::string group_table(const ImageDiff& diff, std::size_t width) {
     text += row(g.name, width, g.errors) + fmt::format("  {:>11.4g}  {:>11.4g}\n", g.errors.mape, g.errors.smape);
     if (g.without_noise) text += row("", width, *g.without_noise) + "  without the reference's noise\n";
   }
-  return text + fmt::format("  {:{}}  (relative errors add {:g} to the reference; trimmed: relMSE without the worst {:g} % of pixels)\n", "",
-                            width, kRelativeEps, 100 * kTrimmedFraction);
+  return text +
+         fmt::format(
+             "  {:{}}  (relative errors add {:g} to the reference; trimmed: relMSE without the worst {:g} % of pixels)\n", "",
+             width, kRelativeEps, 100 * kTrimmedFraction);
 }
 
 std::string flip_text(const ImageDiff& diff, std::size_t width, double pixels_per_degree) {
-  return fmt::format("  {:{}}  LDR {:.6f}, HDR {:.6f} (mean; {:.3g} pixels a degree, {} exposures from {:+.1f} to {:+.1f} stops)\n",
-                     "FLIP", width, diff.flip_ldr->mean(), diff.flip_hdr->mean(), pixels_per_degree, diff.flip_hdr->exposures,
-                     diff.flip_hdr->start_exposure, diff.flip_hdr->stop_exposure);
+  return fmt::format(
+      "  {:{}}  LDR {:.6f}, HDR {:.6f} (mean; {:.3g} pixels a degree, {} exposures from {:+.1f} to {:+.1f} stops)\n", "FLIP",
+      width, diff.flip_ldr->mean(), diff.flip_hdr->mean(), pixels_per_degree, diff.flip_hdr->exposures,
+      diff.flip_hdr->start_exposure, diff.flip_hdr->stop_exposure);
 }
 
 Json as_json(const ErrorMetrics& e) {
@@ -76,11 +79,18 @@ Json as_json(const GroupDiff& g) {
 
 Json as_json(const ImageTest& test, const ImageTestSettings& settings) {
   const BlockDifference& w = test.worst_block;
-  Json j{{"same", test.same}, {"verdict", test.verdict}, {"family_level", settings.family_level}, {"block_size", settings.block_size},
-         {"blocks", test.blocks}, {"alarms", test.alarms}, {"block_level", test.block_level}};
-  j["worst_block"] = {{"x", w.x}, {"y", w.y}, {"channel", std::string(1, "RGB"[w.channel])}, {"t", w.welch.t}, {"p", w.welch.p}};
+  Json j{{"same", test.same},
+         {"verdict", test.verdict},
+         {"family_level", settings.family_level},
+         {"block_size", settings.block_size},
+         {"blocks", test.blocks},
+         {"alarms", test.alarms},
+         {"block_level", test.block_level}};
+  j["worst_block"] = {
+      {"x", w.x}, {"y", w.y}, {"channel", std::string(1, "RGB"[w.channel])}, {"t", w.welch.t}, {"p", w.welch.p}};
   for (std::size_t k = 0; k < 3; ++k) {
-    j["means"].push_back({{"relative_bias", test.relative_bias[k]}, {"relative_error", test.relative_error[k]}, {"p", test.means[k].p}});
+    j["means"].push_back(
+        {{"relative_bias", test.relative_bias[k]}, {"relative_error", test.relative_error[k]}, {"p", test.means[k].p}});
   }
   j["mean_level"] = test.mean_level;
   j["small_p"] = test.small_p;
@@ -130,7 +140,8 @@ std::string as_text(const ImageDiff& diff, const Judgement& judgement, const Dif
 }
 
 std::string as_json(const ImageDiff& diff, const Judgement& judgement, const DiffOptions& options) {
-  Json j{{"image", options.image}, {"reference", options.reference}, {"same", judgement.same}, {"criterion", judgement.criterion}};
+  Json j{
+      {"image", options.image}, {"reference", options.reference}, {"same", judgement.same}, {"criterion", judgement.criterion}};
   j["reasons"] = judgement.reasons;
   j["width"] = diff.data.width();
   j["height"] = diff.data.height();

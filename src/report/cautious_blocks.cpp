@@ -64,7 +64,8 @@ std::vector<CautiousBlock> cautious_block_test(const MeanImage& a, const MeanIma
   for (std::size_t i = 0; i < plain.size(); ++i) {
     CautiousBlock block{raised[i], plain[i].welch.p};
     const int x = block.difference.x * size, y = block.difference.y * size;
-    const double dof = largest_dof(a, b, block.difference.channel, {x, y, std::min(x + size, a.width), std::min(y + size, a.height)});
+    const double dof =
+        largest_dof(a, b, block.difference.channel, {x, y, std::min(x + size, a.width), std::min(y + size, a.height)});
     WelchResult& w = block.difference.welch;
     if (dof < w.dof) {
       w.dof = dof;

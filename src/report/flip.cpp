@@ -102,7 +102,8 @@ std::vector<float> feature_differences(Plane a, Plane b, double pixels_per_degre
   std::vector<float> largest(a.values.size());
   for (const Kernel& kernel : {edge_kernel(deviation, radius), point_kernel(deviation, radius)}) {
     const Plane in_a = response(a, kernel, smooth), in_b = response(b, kernel, smooth);
-    for (std::size_t i = 0; i < largest.size(); ++i) largest[i] = std::max(largest[i], std::abs(in_a.values[i] - in_b.values[i]));
+    for (std::size_t i = 0; i < largest.size(); ++i)
+      largest[i] = std::max(largest[i], std::abs(in_a.values[i] - in_b.values[i]));
   }
   for (float& v : largest) v = std::sqrt(v / std::numbers::sqrt2_v<float>);
   return largest;
@@ -215,7 +216,8 @@ FlipMap flip_hdr(const Image& image, const Image& reference, const FlipSettings&
     const auto displayed = [scale](float v) { return aces(scale * v); };
     const std::vector<float> one =
         flip(to_opponent(a, size, displayed), to_opponent(b, size, displayed), settings.pixels_per_degree);
-    std::transform(one.begin(), one.end(), map.values.begin(), map.values.begin(), [](float v, float w) { return std::max(v, w); });
+    std::transform(one.begin(), one.end(), map.values.begin(), map.values.begin(),
+                   [](float v, float w) { return std::max(v, w); });
   }
   return map;
 }

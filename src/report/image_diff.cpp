@@ -111,10 +111,13 @@ void group_channels(ImageDiff& diff) {
 }
 
 bool has_rgb(const ImageDiff& diff) {
-  return std::any_of(diff.groups.begin(), diff.groups.end(), [](const GroupDiff& g) { return g.name == "RGB" && g.channels.size() == 3; });
+  return std::any_of(diff.groups.begin(), diff.groups.end(),
+                     [](const GroupDiff& g) { return g.name == "RGB" && g.channels.size() == 3; });
 }
 
-bool has_variances(const Image& image) { return image.find("Variance.R") && image.find("Variance.G") && image.find("Variance.B"); }
+bool has_variances(const Image& image) {
+  return image.find("Variance.R") && image.find("Variance.G") && image.find("Variance.B");
+}
 
 void compare_channels(const Image& image, const Image& reference, const DiffSettings& settings, ImageDiff& diff) {
   for (const Channel& c : image.channels) {
@@ -160,7 +163,8 @@ ImageDiff compare_images(const Image& image, const Image& reference, const DiffS
   if (has_variances(image) && has_variances(reference)) {
     diff.test = test_images(mean_image(image, 1), mean_image(reference, 1), settings.test);
   }
-  const bool finite = std::none_of(diff.non_finite.begin(), diff.non_finite.end(), [](const NonFinite& n) { return group_of(n.channel) == "RGB"; });
+  const bool finite = std::none_of(diff.non_finite.begin(), diff.non_finite.end(),
+                                   [](const NonFinite& n) { return group_of(n.channel) == "RGB"; });
   if (settings.flip && finite) {
     diff.flip_ldr = flip_ldr(image, reference, settings.flip_settings);
     diff.flip_hdr = flip_hdr(image, reference, settings.flip_settings);

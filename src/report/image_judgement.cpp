@@ -17,8 +17,8 @@ std::string number(double v) {
 void judge_always(const ImageDiff& diff, std::vector<std::string>& reasons) {
   for (const NonFinite& n : diff.non_finite) {
     reasons.push_back(std::to_string(n.count) + (n.count == 1 ? " value of " : " values of ") + n.channel +
-                      (n.in_reference ? " in the reference" : " in the image") + " not finite, first at (" + std::to_string(n.x) +
-                      ", " + std::to_string(n.y) + ")");
+                      (n.in_reference ? " in the reference" : " in the image") + " not finite, first at (" +
+                      std::to_string(n.x) + ", " + std::to_string(n.y) + ")");
   }
   for (const std::string& name : diff.only_in_image) reasons.push_back("channel " + name + " is in the image only");
   for (const std::string& name : diff.only_in_reference) reasons.push_back("channel " + name + " is in the reference only");
@@ -60,8 +60,9 @@ void judge_flip(const ImageDiff& diff, double limit, std::vector<std::string>& r
 
 void judge_test(const ImageDiff& diff, std::vector<std::string>& reasons) {
   if (!diff.test) {
-    throw Error(Failure::usage, "--test needs R, G, B and their Variance in both images; render them with --aov Variance, or choose "
-                                "--max-relmse, --max-error, --max-flip or --exact");
+    throw Error(Failure::usage,
+                "--test needs R, G, B and their Variance in both images; render them with --aov Variance, or choose "
+                "--max-relmse, --max-error, --max-flip or --exact");
   }
   if (!diff.test->same) reasons.push_back("RGB by the image test " + diff.test->verdict);
 }

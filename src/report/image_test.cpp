@@ -84,7 +84,8 @@ std::string text(const char* format, Values... values) {
 std::string block_text(const ImageTest& test) {
   const BlockDifference& w = test.worst_block;
   return text("%zu of %zu blocks off", test.alarms, test.blocks) +
-         text(", worst %c of block (%d, %d): %+.1f standard errors, p = %.1e", kChannel[w.channel], w.x, w.y, w.welch.t, w.welch.p);
+         text(", worst %c of block (%d, %d): %+.1f standard errors, p = %.1e", kChannel[w.channel], w.x, w.y, w.welch.t,
+              w.welch.p);
 }
 
 std::string mean_text(const ImageTest& test, int k) {
@@ -101,16 +102,17 @@ void judge(ImageTest& test) {
   }
   for (int k = 0; k < 3; ++k) {
     if (!(test.uniformity_p[k] >= test.uniformity_level)) {
-      add(text("small differences of %c in many blocks: %.0f %% of them have p < %g (p = %.1e)", kChannel[k], 100 * test.small_p[k], kSmall,
-               test.uniformity_p[k]));
+      add(text("small differences of %c in many blocks: %.0f %% of them have p < %g (p = %.1e)", kChannel[k],
+               100 * test.small_p[k], kSmall, test.uniformity_p[k]));
     }
   }
   test.same = reasons.empty();
   if (!test.same) {
     test.verdict = "differs: " + reasons;
   } else {
-    test.verdict = (test.blocks == 0 ? "same: every block equal, mean " : text("same: none of %zu blocks off, mean ", test.blocks)) + mean_text(test, 0) + ", " + mean_text(test, 1) + ", " +
-                   mean_text(test, 2);
+    test.verdict =
+        (test.blocks == 0 ? "same: every block equal, mean " : text("same: none of %zu blocks off, mean ", test.blocks)) +
+        mean_text(test, 0) + ", " + mean_text(test, 1) + ", " + mean_text(test, 2);
   }
 }
 

@@ -17,20 +17,20 @@ struct ImageTestSettings {
 /// What was tested and found. A third of the family level each goes to blocks, means and uniformity.
 struct ImageTest {
   bool same = false;    ///< no alarm of any kind
-  std::string verdict;  ///< one line for people
+  std::string verdict;  ///< one line for people; its +- are 95 % intervals
 
   std::size_t blocks = 0;       ///< tested, over all channels; exactly equal ones, black in both say, tell nothing
   std::size_t alarms = 0;       ///< of them with p below block_level
   double block_level = 0;       ///< Sidak's, for `blocks` tests
   BlockDifference worst_block;  ///< the most significant one; x and y in blocks
 
-  std::array<WelchResult, 3> means{};         ///< of the whole picture, by channel
-  std::array<double, 3> relative_bias{};      ///< (mean a - mean b) / mean b; 0 when both are 0
-  std::array<double, 3> relative_error{};     ///< one standard error of it
-  double mean_level = 0;                      ///< of each of the three tests
+  std::array<WelchResult, 3> means{};           ///< of the whole picture, by channel
+  std::array<double, 3> relative_bias{};        ///< (mean a - mean b) / mean b; 0 when both are 0
+  std::array<double, 3> relative_error{};       ///< one standard error of it
+  double mean_level = 0;                        ///< of each of the three tests
   std::array<double, 3> small_p{};              ///< part of the blocks with p < 0.05, by channel
   std::array<double, 3> uniformity_p{1, 1, 1};  ///< that so many are by chance
-  double uniformity_level = 0;                ///< of each of the three tests
+  double uniformity_level = 0;                  ///< of each of the three tests
 
   std::size_t non_finite = 0;  ///< values or variances that are NaN or infinite; any is an alarm
 };

@@ -48,7 +48,8 @@ ErrorMetrics measure(const Planes& image, const Planes& reference, const Planes&
     }
   }
   const double count = channels * static_cast<double>(relative.size());
-  return {sum.mse / count, sum.relmse / count, trimmed_mean(relative, sum.relmse / channels), sum.mape / count, sum.smape / count};
+  return {sum.mse / count, sum.relmse / count, trimmed_mean(relative, sum.relmse / channels), sum.mape / count,
+          sum.smape / count};
 }
 
 }  // namespace

@@ -17,7 +17,9 @@ Rgb at(const Image& picture, int x) { return picture.rgb(x, 0); }
 
 /// The colour of one pixel whose relative squared error is `error` over a black reference.
 Rgb color_of(double error) {
-  return at(error_picture(flat(1, 1, std::sqrt(0.01 * error), std::sqrt(0.01 * error), std::sqrt(0.01 * error)), flat(1, 1, 0, 0, 0)), 0);
+  return at(
+      error_picture(flat(1, 1, std::sqrt(0.01 * error), std::sqrt(0.01 * error), std::sqrt(0.01 * error)), flat(1, 1, 0, 0, 0)),
+      0);
 }
 
 }  // namespace

@@ -39,8 +39,8 @@ using Numbers = std::array<double, 6>;
 
 void check(const FlipMap& map, const Numbers& expected) {
   const auto at = [&](int x, int y) { return double(map.values[static_cast<std::size_t>(y * kWidth + x)]); };
-  const Numbers found{map.mean(), at(5, 7), at(22, 12), at(47, 39), at(0, 0),
-                      double(*std::max_element(map.values.begin(), map.values.end()))};
+  const Numbers found{map.mean(), at(5, 7), at(22, 12),
+                      at(47, 39), at(0, 0), double(*std::max_element(map.values.begin(), map.values.end()))};
   for (std::size_t i = 0; i < found.size(); ++i) {
     CAPTURE(i);
     CHECK(close(found[i], expected[i], 2e-4));

@@ -63,7 +63,8 @@ TEST_CASE("one channel by hand: means, bias and its error, the largest differenc
 }
 
 TEST_CASE("the error of the bias comes from the variances where both images have them") {
-  const ImageDiff diff = compare_images(with_variance(flat(10, 10, 1, 1, 1), 0.03f), with_variance(flat(10, 10, 2, 2, 2), 0.01f));
+  const ImageDiff diff =
+      compare_images(with_variance(flat(10, 10, 1, 1, 1), 0.03f), with_variance(flat(10, 10, 2, 2, 2), 0.01f));
   CHECK(channel(diff, "G").error_from_variance);
   CHECK(close(channel(diff, "G").bias_error, std::sqrt(0.04 * 100) / 100, 1e-5));
 }
@@ -108,7 +109,8 @@ TEST_CASE("NaN and infinity always differ, in either image, and are counted and 
       CHECK(!judge(diff, {.max_error = 1e30}).same);
       CHECK(!judge(diff, {.max_flip = 1}).same);
     }
-    CHECK(says(judge(compare_images(image, image), {.max_relmse = 1e30}), "2 values of G in the image not finite, first at (2, 1)"));
+    CHECK(says(judge(compare_images(image, image), {.max_relmse = 1e30}),
+               "2 values of G in the image not finite, first at (2, 1)"));
   }
 }
 
@@ -142,7 +144,8 @@ TEST_CASE("criteria: each is met at its limit and refused beyond it; all must ho
 }
 
 TEST_CASE("without a criterion: the test where there are variances, else equality") {
-  const Judgement same = judge(compare_images(noisy(1, 1), noisy(1, 2)), {}), off = judge(compare_images(noisy(1.03, 1), noisy(1, 2)), {});
+  const Judgement same = judge(compare_images(noisy(1, 1), noisy(1, 2)), {}),
+                  off = judge(compare_images(noisy(1.03, 1), noisy(1, 2)), {});
   CHECK(same.same);
   CHECK(same.criterion == "--test");
   CHECK(!off.same);

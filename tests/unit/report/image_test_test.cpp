@@ -75,7 +75,8 @@ TEST_CASE("two renders of one picture are the same, and so is one with itself") 
 TEST_CASE("each part finds what it is there for") {
   const MeanImage reference = noisy(128, 128, {}, 10);
 
-  const ImageTest block = test_images(noisy(128, 128, {.factor = [](int x, int y) { return x / 8 == 5 && y / 8 == 3 ? 1.12 : 1; }}, 11), reference);
+  const ImageTest block =
+      test_images(noisy(128, 128, {.factor = [](int x, int y) { return x / 8 == 5 && y / 8 == 3 ? 1.12 : 1; }}, 11), reference);
   CHECK(!block.same);
   CHECK(block.alarms == 3);
   CHECK(block.worst_block.x == 5);

@@ -48,7 +48,8 @@ TEST_CASE("the trimmed error leaves out the worst pixel of a thousand, whichever
 }
 
 TEST_CASE("channels other than R, G, B") {
-  const Image a = picture(3, 3, [](int, int, int) { return 1.0; }, {"Z"}), b = picture(3, 3, [](int, int, int) { return 3.0; }, {"Z"});
+  const Image a = picture(3, 3, [](int, int, int) { return 1.0; }, {"Z"}),
+              b = picture(3, 3, [](int, int, int) { return 3.0; }, {"Z"});
   CHECK(measure_error(a, b, {"Z"}).mse == 4);
   CHECK_THROWS_AS(measure_error(a, b), Error);
   CHECK_THROWS_AS(measure_error(a, flat(3, 4, 0, 0, 0), {"Z"}), Error);
@@ -59,8 +60,8 @@ TEST_CASE("the reference's own noise is taken off") {
   std::mt19937 engine(3);
   std::normal_distribution<double> normal;
   const Image image = picture(200, 200, [&](int, int, int) { return 1 + kNoise * normal(engine); });
-  const Image reference =
-      with_variance(picture(200, 200, [&](int, int, int) { return 1 + kReferenceNoise * normal(engine); }), kReferenceNoise * kReferenceNoise);
+  const Image reference = with_variance(picture(200, 200, [&](int, int, int) { return 1 + kReferenceNoise * normal(engine); }),
+                                        kReferenceNoise * kReferenceNoise);
   CHECK(close(measure_error(image, reference).mse, 0.05, 0.02));
   const ErrorMetrics e = measure_error_without_noise(image, reference);
   CHECK(close(e.mse, 0.04, 0.02));

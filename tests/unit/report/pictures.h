@@ -26,7 +26,9 @@ inline Image picture(int width, int height, const std::function<double(int, int,
 }
 
 /// Equal to a fraction of their size (doctest's Approx allows that fraction of 1 as well).
-inline bool close(double a, double b, double fraction) { return std::abs(a - b) <= fraction * std::max(std::abs(a), std::abs(b)); }
+inline bool close(double a, double b, double fraction) {
+  return std::abs(a - b) <= fraction * std::max(std::abs(a), std::abs(b));
+}
 
 inline Image flat(int width, int height, double r, double g, double b) {
   return picture(width, height, [&](int, int, int k) { return k == 0 ? r : (k == 1 ? g : b); });
