@@ -1,6 +1,6 @@
 /// Figure 1 of Conty Estevez and Kulla: coloured lights over surfaces of several roughnesses. Five arches of lights span
 /// a floor of six lanes of metal, from nearly a mirror to nearly dull, with a ball of the same metal on each and fins
-/// between them that hide the lights of the neighbours.
+/// between them that hide the lights of the neighbours. The lights turn their backs to the viewer (shade_from).
 #include <cmath>
 
 #include "example/lamps.h"
@@ -62,16 +62,19 @@ void add_fins(PbrtText& text) {
 }  // namespace
 
 std::vector<ExampleFile> make_glossy_lights(const ExampleSettings& s) {
-  PbrtText text = scene_head(s, {.eye = {0, 2.35f, -6}, .look = {0, 1.75f, 3}, .fov_degrees = 41});
+  constexpr View kView{.eye = {0, 2.35f, -6}, .look = {0, 1.75f, 3}, .fov_degrees = 41};
+  PbrtText text = scene_head(s, kView);
   text << "# Lanes of metal, each with a ball.\n";
   for (int lane = 0; lane < kLanes; ++lane) add_lane(text, lane);
   add_fins(text);
   text << "# The lights.\n";
-  LampSet set{.name = "glossy_lights", .palette = {}, .power = 1000, .area = 24};
+  LampSet set{.name = "glossy_lights", .palette = {}, .power = 1800, .area = 24};
   for (int i = 0; i < kHues; ++i) set.palette.push_back(hue_color((static_cast<float>(i) + 0.5f) / kHues));
   Rng rng = stream(s.seed, 1);
   std::vector<ExampleFile> files{{scene_name(s), ""}};
-  add_triangle_lamps(arch_lamps(s.lights, rng), set, rng, text, files);
+  std::vector<Lamp> lamps = arch_lamps(s.lights, rng);
+  shade_from(kView.eye, lamps);
+  add_triangle_lamps(lamps, set, rng, text, files);
   files.front().bytes = text.take();
   return files;
 }

@@ -24,6 +24,12 @@ void add_triangle(TriangleMesh& mesh, const Lamp& lamp, float area, float spin) 
 
 }  // namespace
 
+void shade_from(Vec3 eye, std::vector<Lamp>& lamps) {
+  for (Lamp& lamp : lamps) {
+    if (dot(lamp.normal, eye - lamp.position) > 0) lamp.normal = -lamp.normal;
+  }
+}
+
 Rng stream(std::uint64_t seed, std::uint64_t purpose) { return Rng(hash(seed, purpose)); }
 
 float normal_deviate(Rng& rng) {  // [Box and Muller 1958]

@@ -40,6 +40,10 @@ Rgb hue_color(float hue);
 /// Gives every lamp its share of the power, log-normal.
 void share_power(std::vector<Lamp>& lamps, float sigma, Rng& rng);
 
+/// Turn every lamp's back to the viewer. Lights that are seen make noise at their edges that has nothing to do with how
+/// lights are chosen, and so much of it that it would drown what these scenes are to show.
+void shade_from(Vec3 eye, std::vector<Lamp>& lamps);
+
 /// Equilateral triangles, one a lamp, all of one radiance: a lamp's share of the power is its share of the area, so one
 /// polygon file holds all lamps of a colour. Adds the files to `files` and the lines that use them to `text`.
 void add_triangle_lamps(std::span<const Lamp> lamps, const LampSet& set, Rng& rng, PbrtText& text,

@@ -1,5 +1,5 @@
 /// A plume of smoke among standing stones at night, with a swarm of lights around and inside it: embers that rise in the
-/// smoke, and blue sparks that circle it in three bands.
+/// smoke, and blue sparks that circle it in three bands. Triangles turn their backs to the viewer (shade_from).
 #include <cmath>
 
 #include "example/lamps.h"
@@ -74,7 +74,8 @@ void add_plume(const ExampleSettings& s, const FogGrid& grid, PbrtText& text) {
 }  // namespace
 
 std::vector<ExampleFile> make_smoke_lights(const ExampleSettings& s) {
-  PbrtText text = scene_head(s, {.eye = {0.4f, 2.2f, -8.4f}, .look = {0.1f, 2.25f, 0}, .fov_degrees = 34});
+  constexpr View kView{.eye = {0.4f, 2.2f, -8.4f}, .look = {0.1f, 2.25f, 0}, .fov_degrees = 34};
+  PbrtText text = scene_head(s, kView);
   Rng stones = stream(s.seed, 1), lights = stream(s.seed, 2);
   add_stones(text, stones);
   const FogGrid plume = smoke_plume(s.seed);
@@ -87,7 +88,8 @@ std::vector<ExampleFile> make_smoke_lights(const ExampleSettings& s) {
       .power = 280,
       .area = 2};
   text << "# The lights.\n";
-  const std::vector<Lamp> lamps = swarm(s.lights, lights);
+  std::vector<Lamp> lamps = swarm(s.lights, lights);
+  shade_from(kView.eye, lamps);
   if (s.shape == LampShape::point)
     add_point_lamps(lamps, set, text);
   else
