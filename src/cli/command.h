@@ -15,5 +15,6 @@ void add_merge(CLI::App& app, int& exit_code);
 void add_compare(CLI::App& app, int& exit_code, const std::string& command_line);
 void add_example(CLI::App& app, int& exit_code);
 void add_diff(CLI::App& app, int& exit_code);
+void add_regress(CLI::App& app, int& exit_code);
 
 }  // namespace tyndall::cli

@@ -38,6 +38,7 @@ int run(int argc, char** argv) {
   tyndall::cli::add_compare(app, exit_code, command_line(argc, argv));
   tyndall::cli::add_example(app, exit_code);
   tyndall::cli::add_diff(app, exit_code);
+  tyndall::cli::add_regress(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

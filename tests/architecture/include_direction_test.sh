@@ -31,7 +31,7 @@ BEGIN {
   door("^(CLI|spdlog)/", "^src/cli/")
   # Not libraries: the compiler and the operating system.
   door("^([a-z]*intrin\\.h|experimental/simd)$", "^src/")
-  door("^(unistd\\.h|fcntl\\.h|signal\\.h|sys/[a-z]*\\.h)$", "^src/")
+  door("^(unistd\\.h|fcntl\\.h|fnmatch\\.h|signal\\.h|sys/[a-z]*\\.h)$", "^src/")
 }
 function allow(folder, others,    n, i, list) {
   permitted[folder, folder] = known[folder] = 1

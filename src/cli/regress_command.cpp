@@ -1,0 +1,166 @@
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+
+#include "cli/command.h"
+#include "cli/log.h"
+#include "cli/output_paths.h"
+#include "report/page.h"
+#include "report/regress.h"
+#include "report/regress_results.h"
+#include "tyndall/io.h"
+
+namespace tyndall::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RegressOptions {
+  std::string suite, report, junit;
+  RegressSettings settings;
+  bool json = false;
+};
+
+// Signal handlers can reach nothing but globals.
+std::atomic<bool> stop_requested{false};
+volatile std::sig_atomic_t stop_signal = 0;
+
+void on_signal(int signal) {
+  stop_signal = signal;
+  stop_requested.store(true, std::memory_order_relaxed);
+}
+
+/// A folder for the runs, gone with everything in it when the suite has ended.
+class ScratchFolder {
+ public:
+  ScratchFolder() : path_(fs::absolute(fs::temp_directory_path()) / "tyndall-regress-XXXXXX") {
+    if (mkdtemp(path_.data()) == nullptr)
+      throw Error(Failure::output, path_ + ": cannot be made; set TMPDIR to a folder with room");
+  }
+  ~ScratchFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+};
+
+/// This very program.
+std::string own_path() {
+  std::error_code problem;
+  const fs::path path = fs::read_symlink("/proc/self/exe", problem);
+  if (problem) throw Error(Failure::run_time, "/proc/self/exe: cannot be read; regress starts itself and needs /proc");
+  return path;
+}
+
+std::size_t longest_name(const RegressSuite& suite) {
+  std::size_t width = 4;
+  for (const RegressCase& c : suite.cases) width = std::max(width, c.name.size());
+  return width;
+}
+
+void write_report(const SuiteResult& result, const std::string& folder) {
+  make_folder(folder + "/renders");
+  std::vector<PagePicture> pictures;
+  for (const CaseResult& c : result.cases) {
+    if (c.render) write_exr(*c.render, folder + "/renders/" + c.name + ".exr");
+    if (c.reference) pictures.push_back({c.name, "reference", *c.reference});
+    if (c.render) pictures.push_back({c.name, "render", *c.render});
+  }
+  const nlohmann::ordered_json results = regress_json(result);
+  write_file(results.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n", folder + "/results.json");
+  write_file(regress_page(results, pictures), folder + "/index.html");
+}
+
+/// Rows as they come, and on a terminal one line below them that says how long it will take.
+class Display {
+ public:
+  Display(const RegressOptions& options, std::size_t width) : json_(options.json), width_(width), bar_(isatty(STDERR_FILENO)) {
+    print(regress_head(width_));
+  }
+
+  void run(const RegressProgress& p) const {
+    if (bar_) log("\r{:3.0f} %, {:.0f} s done, {:.0f} s left ", 100 * p.fraction, p.seconds, p.remaining);
+  }
+  void row(const CaseResult& result, const RegressProgress& p) const {
+    if (bar_) log("\r{:40}\r", "");
+    print(regress_row(result, width_));
+    if (!bar_) log("{}: {} ({:.0f} %, {:.0f} s left)\n", result.name, name_of(result.status), 100 * p.fraction, p.remaining);
+  }
+  void end(const SuiteResult& result) const { print("\n" + regress_summary(result) + "\n"); }
+
+ private:
+  void print(const std::string& text) const {
+    if (json_) return;
+    fmt::print("{}", text);
+    std::fflush(stdout);
+  }
+
+  bool json_;
+  std::size_t width_;
+  bool bar_;
+};
+
+/// 5 when a picture differs, else 7 when a case could not be judged.
+int exit_code_of(const SuiteResult& result) {
+  if (stop_signal != 0) return 128 + stop_signal;
+  if (result.count(CaseStatus::fail) > 0) return static_cast<int>(Failure::differs);
+  const std::size_t unjudged = result.count(CaseStatus::crash) + result.count(CaseStatus::timeout) +
+                               result.count(CaseStatus::error) + result.count(CaseStatus::stopped);
+  return unjudged > 0 ? static_cast<int>(Failure::incomplete) : 0;
+}
+
+int run_regress(RegressOptions options) {
+  const RegressSuite suite = read_suite(options.suite);
+  if (!options.report.empty()) make_folder(options.report);
+  const ScratchFolder scratch;
+  options.settings.work_folder = scratch.path();
+  options.settings.program = own_path();
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+
+  const Display display(options, longest_name(suite));
+  const SuiteResult result = run_suite(suite, options.settings,
+                                       {.case_done = [&](const CaseResult& c, const RegressProgress& p) { display.row(c, p); },
+                                        .run_done = [&](const RegressProgress& p) { display.run(p); },
+                                        .stop = &stop_requested});
+  display.end(result);
+  if (!options.report.empty()) write_report(result, options.report);
+  if (!options.junit.empty()) write_file(regress_junit(result), options.junit);
+  if (options.json) fmt::print("{}\n", regress_json(result).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+  return exit_code_of(result);
+}
+
+}  // namespace
+
+void add_regress(CLI::App& app, int& exit_code) {
+  auto* command = app.add_subcommand("regress", "hold a suite of scenes against its references, statistically");
+  auto options = std::make_shared<RegressOptions>();
+  RegressSettings& s = options->settings;
+  command->add_option("suite", options->suite, "folder of scenes, each with settings NAME.json and a reference NAME.exr")
+      ->required();
+  command->add_option("-o,--output", options->report,
+                      "folder for the report: index.html, results.json, renders [none]; -o regress-report");
+  command->add_option("--filter", s.filter, "cases to run: part of a name, or a glob [all]; --filter 'medium_*'");
+  command->add_option("--seed", s.seed, "of the random numbers; another one must pass as well [0]; --seed 7")
+      ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 40));
+  command->add_flag("--update", s.update, "render the references anew, say what changed, and replace them");
+  command->add_option("--jobs,--threads", s.jobs, "renders side by side, of one thread each [0: one a core]; --jobs 2")
+      ->check(CLI::Range(0, 4096));
+  command->add_option("--level", s.family_level, "chance of a false alarm in a run of the whole suite [0.001]; --level 0.01")
+      ->check(CLI::Range(1e-12, 0.5));
+  command->add_option("--junit", options->junit, "JUnit XML to write, for CI [none]; --junit regress.xml");
+  command->add_flag("--json", options->json, "results as JSON on stdout instead of the table");
+  command->callback([options, &exit_code] { exit_code = run_regress(*options); });
+}
+
+}  // namespace tyndall::cli

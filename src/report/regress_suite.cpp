@@ -1,0 +1,172 @@
+#include "report/regress_suite.h"
+
+#include <fnmatch.h>
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tyndall/error.h"
+#include "tyndall/settings.h"
+
+namespace tyndall {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+/// Options of render that the suite itself sets, and those that end a render at no fixed number of samples.
+constexpr std::array kTaken{"-o",     "--output", "--seed", "--spp",      "--aov",          "--threads",
+                            "--json", "--quiet",  "--time", "--progress", "--reproducible", "--error"};
+
+[[noreturn]] void bad(const std::string& path, const std::string& what) { throw Error(Failure::scene, path + ": " + what); }
+
+int whole_number(const Json& value, int lowest, int highest) {
+  if (!value.is_number_integer()) throw Error(Failure::scene, "must be a whole number");
+  const auto number = value.get<std::int64_t>();
+  if (number < lowest || number > highest) {
+    throw Error(Failure::scene, "must be from " + std::to_string(lowest) + " to " + std::to_string(highest));
+  }
+  return static_cast<int>(number);
+}
+
+std::string text(const Json& value) {
+  if (!value.is_string()) throw Error(Failure::scene, "must be a text in quotes");
+  return value.get<std::string>();
+}
+
+std::vector<std::string> texts(const Json& value) {
+  if (!value.is_array()) throw Error(Failure::scene, "must be a list of texts, such as [\"Albedo\", \"N\"]");
+  std::vector<std::string> list;
+  for (const Json& entry : value) list.push_back(text(entry));
+  return list;
+}
+
+/// Sample counts and variances are no means of samples, and are there anyway.
+std::vector<std::string> aov_list(const Json& value) {
+  const auto known = aov_names();
+  std::vector<std::string> list = texts(value);
+  for (const std::string& name : list) {
+    const bool testable = name != "Variance" && name != "SampleCount";
+    if (!testable || std::find(known.begin(), known.end(), name) == known.end()) {
+      throw Error(Failure::scene,
+                  "holds \"" + name + "\", which is no AOV that can be tested; choose from those of render --help");
+    }
+    if (std::count(list.begin(), list.end(), name) > 1)
+      throw Error(Failure::scene, "holds \"" + name + "\" twice; name it once");
+  }
+  return list;
+}
+
+std::vector<std::string> option_list(const Json& value) {
+  std::vector<std::string> list = texts(value);
+  for (const std::string& option : list) {
+    const std::string name = option.substr(0, option.find('='));
+    if (std::find(kTaken.begin(), kTaken.end(), name) != kTaken.end()) {
+      throw Error(Failure::scene, "holds " + name + ", which regress sets itself; take it out");
+    }
+  }
+  return list;
+}
+
+double seconds(const Json& value) {
+  if (!value.is_number() || !(value.get<double>() > 0) || value.get<double>() > 1e6) {
+    throw Error(Failure::scene, "must be a number of seconds above 0, at most 1000000");
+  }
+  return value.get<double>();
+}
+
+bool yes_or_no(const Json& value) {
+  if (!value.is_boolean()) throw Error(Failure::scene, "must be true or false");
+  return value.get<bool>();
+}
+
+void set(RegressCase& c, const std::string& key, const Json& value) {
+  constexpr int kMost = 1 << 20;
+  if (key == "about")
+    c.about = text(value);
+  else if (key == "spp")
+    c.spp = whole_number(value, 1, kMost);
+  else if (key == "runs")
+    c.runs = whole_number(value, 2, 1000);
+  else if (key == "reference_runs")
+    c.reference_runs = whole_number(value, 2, 1000);
+  else if (key == "aovs")
+    c.aovs = aov_list(value);
+  else if (key == "seed")
+    c.seed = static_cast<std::uint64_t>(whole_number(value, 0, kMost));
+  else if (key == "bytes")
+    c.bytes = yes_or_no(value);
+  else if (key == "timeout")
+    c.timeout = seconds(value);
+  else if (key == "options")
+    c.options = option_list(value);
+  else
+    throw Error(Failure::scene,
+                "is no setting; known are about, spp, runs, reference_runs, aovs, seed, bytes, timeout, options");
+}
+
+RegressCase read_case(const std::string& folder, const std::string& name) {
+  RegressCase c{.name = name};
+  const std::string path = folder + "/" + name + ".json";
+  if (!fs::exists(path)) return c;
+  std::ifstream stream(path);
+  const Json settings = Json::parse(stream, nullptr, false);
+  if (!settings.is_object()) bad(path, "is no JSON object; write settings as {\"spp\": 64}");
+  for (const auto& [key, value] : settings.items()) {
+    try {
+      set(c, key, value);
+    } catch (const Error& e) {
+      bad(path, "\"" + key + "\" " + e.what());
+    }
+  }
+  return c;
+}
+
+/// Settings that belong to no scene are a slip of the pen in one of the two names.
+void require_scene(const fs::path& settings) {
+  fs::path scene = settings;
+  if (!fs::exists(scene.replace_extension(".pbrt")))
+    bad(settings, "has no scene beside it; name it like its .pbrt, or remove it");
+}
+
+}  // namespace
+
+std::size_t RegressSuite::layers() const {
+  std::size_t sum = 0;
+  for (const RegressCase& c : cases) sum += c.layers();
+  return sum;
+}
+
+RegressSuite read_suite(const std::string& folder) {
+  std::error_code problem;
+  RegressSuite suite{folder, {}};
+  while (suite.folder.size() > 1 && suite.folder.back() == '/') suite.folder.pop_back();
+  for (const auto& entry : fs::directory_iterator(folder, problem)) {
+    const fs::path path = entry.path();
+    if (path.extension() == ".json") require_scene(path);
+    if (path.extension() == ".pbrt") suite.cases.push_back(read_case(suite.folder, path.stem()));
+  }
+  if (problem) bad(folder, problem.message() + "; give the folder of a suite");
+  if (suite.cases.empty()) bad(folder, "holds no scene; a suite is a folder of NAME.pbrt files");
+  std::sort(suite.cases.begin(), suite.cases.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+  return suite;
+}
+
+std::vector<std::size_t> select_cases(const RegressSuite& suite, const std::string& filter) {
+  const bool glob = filter.find_first_of("*?[") != std::string::npos;
+  std::vector<std::size_t> chosen;
+  std::string names;
+  for (std::size_t i = 0; i < suite.cases.size(); ++i) {
+    const std::string& name = suite.cases[i].name;
+    names += (names.empty() ? "" : ", ") + name;
+    const bool matches = glob ? fnmatch(filter.c_str(), name.c_str(), 0) == 0 : name.find(filter) != std::string::npos;
+    if (matches) chosen.push_back(i);
+  }
+  if (chosen.empty()) throw Error(Failure::usage, "--filter " + filter + " matches no case; the suite has " + names);
+  return chosen;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,120 @@
+# `tyndall regress` with a tiny suite: verdicts, isolation of crashes and hangs, blessing, files.
+. "$TYNDALL_SOURCE_DIR/tests/cli/support.bash"
+T=$TYNDALL_BIN
+rm -rf suite report scratch
+mkdir suite
+small_scene >suite/fog.pbrt
+small_scene >suite/lamp.pbrt
+echo '{"spp": 16, "aovs": ["Albedo", "Z"], "bytes": true}' >suite/fog.json
+echo '{"spp": 16, "reference_runs": 8}' >suite/lamp.json
+
+# Without references nothing can be judged; --update makes them and says so.
+expect 7 "$T" regress suite
+says 'make one with --update' out.txt
+expect 0 "$T" regress suite --update
+says 'first reference, 256 samples' out.txt
+says '2 new' out.txt
+for file in fog.exr fog.bytes.exr lamp.exr; do [ -s suite/$file ] || fail "$file was not made"; done
+[ -e suite/lamp.bytes.exr ] && fail "bytes that nobody asked for"
+[ "$(ls -A suite | grep -c part)" = 0 ] || fail "a temporary file is left: $(ls -A suite)"
+
+# Renders of the same scene agree, with this seed and others, on one job and on several, from any folder.
+expect 0 "$T" regress suite --jobs 1
+expect 0 "$T" regress suite --seed 7 -o report --junit junit.xml
+says '2 pass' out.txt
+(cd suite && expect 0 "$T" regress . --filter fog && rm out.txt err.txt)
+expect 0 "$T" regress suite --filter 'l*' --json
+says '"name": "lamp"' out.txt
+grep -q fog out.txt && fail "--filter lets another case through"
+[ "$(head -c 1 out.txt)" = "{" ] || fail "stdout does not start with JSON"
+expect 2 "$T" regress suite --filter nothing
+says 'fog, lamp' err.txt
+
+# The report.
+for text in '"what": "Albedo"' '"what": "Z"' '"what": "bytes"' '"what": "health"' '"seed": 7' '"passed": 2'; do says "$text" report/results.json; done
+[ -s report/index.html ] || fail "no report/index.html"
+for case in fog lamp; do expect 0 "$T" info report/renders/$case.exr; done
+says 'tests="2" failures="0" errors="0"' junit.xml
+if command -v python3 >/dev/null; then
+  python3 -c 'import sys, xml.etree.ElementTree as e; sys.exit(len(e.parse("junit.xml").findall(".//testcase")) != 2)' || fail "junit.xml is not sound"
+  python3 -c 'import json; json.load(open("report/results.json"))' || fail "results.json is not sound"
+fi
+
+# A light 3 % brighter, and a surface 3 % darker, are found; --update says what changed, and makes it right.
+sed -i 's/\[9 9 9\]/[9.27 9.27 9.27]/' suite/lamp.pbrt
+expect 5 "$T" regress suite --junit junit.xml
+says '1 pass, 1 fail' out.txt
+says '<failure type="fail"' junit.xml
+expect 0 "$T" regress suite --update --filter lamp
+grep -qE 'updated .*mean [0-9.]+ -> [0-9.]+ \(\+[23]\.[0-9]+ %\), differs in RGB' out.txt || fail "--update does not say what changed: $(cat out.txt)"
+expect 0 "$T" regress suite
+expect 0 "$T" regress suite --update --filter lamp
+says 'no difference seen' out.txt
+
+# A picture that is the same but for its bytes differs; so does a reference of another scene.
+cp suite/fog.bytes.exr kept.exr
+"$T" render suite/fog.pbrt --spp 16 --seed 5 --quiet -o suite/fog.bytes.exr
+expect 5 "$T" regress suite --filter fog
+says 'byte for byte' out.txt
+cp kept.exr suite/fog.bytes.exr
+expect 0 "$T" regress suite --filter fog
+cp suite/fog.exr kept.exr
+sed 's/0.5 0.4 0.3/0.5 0.4 0.31/' suite/fog.pbrt >suite/other.pbrt
+cp suite/fog.json suite/other.json
+"$T" regress suite --update --filter other >out.txt 2>err.txt
+mv suite/other.exr suite/fog.exr
+rm suite/other.*
+expect 5 "$T" regress suite --filter fog
+says 'differs in' out.txt
+says 'Albedo' out.txt
+cp kept.exr suite/fog.exr
+
+# A broken scene, a hang and a crash each cost their own case and no other.
+sed 's/WorldBegin/WorldBegun/' suite/fog.pbrt >suite/broken.pbrt
+small_scene | sed 's/resolution" 40/resolution" 400/' >suite/hang.pbrt
+echo '{"spp": 100000, "timeout": 0.5}' >suite/hang.json
+small_scene >suite/crash.pbrt
+expect 7 "$T" regress suite
+grep -qE '^broken +error .*WorldBegun' out.txt || fail "the broken scene is not named: $(cat out.txt)"
+grep -qE '^hang +timeout .*0.5 s' out.txt || fail "the hang is not named: $(cat out.txt)"
+says '2 pass' out.txt
+rm suite/broken.pbrt suite/hang.*
+echo '{"spp": 100000, "timeout": 60}' >suite/crash.json
+"$T" regress suite --filter 'crash' --junit junit.xml >out.txt 2>err.txt &
+parent=$!
+for _ in $(seq 100); do
+  sleep 0.1
+  child=$(cat /proc/$parent/task/$parent/children 2>/dev/null | cut -d' ' -f1)
+  [ -n "$child" ] && [ "$(tr '\0' ' ' </proc/$child/cmdline 2>/dev/null | grep -c ' render ')" = 1 ] && break
+done
+sleep 0.3
+kill -KILL "$child"
+wait $parent
+[ $? = 7 ] || fail "a crash does not give exit code 7"
+grep -qE '^crash +crash .*Killed' out.txt || fail "the crash is not named: $(cat out.txt)"
+says '<error type="crash"' junit.xml
+
+# Ctrl-C ends it soon, leaves no process and no scratch folder behind.
+mkdir -p scratch
+TMPDIR=$PWD/scratch "$T" regress suite --filter crash >out.txt 2>err.txt &
+parent=$!
+sleep 1
+kill -INT $parent
+wait $parent
+[ $? = 130 ] || fail "an interrupted suite does not exit with 130"
+[ -z "$(ls -A scratch)" ] || fail "a scratch folder is left: $(ls -A scratch)"
+rm suite/crash.*
+
+# What is no suite, and settings that mean nothing.
+expect 3 "$T" regress no_such_folder
+expect 3 "$T" regress scratch
+echo '{"ssp": 16}' >suite/lamp.json
+expect 3 "$T" regress suite
+says 'lamp.json: "ssp"' err.txt
+echo '{"spp": 32}' >suite/lamp.json
+expect 7 "$T" regress suite --filter lamp
+says 'another "spp"' out.txt
+cp suite/fog.exr kept.exr
+expect 4 "$T" regress suite --filter fog -o /dev/null/report
+cmp suite/fog.exr kept.exr || fail "a failed run changed a reference"
+finish
