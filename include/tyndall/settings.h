@@ -12,7 +12,7 @@
 namespace tyndall {
 
 /// How one light is chosen for next-event estimation. ALGORITHMS: see README.
-enum class LightStrategy { uniform, power, exhaustive, tree_binary };
+enum class LightStrategy { uniform, power, exhaustive, tree, tree_binary };
 /// What stands for a stretch of medium when its light is chosen: a tracked collision.
 enum class MediaStrategy { vertex };
 /// How the distance of a scattering event along a ray is sampled.

@@ -27,7 +27,7 @@ class Builder {
   Emission emission(const Shape& shape);
   std::uint32_t image(const AreaLight& light, const Location& where);
   SelectionInput selection_input() const;
-  void add_selector(LightStrategy strategy, const SelectionInput& input);
+  void add_selector(LightStrategy strategy, SelectionInput input);
   void count(const SelectionInput& input);
 
   std::unique_ptr<Lights::Parts> parts_;
@@ -123,9 +123,10 @@ void Builder::add(const EmitterShape& placed) {
 SelectionInput Builder::selection_input() const {
   const Lights::Parts& p = *parts_;
   SelectionInput input;
+  input.threads = options_.threads;
   input.power.reserve(p.lights.size());
   const auto& wanted = options_.strategies;
-  const bool tree = std::find(wanted.begin(), wanted.end(), LightStrategy::tree_binary) != wanted.end();
+  const bool tree = std::any_of(wanted.begin(), wanted.end(), uses_bounds);
   if (tree) input.near.reserve(p.lights.size());
   const auto add_near = [&](LightBounds bounds, LightId id) { input.near.push_back({bounds, id}); };
   for (LightId id = 0; id < p.lights.size(); ++id) {
@@ -161,9 +162,9 @@ void Builder::count(const SelectionInput& input) {
   }
 }
 
-void Builder::add_selector(LightStrategy strategy, const SelectionInput& input) {
+void Builder::add_selector(LightStrategy strategy, SelectionInput input) {
   const auto start = std::chrono::steady_clock::now();
-  parts_->selectors.push_back(make_selector(strategy, input));
+  parts_->selectors.push_back(make_selector(strategy, std::move(input)));
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   parts_->selector_stats.push_back({strategy, elapsed.count(), parts_->selectors.back()->memory_bytes()});
 }
@@ -173,9 +174,11 @@ Lights Builder::finish(const Bounds3& scene_bounds) {
     const double radius = 0.5 * length(scene_bounds.extent());
     if (radius > 0 && std::isfinite(radius)) parts_->scene_radius = radius;
   }
-  const SelectionInput input = selection_input();
+  SelectionInput input = selection_input();
   count(input);
-  for (const LightStrategy strategy : options_.strategies) add_selector(strategy, input);
+  const auto& strategies = options_.strategies;
+  for (std::size_t i = 0; i + 1 < strategies.size(); ++i) add_selector(strategies[i], input);
+  if (!strategies.empty()) add_selector(strategies.back(), std::move(input));
   return Lights(std::move(parts_));
 }
 

@@ -52,6 +52,12 @@ class LightTree {
 
   bool empty() const { return nodes_.empty(); }
   std::span<const Node> nodes() const { return nodes_; }
+  /// f(LightId, leaf) for every leaf.
+  template <typename F>
+  void for_each_leaf(const F& f) const {
+    for (std::uint32_t i = 0; i < nodes_.size(); ++i)
+      if (nodes_[i].leaf) f(nodes_[i].second_or_light, i);
+  }
   int depth() const { return depth_; }  ///< decisions on the way to the deepest leaf
   std::size_t memory_bytes() const { return nodes_.capacity() * sizeof(Node); }
 

@@ -46,6 +46,7 @@ struct EmitterShape {
 struct LightBuildOptions {
   std::vector<LightStrategy> strategies{LightStrategy::tree_binary};  ///< a selector is built for each
   const Textures* textures = nullptr;  ///< read for the alpha of emissive shapes; null: opaque. Must outlive the lights
+  int threads = 0;                     ///< to build with; 0: one a core
 };
 
 /// For the summary of a build.

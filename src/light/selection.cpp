@@ -14,12 +14,20 @@ std::vector<double> equal_weights(std::vector<double> power) {
 
 }  // namespace
 
-std::unique_ptr<const LightSelector> make_selector(LightStrategy strategy, const SelectionInput& input) {
+bool uses_bounds(LightStrategy strategy) { return strategy == LightStrategy::tree || strategy == LightStrategy::tree_binary; }
+
+std::unique_ptr<const LightSelector> make_selector(LightStrategy strategy, SelectionInput input) {
   switch (strategy) {
-    case LightStrategy::uniform: return std::make_unique<AliasSelector>(equal_weights(input.power));
-    case LightStrategy::power: return std::make_unique<AliasSelector>(input.power);
-    case LightStrategy::exhaustive: return std::make_unique<ExhaustiveSelector>(equal_weights(input.power));
-    case LightStrategy::tree_binary: return std::make_unique<TreeSelector>(input);
+    case LightStrategy::uniform:
+      return std::make_unique<AliasSelector>(equal_weights(std::move(input.power)));
+    case LightStrategy::power:
+      return std::make_unique<AliasSelector>(input.power);
+    case LightStrategy::exhaustive:
+      return std::make_unique<ExhaustiveSelector>(equal_weights(std::move(input.power)));
+    case LightStrategy::tree:
+      return std::make_unique<TreeSelector<WideLightTree>>(WideLightTree(std::move(input.near), input.threads), input);
+    case LightStrategy::tree_binary:
+      return std::make_unique<TreeSelector<LightTree>>(LightTree(std::move(input.near)), input);
   }
   return nullptr;
 }

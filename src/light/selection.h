@@ -33,8 +33,12 @@ struct SelectionInput {
   std::vector<double> power;  ///< by LightId, W; 0: never chosen
   std::vector<TreeLight> near;
   std::vector<FarLight> far;
+  int threads = 0;  ///< to build with; 0: one a core
 };
 
-std::unique_ptr<const LightSelector> make_selector(LightStrategy strategy, const SelectionInput& input);
+/// Whether a strategy looks at `near` and `far`.
+bool uses_bounds(LightStrategy strategy);
+/// Frees what it has read of `input`: pass a copy where it is needed again.
+std::unique_ptr<const LightSelector> make_selector(LightStrategy strategy, SelectionInput input);
 
 }  // namespace tyndall

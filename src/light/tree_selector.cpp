@@ -5,6 +5,7 @@
 namespace tyndall {
 namespace {
 
+// A leaf of the wide tree is 8 nodes + a child, and there are fewer nodes than lights / 4: leaves stay below kFar.
 constexpr std::uint32_t kFar = 0x80000000;
 constexpr std::uint32_t kDark = 0xffffffff;
 
@@ -15,23 +16,24 @@ constexpr double kBelowOne = 0x1.fffffffffffffp-1;
 
 }  // namespace
 
-TreeSelector::TreeSelector(const SelectionInput& input)
-    : tree_(input.near), far_(input.far), slot_(input.power.size(), kDark) {
+template <typename Tree>
+TreeSelector<Tree>::TreeSelector(Tree tree, const SelectionInput& input)
+    : tree_(std::move(tree)), far_(input.far), slot_(input.power.size(), kDark) {
   for (std::uint32_t i = 0; i < input.far.size(); ++i) slot_[input.far[i].light] = kFar + i;
-  const auto nodes = tree_.nodes();
-  for (std::uint32_t i = 0; i < nodes.size(); ++i) {
-    if (nodes[i].leaf) slot_[nodes[i].second_or_light] = i;
-  }
+  tree_.for_each_leaf([&](LightId light, std::uint32_t leaf) { slot_[light] = leaf; });
 }
 
-TreeSelector::Shares TreeSelector::shares(const PointQuery& query) const {
+template <typename Tree>
+typename TreeSelector<Tree>::Shares TreeSelector<Tree>::shares(const PointQuery& query) const {
+  if (far_.empty()) return {1, 0};
   const double near = tree_.importance(query), far = far_.importance(query);
   if (near == 0 || far == 0) return {near > 0 ? 1.0 : 0.0, far > 0 ? 1.0 : 0.0};
   const double share = std::clamp(far / (near + far), kLeastShare, 1 - kLeastShare);
   return {1 - share, share};
 }
 
-std::optional<SelectedLight> TreeSelector::select(const PointQuery& query, double u) const {
+template <typename Tree>
+std::optional<SelectedLight> TreeSelector<Tree>::select(const PointQuery& query, double u) const {
   const Shares share = shares(query);
   if (u < share.near) {
     const auto choice = tree_.select(query, std::min(u / share.near, kBelowOne));
@@ -44,7 +46,8 @@ std::optional<SelectedLight> TreeSelector::select(const PointQuery& query, doubl
   return SelectedLight{choice->light, static_cast<float>(share.far * choice->pmf)};
 }
 
-float TreeSelector::pmf(const PointQuery& query, LightId light) const {
+template <typename Tree>
+float TreeSelector<Tree>::pmf(const PointQuery& query, LightId light) const {
   const std::uint32_t slot = slot_[light];
   if (slot == kDark) return 0;
   const Shares share = shares(query);
@@ -52,8 +55,12 @@ float TreeSelector::pmf(const PointQuery& query, LightId light) const {
   return share.near > 0 ? static_cast<float>(share.near * tree_.pmf(query, slot)) : 0.0f;
 }
 
-std::size_t TreeSelector::memory_bytes() const {
+template <typename Tree>
+std::size_t TreeSelector<Tree>::memory_bytes() const {
   return tree_.memory_bytes() + far_.memory_bytes() + slot_.capacity() * sizeof(slot_[0]);
 }
+
+template class TreeSelector<LightTree>;
+template class TreeSelector<WideLightTree>;
 
 }  // namespace tyndall

@@ -1,17 +1,22 @@
-/// Choice by the light tree, with the lights at infinity beside its root.
+/// Choice by a light tree, with the lights at infinity beside its root.
 #pragma once
 
 #include "light/selection.h"
+#include "light/wide_light_tree.h"
 
 namespace tyndall {
 
+/// `Tree` is LightTree or WideLightTree.
+template <typename Tree>
 class TreeSelector final : public LightSelector {
  public:
-  explicit TreeSelector(const SelectionInput& input);
+  TreeSelector(Tree tree, const SelectionInput& input);
 
   std::optional<SelectedLight> select(const PointQuery& query, double u) const override;
   float pmf(const PointQuery& query, LightId light) const override;
   std::size_t memory_bytes() const override;
+
+  const Tree& tree() const { return tree_; }
 
  private:
   struct Shares {
@@ -19,9 +24,12 @@ class TreeSelector final : public LightSelector {
   };
   Shares shares(const PointQuery& query) const;
 
-  LightTree tree_;
+  Tree tree_;
   FarLights far_;
   std::vector<std::uint32_t> slot_;  ///< by LightId: tree leaf, or kFar + index among the far lights, or kDark
 };
+
+extern template class TreeSelector<LightTree>;
+extern template class TreeSelector<WideLightTree>;
 
 }  // namespace tyndall

@@ -11,10 +11,11 @@ namespace {
 template <typename Strategy, std::size_t N>
 using Table = std::array<std::pair<std::string_view, Strategy>, N>;
 
-constexpr Table<LightStrategy, 4> kLights{{
+constexpr Table<LightStrategy, 5> kLights{{
     {"uniform", LightStrategy::uniform},
     {"power", LightStrategy::power},
     {"exhaustive", LightStrategy::exhaustive},
+    {"tree", LightStrategy::tree},
     {"tree-binary", LightStrategy::tree_binary},
 }};
 constexpr Table<MediaStrategy, 1> kMedia{{{"vertex", MediaStrategy::vertex}}};

@@ -103,7 +103,7 @@ World::Parts::Parts(Scene scene_in, const BuildSettings& settings)
   const Stopwatch watch;
   const Emitters emitters = find_emitters(scene, geometry, summary);
   lights = build_lights(scene, emitters.shapes, scene_bounds(geometry, media),
-                        {.strategies = settings.lights, .textures = &textures});
+                        {.strategies = settings.lights, .textures = &textures, .threads = settings.threads});
   first_light.assign(geometry.placed().size(), kNone);
   for (std::size_t i = 0; i < emitters.placed.size(); ++i) first_light[emitters.placed[i]] = lights.first_light(i);
   summary.lights = lights.size();

@@ -45,7 +45,7 @@ TEST_CASE("the same bits for 1, 2 and 4 threads, and for every repetition") {
   std::vector<std::string> aovs;
   for (const std::string_view name : aov_names()) aovs.emplace_back(name);
   for (const std::string& scene : scenes()) {
-    for (const LightStrategy lights : {LightStrategy::tree_binary, LightStrategy::power}) {
+    for (const LightStrategy lights : {LightStrategy::tree, LightStrategy::tree_binary, LightStrategy::power}) {
       const Image one = Subject(scene, {.lights = lights, .threads = 1}).render(9, 5, aovs);
       for (const int threads : {1, 2, 4}) {
         CAPTURE(threads);

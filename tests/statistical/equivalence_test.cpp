@@ -75,6 +75,7 @@ TEST_CASE("light strategies") {
   check_same("lights", {{"exhaustive", scene, {.lights = LightStrategy::exhaustive}},
                         {"power", scene, {.lights = LightStrategy::power}},
                         {"uniform", scene, {.lights = LightStrategy::uniform}},
+                        {"tree", scene, {.lights = LightStrategy::tree}},
                         {"tree-binary", scene, {.lights = LightStrategy::tree_binary}}});
 }
 

@@ -2,95 +2,28 @@
 
 #include <doctest/doctest.h>
 
+#include "contribution_oracle.h"
 #include "light_cases.h"
 
 namespace tyndall {
 namespace {
-
-/// A light that can be asked for its contribution directly, with the bounds that selection sees of it.
-struct Oracle {
-  enum class Kind { triangle, point, spot } kind;
-  Vec3 a, b, c;  // spot: a = position, b = axis
-  float core = 0, skirt = 0;
-  bool two_sided = false;
-
-  LightBounds bounds() const {
-    if (kind == Kind::triangle) return test::triangle_bounds(a, b, c, two_sided, 1);
-    if (kind == Kind::point) return test::point_bounds(a, 1);
-    return test::spot_bounds(a, b, core, skirt, 1);
-  }
-
-  /// Whether the point on it that (u, v) picks sends light to the query point, by the float arithmetic of rendering.
-  bool contributes(const PointQuery& q, float u, float v) const {
-    Vec3 x = a;
-    if (kind == Kind::triangle) {
-      if (u + v > 1) u = 1 - u, v = 1 - v;
-      x = a + (b - a) * u + (c - a) * v;
-    }
-    if (x == q.p) return false;
-    const Vec3 wi = normalize(x - q.p);
-    if (kind == Kind::triangle) {
-      const Vec3 n = normalize(cross(b - a, c - a));
-      if (two_sided ? dot(n, wi) == 0 : dot(n, -wi) <= 0) return false;
-    }
-    if (kind == Kind::spot && !(dot(b, -wi) > std::cos(std::min(core + skirt, kPi)))) return false;
-    return length_squared(q.n) == 0 || q.transmissive || dot(q.n, wi) > 0;
-  }
-};
-
-Oracle random_light(Rng& rng) {
-  Oracle l;
-  const float kind = rng.uniform();
-  l.kind = kind < 0.6f ? Oracle::Kind::triangle : (kind < 0.7f ? Oracle::Kind::point : Oracle::Kind::spot);
-  l.a = test::random_in_cube(rng);
-  if (l.kind == Oracle::Kind::triangle) {
-    const float size = std::pow(10.0f, -3 * rng.uniform());
-    l.b = l.a + test::random_in_cube(rng, size);
-    l.c = l.a + test::random_in_cube(rng, size);
-    l.two_sided = rng.uniform() < 0.3f;
-  } else {
-    l.b = test::random_direction(rng);
-    l.core = rng.uniform() < 0.3f ? 0 : kPi * rng.uniform();
-    l.skirt = std::min(kPi - l.core, std::pow(10.0f, 0.5f - 3 * rng.uniform()));
-  }
-  return l;
-}
-
-/// Near the horizon and the light's plane as often as anywhere else.
-PointQuery random_query(const Oracle& l, Rng& rng) {
-  PointQuery q;
-  q.p = rng.uniform() < 0.5f ? test::random_in_cube(rng, 2)
-                             : l.a + test::random_in_cube(rng, std::pow(10.0f, -4 * rng.uniform()));
-  q.n = test::random_direction(rng);
-  if (rng.uniform() < 0.3f) {  // the light just about touches the horizon
-    const Vec3 to_light = normalize(l.a - q.p);
-    q.n = normalize(q.n - to_light * dot(q.n, to_light) + to_light * (1e-6f * (rng.uniform() - 0.3f)));
-  }
-  if (l.kind == Oracle::Kind::triangle && rng.uniform() < 0.2f) {  // seen nearly edge-on
-    const Vec3 n = normalize(cross(l.b - l.a, l.c - l.a));
-    q.p = l.a + (l.b - l.a) * (4 * rng.uniform() - 2) + (l.c - l.a) * (4 * rng.uniform() - 2) + n * (1e-6f * rng.uniform());
-  }
-  if (rng.uniform() < 0.2f) q.n = {};
-  q.transmissive = rng.uniform() < 0.2f;
-  return q;
-}
 
 TEST_CASE("importance is 0 only where nothing can contribute: a million clusters, points and normals by brute force") {
   Rng rng(2024);
   int contributing = 0, culled = 0;
   for (int i = 0; i < 1'000'000; ++i) {
     const int count = 1 + static_cast<int>(rng.next() % 3);
-    std::array<Oracle, 3> lights;
+    std::array<test::ContributionOracle, 3> lights;
     LightBounds cluster;
     for (int k = 0; k < count; ++k) {
-      lights[k] = random_light(rng);
+      lights[k] = test::random_light(rng);
       if (k > 0 && rng.uniform() < 0.5f && lights[k].kind == lights[0].kind) lights[k].b = lights[0].b;
       const LightBounds b = lights[k].bounds();
       if (!(b.intensity > 0)) continue;
       cluster = bounds_union(cluster, b);
     }
     if (cluster.box.empty()) continue;
-    const PointQuery q = random_query(lights[0], rng);
+    const PointQuery q = test::random_query(lights[0], rng);
     const double value = importance(ClusterBounds::from(cluster), cluster.two_sided, q);
     REQUIRE(std::isfinite(value));
     if (value > 0) continue;

@@ -113,6 +113,76 @@ inline std::vector<LightCase> light_cases() {
   return cases;
 }
 
+/// Places where trees break, each with powers that strain them: 8 x 8 layouts.
+inline std::vector<LightCase> degenerate_cases(std::size_t n = 150) {
+  using Place = Vec3 (*)(Rng&, std::size_t);
+  const std::pair<const char*, Place> places[] = {
+      {"coincident",
+       [](Rng&, std::size_t) {
+         return Vec3{0.3f, -0.7f, 0.1f};
+       }},
+      {"at the origin", [](Rng&, std::size_t) { return Vec3{}; }},
+      {"on an axis",
+       [](Rng& rng, std::size_t) {
+         return Vec3{rng.uniform(), 0, 0};
+       }},
+      {"on a diagonal",
+       [](Rng& rng, std::size_t) {
+         return Vec3{1, 1, 1} * rng.uniform();
+       }},
+      {"two places",
+       [](Rng&, std::size_t i) {
+         return Vec3{i % 2 ? 1e6f : -1e-6f, 0, 1};
+       }},
+      {"a chain",
+       [](Rng&, std::size_t i) {
+         return Vec3{std::ldexp(1.0f, 60 - int(i % 120)), 0, 0};
+       }},
+      {"a plane far off",
+       [](Rng& rng, std::size_t) {
+         return Vec3{1e6f + rng.uniform(), 1e6f - rng.uniform(), 1e6f};
+       }},
+      {"the float range", [](Rng& rng, std::size_t i) { return random_in_cube(rng) * (i % 2 ? 1e38f : 1e-40f); }},
+  };
+  using Make = LightBounds (*)(Rng&, std::size_t, Vec3);
+  const std::pair<const char*, Make> kinds[] = {
+      {"equal points", [](Rng&, std::size_t, Vec3 p) { return point_bounds(p, 1); }},
+      {"powers over sixty decades",
+       [](Rng& rng, std::size_t, Vec3 p) { return point_bounds(p, std::pow(10.0f, 60 * rng.uniform() - 30)); }},
+      {"one that outshines all", [](Rng&, std::size_t i, Vec3 p) { return point_bounds(p, i == 7 ? 1e30f : 1e-5f); }},
+      {"spots of no width", [](Rng& rng, std::size_t, Vec3 p) { return spot_bounds(p, random_direction(rng), 0, 1e-4f, 1); }},
+      {"spots all around", [](Rng& rng, std::size_t, Vec3 p) { return spot_bounds(p, random_direction(rng), kPi, kPi, 1); }},
+      {"opposite faces",
+       [](Rng&, std::size_t i, Vec3 p) {
+         LightBounds b = spot_bounds(p, {0, 0, i % 2 ? 1.0f : -1.0f}, 0, kPi / 2, 1);
+         b.two_sided = i % 3 == 0;
+         return b;
+       }},
+      {"boxes over thirty decades",
+       [](Rng& rng, std::size_t, Vec3 p) {
+         LightBounds b = spot_bounds(p, random_direction(rng), 0, kPi / 2, 1);
+         b.box.expand(p + random_direction(rng) * std::pow(10.0f, 30 * rng.uniform() - 15));
+         return b;
+       }},
+      {"flat boxes",
+       [](Rng& rng, std::size_t, Vec3 p) {
+         LightBounds b = spot_bounds(p, {0, 1, 0}, 0, kPi / 2, rng.uniform() + 0.1f);
+         b.box.expand(p + Vec3{0.1f * rng.uniform(), 0, 0.1f * rng.uniform()});
+         return b;
+       }},
+  };
+  std::vector<LightCase> cases;
+  Rng rng(123);
+  for (const auto& [place_name, place] : places) {
+    for (const auto& [kind_name, make] : kinds) {
+      LightCase c{std::string(place_name) + ", " + kind_name, {}};
+      for (std::size_t i = 0; i < n; ++i) c.lights.push_back(make(rng, i, place(rng, i)));
+      cases.push_back(std::move(c));
+    }
+  }
+  return cases;
+}
+
 /// Points inside and outside the lights' box, on lights, at the centre, far away; a third of them in a medium.
 inline std::vector<PointQuery> queries_for(const std::vector<LightBounds>& lights, std::size_t count, std::uint64_t seed) {
   Bounds3 box;

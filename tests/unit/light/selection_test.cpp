@@ -40,7 +40,8 @@ SelectionInput mixed_input(std::size_t near, bool sky_partner) {
   return input;
 }
 
-constexpr LightStrategy kStrategies[] = {LightStrategy::uniform, LightStrategy::power, LightStrategy::tree_binary};
+constexpr LightStrategy kStrategies[] = {LightStrategy::uniform, LightStrategy::power, LightStrategy::tree,
+                                       LightStrategy::tree_binary};
 
 std::vector<PointQuery> queries() {
   std::vector<LightBounds> box{test::point_bounds({-1, -1, -1}, 1), test::point_bounds({1, 1, 1}, 1)};

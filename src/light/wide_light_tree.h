@@ -1,0 +1,104 @@
+/// The light tree that renders use: eight children a node, evaluated at once, one decision among all of them
+/// [Conty Estevez and Kulla, "Importance Sampling of Many Lights with Adaptive Tree Splitting", HPG 2018, widened].
+///
+/// A child is chosen with P_i = I_i / sum I. Once in 2^20 times a light is chosen by its number instead, so that each of
+/// n lights that may contribute owns at least 2^-20 / n of the range of u: none is out of reach of u's bits, however weak
+/// the others make it look.
+///
+/// Lengths are kept in a unit, a power of two, in which no coordinate of a light exceeds 1: squares neither over- nor
+/// underflow single precision, and scaling the scene by a power of two changes no probability.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "light/light_tree.h"
+#include "light/wide_node.h"
+#include "math/big_array.h"
+
+namespace tyndall {
+
+class WideLightTree {
+ public:
+  /// A cluster: child `ref % 8` of node `ref / 8`, or all lights.
+  using NodeRef = std::uint32_t;
+  static constexpr NodeRef kAll = 0xffffffff;
+
+  WideLightTree() = default;
+  /// Equal input gives an equal tree for any number of threads (0: one a core). `lights` is freed on the way.
+  explicit WideLightTree(std::vector<TreeLight> lights, int threads = 0);
+
+  struct Choice {
+    LightId light;
+    double pmf;
+  };
+  /// Descends by one number u in [0, 1), rescaled after every decision. Nothing: u fell on a branch whose lights all
+  /// have importance 0.
+  std::optional<Choice> select(const PointQuery& query, double u) const { return select_below(kAll, localize(query), u); }
+  /// Probability of select() giving the light whose leaf is `leaf`: the same decisions from the leaf upward.
+  double pmf(const PointQuery& query, NodeRef leaf) const { return pmf_below(kAll, leaf, localize(query)); }
+  /// Importance of all lights together, in W/sr / length^2: the sum over the root's children.
+  double importance(const PointQuery& query) const;
+
+  bool empty() const { return nodes_.empty(); }
+  std::span<const WideNode> nodes() const { return nodes_; }
+  int depth() const { return depth_; }  ///< nodes on the way to the deepest leaf
+  std::size_t memory_bytes() const { return nodes_.bytes(); }
+  /// f(LightId, NodeRef) for every leaf.
+  template <typename F>
+  void for_each_leaf(const F& f) const;
+
+  /// What a cut through the tree is made of: start at root(), replace a cluster by its children() while that pays, then
+  /// select_below() each.
+  NodeRef root() const { return kAll; }
+  bool is_leaf(NodeRef ref) const { return ref != kAll && nodes_[ref / 8].leaf(ref % 8); }
+  /// The node whose children a cluster that is no leaf has.
+  std::uint32_t node_of(NodeRef ref) const { return ref == kAll ? 0 : nodes_[ref / 8].child[ref % 8]; }
+  WideQuery localize(const PointQuery& query) const;
+  /// Importance of the children of a cluster, child i being NodeRef 8 node_of(ref) + i; relative to each other.
+  ChildImportance children(NodeRef ref, const WideQuery& query) const { return child_importance(nodes_[node_of(ref)], query); }
+  /// Bounds and moments of a cluster, lengths in the tree's unit, intensity relative to that of all lights.
+  Cluster cluster(NodeRef ref) const { return ref == kAll ? all_ : nodes_[ref / 8].cluster(static_cast<int>(ref % 8)); }
+  /// select() within one cluster; a leaf has pmf 1.
+  std::optional<Choice> select_below(NodeRef top, const WideQuery& query, double u) const;
+  /// Probability of select_below(top) giving the light of `leaf`, which is below `top`.
+  double pmf_below(NodeRef top, NodeRef leaf, const WideQuery& query) const;
+
+  /// The tree's lengths in one of the scene's, for a query at `p`: the same everywhere, but where all lights are at the
+  /// origin and nothing else gives a scale.
+  double to_unit(Vec3 p) const;
+
+ private:
+  friend class WideTreeBuilder;
+  std::optional<Choice> select_by_number(NodeRef top, const WideQuery& query, double u) const;
+  std::uint32_t count_of(NodeRef ref) const { return ref == kAll ? all_.count : nodes_[ref / 8].count[ref % 8]; }
+
+  BigArray<WideNode> nodes_;  ///< the first is the root
+  Cluster all_;
+  double to_unit_ = 0;    ///< the tree's lengths in one of the scene's; 0: all lights are at the origin
+  double intensity_ = 0;  ///< of all lights, W/sr
+  int depth_ = 0;
+};
+
+/// How much more a cluster may contribute than its importance says: what adaptive splitting goes by.
+struct SplitMeasure {
+  double nearest = 0, farthest = 0;  ///< distances of the sphere around the box, in the tree's unit; 0: it holds the point
+  /// Squared coefficient of variation of a light's contribution, distance and intensity taken as independent
+  /// [2018, sec. 5.4, made dimensionless]; infinite when the point is inside.
+  double cv2 = 0;
+  double score() const { return 1 / (1 + cv2); }  ///< in [0, 1]; low: split
+};
+SplitMeasure split_measure(const Cluster& cluster, const WideQuery& query);
+
+template <typename F>
+void WideLightTree::for_each_leaf(const F& f) const {
+  for (std::size_t node = 0; node < nodes_.size(); ++node) {
+    for (int i = 0; i < WideNode::kWidth; ++i)
+      if (nodes_[node].used(i) && nodes_[node].leaf(i)) f(nodes_[node].child[i], static_cast<NodeRef>(8 * node + i));
+  }
+}
+
+}  // namespace tyndall

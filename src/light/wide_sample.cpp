@@ -1,0 +1,124 @@
+// Descent of the wide light tree and the probabilities of its outcomes.
+#include "light/wide_light_tree.h"
+
+namespace tyndall {
+namespace {
+
+/// Small enough that no product with a sum of weights rounds up to that sum.
+constexpr double kBelowOne = 1 - 0x1p-52;
+
+/// Weight of the choice by number.
+constexpr double kByNumber = 0x1p-20;
+
+/// Farther than this, in units of the tree, directions and ratios of distances no longer change.
+constexpr double kFar = 0x1p20;
+
+double mixed(double by_importance, std::uint32_t lights) { return (1 - kByNumber) * by_importance + kByNumber / lights; }
+
+/// Ends of the children's parts of [0, sum], the first at [1].
+struct Ends {
+  std::array<double, WideNode::kWidth + 1> at{};
+
+  explicit Ends(const ChildImportance& children) {
+    // Two short chains of sums in place of a long one.
+    const auto& x = children.of;
+    double first = 0, second = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      at[i + 1] = first += x[i];
+      at[i + 5] = second += x[i + 4];
+    }
+    for (std::size_t i = 5; i <= WideNode::kWidth; ++i) at[i] += first;
+  }
+  double sum() const { return at.back(); }
+  double width(std::size_t child) const { return at[child + 1] - at[child]; }
+};
+
+}  // namespace
+
+double WideLightTree::to_unit(Vec3 p) const {
+  if (to_unit_ > 0) return to_unit_;
+  const float largest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  return largest > 0 ? std::ldexp(1.0, -std::ilogb(largest)) : 1;
+}
+
+WideQuery WideLightTree::localize(const PointQuery& query) const {
+  Vec3d p = Vec3d(query.p) * to_unit(query.p);
+  const double largest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  if (largest > kFar) p = p * (kFar / largest);
+  return {to_vec3(p), query.n, dot(query.n, query.n) > 0, query.transmissive};
+}
+
+std::optional<WideLightTree::Choice> WideLightTree::select_below(NodeRef top, const WideQuery& query, double u) const {
+  if (nodes_.empty()) return std::nullopt;
+  if (is_leaf(top)) return Choice{nodes_[top / 8].child[top % 8], 1};
+  if (u < kByNumber) return select_by_number(top, query, u / kByNumber);
+  u = std::min((u - kByNumber) / (1 - kByNumber), kBelowOne);
+  double chance = 1;
+  NodeRef ref = top;
+  do {
+    const std::uint32_t index = node_of(ref);
+    const Ends ends(child_importance(nodes_[index], query));
+    const double place = u * ends.sum();
+    if (!(ends.sum() > 0)) return std::nullopt;
+    std::size_t child = 0;  // counted without branches: which it is cannot be guessed
+    for (std::size_t i = 1; i < WideNode::kWidth; ++i) child += ends.at[i] <= place;
+    u = std::min((place - ends.at[child]) / ends.width(child), kBelowOne);
+    chance *= ends.width(child) / ends.sum();
+    ref = 8 * index + static_cast<NodeRef>(child);
+    if (!is_leaf(ref)) nodes_[node_of(ref)].prefetch();
+  } while (!is_leaf(ref));
+  return Choice{nodes_[ref / 8].child[ref % 8], mixed(chance, count_of(top))};
+}
+
+std::optional<WideLightTree::Choice> WideLightTree::select_by_number(NodeRef top, const WideQuery& query, double u) const {
+  auto number = static_cast<std::uint32_t>(u * count_of(top));
+  NodeRef ref = top;
+  while (!is_leaf(ref)) {
+    const std::uint32_t index = node_of(ref);
+    std::uint32_t child = 0;
+    for (; number >= nodes_[index].count[child]; ++child) number -= nodes_[index].count[child];
+    ref = 8 * index + child;
+  }
+  const double pmf = pmf_below(top, ref, query);
+  if (!(pmf > 0)) return std::nullopt;
+  return Choice{nodes_[ref / 8].child[ref % 8], pmf};
+}
+
+double WideLightTree::pmf_below(NodeRef top, NodeRef leaf, const WideQuery& query) const {
+  if (leaf == top) return 1;
+  double chance = 1;
+  for (NodeRef ref = leaf; ref != top; ref = nodes_[ref / 8].parent) {
+    const ChildImportance children = child_importance(nodes_[ref / 8], query);
+    if (!(children.of[ref % 8] > 0)) return 0;
+    const Ends ends(children);
+    chance *= ends.width(ref % 8) / ends.sum();
+  }
+  return mixed(chance, count_of(top));
+}
+
+double WideLightTree::importance(const PointQuery& query) const {
+  if (nodes_.empty()) return 0;
+  double sum = 0;
+  for (const float child : children(kAll, localize(query)).of) sum += child;
+  const double per_length = to_unit(query.p);
+  return sum * nodes_[0].scale * intensity_ * per_length * per_length;
+}
+
+SplitMeasure split_measure(const Cluster& cluster, const WideQuery& query) {
+  const Vec3d low(cluster.box.min), high(cluster.box.max);
+  const double radius = 0.5 * length(high - low), distance = length((low + high) * 0.5 - Vec3d(query.p));
+  SplitMeasure m;
+  m.nearest = std::max(distance - radius, 0.0);
+  m.farthest = distance + radius;
+  if (cluster.count <= 1 && radius == 0) return m;
+  if (!(m.nearest > 0)) {
+    m.cv2 = kInfinity;
+    return m;
+  }
+  // Squared distances uniform on [a, b]: E[g^2] / E[g]^2 - 1 = (b - a)^2 / (3 a b) for g = 1 / d^2.
+  const double distance_cv2 = (m.farthest - m.nearest) * (m.farthest - m.nearest) / (3 * m.nearest * m.farthest);
+  m.cv2 = (1 + cluster.intensity_cv2()) * (1 + distance_cv2) - 1;
+  return m;
+}
+
+}  // namespace tyndall

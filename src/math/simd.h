@@ -1,0 +1,39 @@
+/// Eight numbers at once. The one door to the compiler's SIMD types.
+///
+/// Arithmetic, comparisons, sqrt, min, max, abs and clamp work on each of the eight; choose(m, a, b) is m ? a : b.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <experimental/simd>
+
+namespace tyndall {
+
+using Float8 = std::experimental::simd<float, std::experimental::simd_abi::deduce_t<float, 8>>;
+using Mask8 = Float8::mask_type;
+
+inline Float8 load8(const float* values) { return Float8(values, std::experimental::element_aligned); }
+
+/// Integers as floats.
+template <typename Integer>
+Float8 load8(const Integer* values) {
+  using Narrow = std::experimental::rebind_simd_t<Integer, Float8>;
+  return std::experimental::static_simd_cast<Float8>(Narrow(values, std::experimental::element_aligned));
+}
+
+/// The upper halves of floats (math/half_float.h).
+inline Float8 load8_upper(const std::uint16_t* values) {
+  using Narrow = std::experimental::rebind_simd_t<std::uint16_t, Float8>;
+  using Wide = std::experimental::rebind_simd_t<std::uint32_t, Float8>;
+  const Narrow upper(values, std::experimental::element_aligned);
+  return std::bit_cast<Float8>(std::experimental::static_simd_cast<Wide>(upper) << 16);
+}
+
+inline void store8(float* to, Float8 v) { v.copy_to(to, std::experimental::element_aligned); }
+
+inline Float8 choose(Mask8 mask, Float8 a, Float8 b) {
+  where(mask, b) = a;
+  return b;
+}
+
+}  // namespace tyndall
