@@ -30,8 +30,13 @@ struct RenderSettings {
   std::uint64_t seed = 0;
   int threads = 0;               ///< 0: all cores
   LightStrategy lights = LightStrategy::tree_binary;  ///< one that the World was built with
-  int candidates = 1;   ///< lights chosen at a vertex, >= 1; exhaustive takes all and traces all
+  /// Lights chosen at a vertex, >= 0; 0: as many as splitting makes clusters, one without a tree. Exhaustive takes all
+  /// lights and traces all.
+  int candidates = 1;
   int shadow_rays = 1;  ///< of the candidates, are traced, >= 0; 0: every one
+  /// Clusters of the light tree that are predicted worse than this are split while candidates allow, in [0, 1]; 0: none,
+  /// 1: down to single lights. No part in strategies without a tree.
+  float splitting = 0;
   MediaStrategy media = MediaStrategy::vertex;
   DistanceStrategy distance = DistanceStrategy::tracking;
   TransmittanceStrategy transmittance = TransmittanceStrategy::residual;

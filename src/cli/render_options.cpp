@@ -81,8 +81,10 @@ void declare(CLI::App& command, MethodOptions& o) {
                        std::string(axis.about) + ": " + join(axis.names, ", ") + " [the Integrator's, else " +
                            std::string(axis.get({})) + "]; " + option + " " + std::string(axis.names.back()));
   }
-  command.add_option("--candidates", o.candidates, "lights chosen at a vertex and looked at without visibility [the Integrator's, else 1]; --candidates 8")
-      ->check(CLI::Range(1, 4096));
+  command.add_option("--candidates", o.candidates, "lights chosen at a vertex and looked at without visibility; 0: one for each cluster that --splitting makes [the Integrator's, else 1]; --candidates 8")
+      ->check(CLI::Range(0, 4096));
+  command.add_option("--splitting", o.splitting, "clusters of the light tree predicted worse than this are split while --candidates allow, 0..1; 0: none, 1: down to single lights [the Integrator's, else 0]; --splitting 0.7")
+      ->check(CLI::Range(0.0, 1.0));
   command.add_option("--shadow-rays", o.shadow_rays, "of these are traced, resampled by their contribution; 0: all [the Integrator's, else 1]; --shadow-rays 0")
       ->check(CLI::Range(0, 4096));
 }
@@ -134,6 +136,7 @@ void apply(const MethodOptions& o, RenderSettings& settings) {
     if (!name.empty() && !axis.set(settings, name)) bad("--" + std::string(axis.option), name, join(axis.names, ", "));
   }
   if (o.candidates) settings.candidates = *o.candidates;
+  if (o.splitting) settings.splitting = static_cast<float>(*o.splitting);
   if (o.shadow_rays) settings.shadow_rays = *o.shadow_rays;
 }
 

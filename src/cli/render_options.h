@@ -16,6 +16,7 @@ struct MethodOptions {
   std::vector<std::string> strategies = std::vector<std::string>(strategy_axes().size());  ///< by axis; empty: not given
 
   std::optional<int> candidates, shadow_rays;
+  std::optional<double> splitting;
 };
 
 /// Options that say what the right picture is.

@@ -27,7 +27,7 @@ std::vector<std::string> split(const std::string& text, const char* separators) 
 std::string method_option_names() {
   std::string names;
   for (const StrategyAxis& axis : strategy_axes()) names += (names.empty() ? "--" : ", --") + std::string(axis.option);
-  return names + ", --candidates, --shadow-rays";
+  return names + ", --candidates, --splitting, --shadow-rays";
 }
 
 CompareVariant variant_of(const std::string& name, const std::string& options, const RenderSettings& base) {
@@ -69,7 +69,7 @@ bool add_preset(const std::string& name, const RenderSettings& base, std::vector
 
 bool same_method(const RenderSettings& a, const RenderSettings& b) {
   const auto& axes = strategy_axes();
-  return a.candidates == b.candidates && a.shadow_rays == b.shadow_rays &&
+  return a.candidates == b.candidates && a.shadow_rays == b.shadow_rays && a.splitting == b.splitting &&
          std::all_of(axes.begin(), axes.end(), [&](const StrategyAxis& axis) { return axis.get(a) == axis.get(b); });
 }
 

@@ -60,7 +60,11 @@ void read_own_options(State& state, ParamList& params) {
     if (!(*error > 0)) throw params.error("error", "error must be above 0; it is a relMSE, as 0.001");
     s.error = *error;
   }
-  s.candidates = at_least(params, "candidates", s.candidates, 1);
+  s.candidates = at_least(params, "candidates", s.candidates, 0);
+  if (const auto splitting = params.maybe_number("splitting")) {
+    if (!(*splitting >= 0 && *splitting <= 1)) throw params.error("splitting", "splitting must be from 0 to 1");
+    s.splitting = static_cast<float>(*splitting);
+  }
   s.shadow_rays = at_least(params, "shadow-rays", s.shadow_rays, 0);
   for (const StrategyAxis& axis : strategy_axes()) read_strategy(params, axis, s);  // "lights" wins over "lightsampler"
   s.reproducible = params.boolean("reproducible", s.reproducible);

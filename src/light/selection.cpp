@@ -1,7 +1,10 @@
 #include "light/selection.h"
 
+#include <algorithm>
+
 #include "light/alias_selector.h"
 #include "light/tree_selector.h"
+#include "light/wide_selector.h"
 
 namespace tyndall {
 namespace {
@@ -16,6 +19,20 @@ std::vector<double> equal_weights(std::vector<double> power) {
 
 bool uses_bounds(LightStrategy strategy) { return strategy == LightStrategy::tree || strategy == LightStrategy::tree_binary; }
 
+LightCut LightSelector::cut(const PointQuery&, const CutSettings& settings) const {
+  LightCut whole;
+  whole.push_back({0, static_cast<std::uint32_t>(std::max(settings.candidates, 1))});
+  return whole;
+}
+
+std::optional<SelectedLight> LightSelector::select_in(const LightCluster&, const PointQuery& query, double u) const {
+  return select(query, u);
+}
+
+float LightSelector::expected(const LightCut& cut, const PointQuery& query, LightId light) const {
+  return exhaustive() ? 1.0f : static_cast<float>(cut[0].candidates) * pmf(query, light);
+}
+
 std::unique_ptr<const LightSelector> make_selector(LightStrategy strategy, SelectionInput input) {
   switch (strategy) {
     case LightStrategy::uniform:
@@ -25,7 +42,7 @@ std::unique_ptr<const LightSelector> make_selector(LightStrategy strategy, Selec
     case LightStrategy::exhaustive:
       return std::make_unique<ExhaustiveSelector>(equal_weights(std::move(input.power)));
     case LightStrategy::tree:
-      return std::make_unique<TreeSelector<WideLightTree>>(WideLightTree(std::move(input.near), input.threads), input);
+      return std::make_unique<WideSelector>(WideLightTree(std::move(input.near), input.threads), input);
     case LightStrategy::tree_binary:
       return std::make_unique<TreeSelector<LightTree>>(LightTree(std::move(input.near)), input);
   }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "light/far_lights.h"
+#include "light/light_cut.h"
 #include "light/light_tree.h"
 #include "light/query.h"
 #include "tyndall/settings.h"
@@ -23,6 +24,13 @@ class LightSelector {
   virtual std::optional<SelectedLight> select(const PointQuery& query, double u) const = 0;
   /// Probability that select() gives `light`; exhaustive: 1.
   virtual float pmf(const PointQuery& query, LightId light) const = 0;
+  /// The clusters that a vertex draws its candidates from. Unless a strategy can tell better: all lights as one.
+  virtual LightCut cut(const PointQuery& query, const CutSettings& settings) const;
+  /// One light of a cluster of the query's cut, as select(); its pmf is that within the cluster.
+  virtual std::optional<SelectedLight> select_in(const LightCluster& cluster, const PointQuery& query, double u) const;
+  /// How often the candidates of the cut are `light`, on average; exhaustive: 1.
+  virtual float expected(const LightCut& cut, const PointQuery& query, LightId light) const;
+
   /// Callers loop over all lights, each with pmf 1, in place of select().
   virtual bool exhaustive() const { return false; }
   virtual std::size_t memory_bytes() const = 0;

@@ -5,10 +5,6 @@
 namespace tyndall {
 namespace {
 
-// A leaf of the wide tree is 8 nodes + a child, and there are fewer nodes than lights / 4: leaves stay below kFar.
-constexpr std::uint32_t kFar = 0x80000000;
-constexpr std::uint32_t kDark = 0xffffffff;
-
 /// Neither the tree nor the lights at infinity get less than this while they have any importance: the root's bound
 /// says little about the lights near a point inside it.
 constexpr double kLeastShare = 0.1;

@@ -8,7 +8,7 @@ namespace tyndall {
 
 /// `Tree` is LightTree or WideLightTree.
 template <typename Tree>
-class TreeSelector final : public LightSelector {
+class TreeSelector : public LightSelector {
  public:
   TreeSelector(Tree tree, const SelectionInput& input);
 
@@ -18,12 +18,19 @@ class TreeSelector final : public LightSelector {
 
   const Tree& tree() const { return tree_; }
 
- private:
+ protected:
   struct Shares {
     double near, far;  ///< probabilities of the tree and of the lights at infinity
   };
-  Shares shares(const PointQuery& query) const;
+  // A leaf of the wide tree is 8 nodes + a child, and there are fewer nodes than lights / 4: leaves stay below kFar.
+  static constexpr std::uint32_t kFar = 0x80000000;
+  static constexpr std::uint32_t kDark = 0xffffffff;
 
+  Shares shares(const PointQuery& query) const;
+  const FarLights& far() const { return far_; }
+  std::uint32_t slot_of(LightId light) const { return slot_[light]; }
+
+ private:
   Tree tree_;
   FarLights far_;
   std::vector<std::uint32_t> slot_;  ///< by LightId: tree leaf, or kFar + index among the far lights, or kDark

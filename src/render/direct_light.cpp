@@ -41,30 +41,28 @@ Rgb trace(const LightContext& context, const Vertex& vertex, const Candidate& c)
   return c.contribution * visibility(context, vertex.media_toward(world.geometry, c.light.wi), origin, c.light.wi, c.light.distance);
 }
 
-Rgb trace_all(const LightContext& context, const Vertex& vertex, Rgb beta) {
+Rgb trace_all(const LightContext& context, const Vertex& vertex, Rgb beta, Sampler& sampler) {
   Rgb sum;
   for (LightId id = 0; id < context.world.lights.size(); ++id) {
-    if (const auto c = look_at(context, vertex, beta, {id, 1}, context.sampler.next_2d())) sum += trace(context, vertex, *c);
+    if (const auto c = look_at(context, vertex, beta, {id, 1}, sampler.next_2d())) sum += trace(context, vertex, *c);
   }
   return sum;
 }
 
 using Candidates = SmallVector<Candidate, 8>;
 
-/// One number gives all their selections: the i-th of n lies in the i-th n-th of [0, 1), so that they spread.
-Candidates find_candidates(const LightContext& context, const Vertex& vertex, Rgb beta) {
-  const int n = context.settings.candidates;
-  const double u = context.sampler.next_wide();
-  const PointQuery query = vertex.light_query();
-  Candidates found;
-  for (int i = 0; i < n; ++i) {
-    const Vec2 on_light = context.sampler.next_2d();  // drawn in any case: later dimensions stay where they are
-    const auto selected = context.selector.select(query, std::min((i + u) / n, kBelowOne));
+/// One number gives all selections in a cluster: the i-th of n lies in the i-th n-th of [0, 1), so that they spread.
+void add_candidates(const LightContext& context, const Vertex& vertex, const PointQuery& query, LightCluster cluster, Rgb beta,
+                    Sampler& sampler, Candidates& found) {
+  const auto n = cluster.candidates;
+  const double u = sampler.next_wide();
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const Vec2 on_light = sampler.next_2d();
+    const auto selected = context.selector.select_in(cluster, query, std::min((i + u) / n, kBelowOne));
     if (!selected) continue;
     const auto c = look_at(context, vertex, beta, {selected->light, selected->pmf * static_cast<float>(n)}, on_light);
     if (c) found.push_back(*c);
   }
-  return found;
 }
 
 /// Resampled importance sampling: `rays` of the candidates, drawn with replacement in proportion to their weights, stand
@@ -108,17 +106,24 @@ Rgb visibility(const LightContext& context, const MediaState& media, Vec3 origin
   return T;
 }
 
-float expected_candidates(const LightContext& context, const PointQuery& query, LightId light) {
-  if (context.selector.exhaustive()) return 1;
-  return context.selector.pmf(query, light) * static_cast<float>(context.settings.candidates);
+LightSearch light_search(const LightContext& context, const Vertex& vertex) {
+  const RenderSettings& settings = context.settings;
+  LightSearch search{settings.candidates != 1 ? vertex.light_query_with_lobes() : vertex.light_query(), {}};
+  if (context.world.lights.empty() || !vertex.has_smooth() || context.selector.exhaustive()) return search;
+  search.cut = context.selector.cut(search.query, {.candidates = settings.candidates, .splitting = settings.splitting});
+  return search;
 }
 
-Rgb direct_light(const LightContext& context, const Vertex& vertex, Rgb beta) {
+Rgb direct_light(const LightContext& context, const Vertex& vertex, const LightSearch& search, Rgb beta) {
+  Sampler sampler = context.sampler.fork();
   if (context.world.lights.empty() || !vertex.has_smooth()) return {};
-  if (context.selector.exhaustive()) return trace_all(context, vertex, beta);
+  if (context.selector.exhaustive()) return trace_all(context, vertex, beta, sampler);
 
-  const Candidates candidates = find_candidates(context, vertex, beta);
-  const float u = context.settings.candidates > 1 ? context.sampler.next_1d() : 0.0f;
+  const float u = sampler.next_1d();
+  Candidates candidates;
+  for (const LightCluster& cluster : search.cut) {
+    add_candidates(context, vertex, search.query, cluster, beta, sampler, candidates);
+  }
   if (candidates.empty()) return {};
   const int rays = context.settings.shadow_rays;
   if (rays > 0 && candidates.size() > static_cast<std::size_t>(rays)) return trace_some(context, vertex, candidates, rays, u);

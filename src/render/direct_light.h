@@ -30,14 +30,17 @@ inline float mis_weight(float a, float b) {
 /// Fraction of light that gets through media and past surfaces over `distance` from `origin` along `wi`.
 Rgb visibility(const LightContext& context, const MediaState& media, Vec3 origin, Vec3 wi, float distance);
 
-/// Number of times that direct_light at the query's vertex tries `light`, on average: the probability of its selection
-/// times the number of candidates. Times a density of the light, it is what MIS sets against a scattered ray.
-float expected_candidates(const LightContext& context, const PointQuery& query, LightId light);
+/// How lights are sought at one vertex: direct_light goes by it, and MIS must know it when a scattered ray hits one.
+struct LightSearch {
+  PointQuery query;
+  LightCut cut;
+};
+LightSearch light_search(const LightContext& context, const Vertex& vertex);
 
 /// Unbiased estimate of the light scattered at `vertex` toward the path, weighted by MIS against scattered rays that
 /// hit emitters. `settings.candidates` lights are chosen and looked at without visibility; of these
 /// `settings.shadow_rays` are traced, resampled by their contribution [Talbot et al. 2005] (0: all of them).
 /// Multiply by the throughput `beta`, which is passed for the densities only.
-Rgb direct_light(const LightContext& context, const Vertex& vertex, Rgb beta);
+Rgb direct_light(const LightContext& context, const Vertex& vertex, const LightSearch& search, Rgb beta);
 
 }  // namespace tyndall

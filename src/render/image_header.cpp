@@ -1,5 +1,6 @@
 #include "render/image_header.h"
 
+#include <cstdio>
 #include <ctime>
 
 #include "render/scene_hash.h"
@@ -13,8 +14,10 @@ std::string options_text(const RenderSettings& settings) {
   for (const StrategyAxis& axis : strategy_axes()) {
     text += " --" + std::string(axis.option) + " " + std::string(axis.get(settings));
   }
-  return text + " --candidates " + std::to_string(settings.candidates) + " --shadow-rays " +
-         std::to_string(settings.shadow_rays);
+  char numbers[96];
+  std::snprintf(numbers, sizeof numbers, " --candidates %d --splitting %g --shadow-rays %d", settings.candidates,
+                static_cast<double>(settings.splitting), settings.shadow_rays);
+  return text + numbers;
 }
 
 std::string utc_now() {

@@ -50,14 +50,14 @@ PathRecord Path::run() {
 
 /// Next-event estimation, then the direction of the next ray. False ends the path.
 bool Path::scatter(const Vertex& vertex) {
-  add(beta_ * direct_light(context_, vertex, beta_), depth_);
+  search_ = light_search(context_, vertex);
+  add(beta_ * direct_light(context_, vertex, search_, beta_), depth_);
 
   const float uc = context_.sampler.next_1d();
   const auto s = vertex.sample(beta_, uc, context_.sampler.next_2d());
   if (!s) return false;
   light_sampled_ = !s->specular && vertex.has_smooth();
   pdf_ = s->pdf;
-  query_ = vertex.light_query();
   media_ = vertex.media_toward(context_.world.geometry, s->wi);
   ray_ = {vertex.origin(context_.world.geometry, s->wi), s->wi};
   beta_ *= s->weight;
@@ -157,7 +157,7 @@ void Path::add_environment() {
     if (is_black(L)) continue;
     float weight = 1;
     if (light_sampled_) {
-      const float tries = expected_candidates(context_, query_, id);
+      const float tries = context_.selector.expected(search_.cut, search_.query, id);
       weight = mis_weight(pdf_, tries * lights.environment_pdf(id, ray_.d, true));
     }
     add(beta_ * L * weight, depth_);
@@ -173,8 +173,8 @@ void Path::add_surface_emission(const SurfaceHit& hit) {
   if (is_black(L)) return;
   float weight = 1;
   if (light_sampled_) {
-    const float tries = expected_candidates(context_, query_, *id);
-    weight = mis_weight(pdf_, tries * lights.pdf(*id, query_.p, emitter));
+    const float tries = context_.selector.expected(search_.cut, search_.query, *id);
+    weight = mis_weight(pdf_, tries * lights.pdf(*id, search_.query.p, emitter));
   }
   add(beta_ * L * weight, depth_);
 }

@@ -49,7 +49,7 @@ class Path {
   // The last scattering event, for the MIS weight of emitters that its ray hits.
   bool light_sampled_ = false;  ///< next-event estimation could have found what this ray finds
   float pdf_ = 0;
-  PointQuery query_;
+  LightSearch search_;
 };
 
 }  // namespace tyndall

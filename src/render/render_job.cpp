@@ -44,7 +44,8 @@ PixelBounds full_crop(const Scene& scene, const RenderSettings& settings) {
 
 void check(const RenderSettings& settings) {
   if (settings.spp < 1) throw Error(Failure::usage, "spp is " + std::to_string(settings.spp) + "; give 1 or more");
-  if (settings.candidates < 1) throw Error(Failure::usage, "candidates is " + std::to_string(settings.candidates) + "; give 1 or more");
+  if (settings.candidates < 0) throw Error(Failure::usage, "candidates is negative; give 0 or more");
+  if (!(settings.splitting >= 0 && settings.splitting <= 1)) throw Error(Failure::usage, "splitting must be from 0 to 1");
   if (settings.shadow_rays < 0) throw Error(Failure::usage, "shadow rays is negative; give 0 or more");
   if (settings.max_depth < 0) throw Error(Failure::usage, "max depth is negative; give 0 or more");
   if (settings.error && !(*settings.error > 0)) throw Error(Failure::usage, "error must be positive; give a relMSE");

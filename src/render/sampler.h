@@ -49,6 +49,9 @@ class Sampler {
     return static_cast<double>((high << 21) | low) * 0x1p-53;
   }
 
+  /// A sampler of its own for a step that draws now more numbers, now fewer: its dimensions, and those after it, stay.
+  Sampler fork() { return Sampler(next_block(), index_); }
+
   /// A stream that leaves the other numbers as they are: for what is measured on the side.
   Rng side_stream() const { return Rng(hash(key_, index_, 0x51deu)); }
 
@@ -56,6 +59,7 @@ class Sampler {
   Rng stream() { return Rng(hash(next_block(), index_, 0x5eedu)); }
 
  private:
+  Sampler(std::uint64_t key, std::uint32_t index) : key_(key), index_(index) {}
   std::uint64_t next_block() { return hash(key_, ++block_); }
   std::uint32_t shuffled_index(std::uint64_t block) const {
     return owen_scramble(index_, static_cast<std::uint32_t>(block));

@@ -19,6 +19,19 @@ PointQuery Vertex::light_query() const {
           .transmissive = surface->bsdf.transmits()};
 }
 
+PointQuery Vertex::light_query_with_lobes() const {
+  PointQuery query = light_query();
+  if (const auto* surface = std::get_if<Surface>(&kind_)) {
+    const Highlights highlights = surface->bsdf.highlights(wo_);
+    for (std::size_t i = 0; i < highlights.size(); ++i) query.lobes[i] = {highlights[i].axis, highlights[i].width};
+    return query;
+  }
+  // Henyey-Greenstein falls to a quarter near 1.2 (1 - g) off the forward direction.
+  const float g = std::get<InMedium>(kind_).phase.mean_cosine();
+  if (std::abs(g) > 0.5f) query.lobes[0] = {g > 0 ? -wo_ : wo_, 1.2f * (1 - std::abs(g))};
+  return query;
+}
+
 bool Vertex::has_smooth() const {
   const auto* surface = std::get_if<Surface>(&kind_);
   return surface == nullptr || surface->bsdf.has_smooth();

@@ -42,6 +42,8 @@ class Vertex {
 
   /// How light selection sees this vertex.
   PointQuery light_query() const;
+  /// The same with the directions that this vertex favours.
+  PointQuery light_query_with_lobes() const;
   /// Some light arriving from a sampled direction could be scattered: next-event estimation makes sense.
   bool has_smooth() const;
 

@@ -1,6 +1,35 @@
 #include "surface/bsdf.h"
 
 namespace tyndall {
+namespace {
+
+struct HighlightFinder {
+  Vec3 wo;  ///< local
+  Highlights found{};
+
+  void operator()(const ConductorLobe& lobe) { add_reflection(lobe.ggx, wo, found); }
+  void operator()(const DielectricLobe& lobe) {
+    if (lobe.is_specular()) return;
+    add_reflection(lobe.ggx, wo, found);
+    add_transmission(lobe.ggx, lobe.eta, wo, found);
+  }
+  void operator()(const CoatedDiffuseLobe& lobe) { (*this)(lobe.top.ggx); }
+  void operator()(const CoatedConductorLobe& lobe) {
+    (*this)(lobe.top.ggx);
+    if (found.empty()) add_reflection(lobe.bottom.ggx, wo, found);
+  }
+  void operator()(const Ggx& ggx) { add_reflection(ggx, wo, found); }
+  void operator()(const auto&) {}
+};
+
+}  // namespace
+
+Highlights Bsdf::highlights(Vec3 wo) const {
+  HighlightFinder finder{frame_.to_local(wo)};
+  std::visit(finder, lobe_);
+  for (Highlight& h : finder.found) h.axis = normalize(frame_.to_world(h.axis));
+  return finder.found;
+}
 
 Rgb Bsdf::eval(Vec3 wo, Vec3 wi) const {
   const Vec3 o = frame_.to_local(wo), i = frame_.to_local(wi);

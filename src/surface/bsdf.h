@@ -9,6 +9,7 @@
 #include "surface/conductor.h"
 #include "surface/dielectric.h"
 #include "surface/diffuse.h"
+#include "surface/highlight.h"
 #include "surface/layered.h"
 
 namespace tyndall {
@@ -33,6 +34,9 @@ class Bsdf {
   float pdf(Vec3 wo, Vec3 wi) const;
   /// Nothing when the light is absorbed or no direction can be had. All arguments in [0, 1).
   std::optional<BsdfSample> sample(Vec3 wo, float uc, Vec2 u) const;
+
+  /// Where eval(wo, .) peaks: the mirrored and the refracted direction of a glossy lobe. None for broad ones.
+  Highlights highlights(Vec3 wo) const;
 
   /// Some lobe is not specular: next-event estimation makes sense.
   bool has_smooth() const;

@@ -1,0 +1,16 @@
+/// Adaptive splitting: the cut through the light tree that a point draws its candidates from
+/// [Conty Estevez and Kulla 2018, sec. 5.4; best first as in Walter et al. 2005].
+#pragma once
+
+#include "light/light_cut.h"
+#include "light/query.h"
+#include "light/wide_light_tree.h"
+
+namespace tyndall {
+
+/// Clusters by their NodeRef. Clusters that cannot contribute are left out. Those with the largest predicted deviation
+/// are split first, as long as one has a score below `settings.splitting` and its children fit into
+/// `settings.candidates`; what candidates are left then go to the clusters by importance.
+LightCut wide_cut(const WideLightTree& tree, const PointQuery& query, const CutSettings& settings);
+
+}  // namespace tyndall
