@@ -1,12 +1,14 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "cli/command.h"
 #include "cli/compare_options.h"
 #include "cli/log.h"
 #include "cli/output_paths.h"
 #include "cli/progress_display.h"
+#include "cli/stop_signal.h"
 #include "cli/stopwatch.h"
 #include "report/compare_results.h"
 #include "report/page.h"
@@ -18,7 +20,7 @@ namespace {
 constexpr std::uint64_t kReferenceSeed = 0x7265666572656e63;  ///< apart from any seed that a run is likely to have
 
 World build_for(Scene scene, const ComparePlan& plan, const RenderSettings& base, const CompareOptions& o) {
-  BuildSettings settings{.lights = {base.lights}, .sanitize = o.picture.sanitize, .threads = o.threads};
+  BuildSettings settings{.lights = {base.lights}, .sanitize = o.picture.sanitize, .threads = base.threads};
   for (const CompareVariant& v : plan.variants) {
     auto& known = settings.lights;
     if (std::find(known.begin(), known.end(), v.settings.lights) == known.end()) known.push_back(v.settings.lights);
@@ -28,7 +30,6 @@ World build_for(Scene scene, const ComparePlan& plan, const RenderSettings& base
 
 Reference make_reference(const World& world, RenderSettings settings, const ComparePlan& plan, const CompareOptions& o,
                          ProgressDisplay& display) {
-  if (!o.reference.empty()) return read_reference(o.reference);
   settings.seed = kReferenceSeed;
   ReferenceGoal goal{.relmse = o.reference_error};
   if (o.reference_time) {
@@ -37,7 +38,19 @@ Reference make_reference(const World& world, RenderSettings settings, const Comp
     goal.seconds = *plan.budget.seconds * static_cast<double>(plan.variants.size() * plan.seeds.size());
   }
   display.begin("reference");
-  return render_reference(world, settings, goal, [&](const Progress& p) { display.show(p); });
+  return render_reference(world, settings, goal, {.progress = [&](const Progress& p) { display.show(p); }, .stop = &stop_requested()});
+}
+
+CompareResult run_plan(const World& world, const ComparePlan& plan, const Reference& reference, ProgressDisplay& display) {
+  display.begin(fmt::format("{} variants, {} seeds", plan.variants.size(), plan.seeds.size()));
+  const Stopwatch watch;
+  const auto progress = [&](double fraction) {
+    const double seconds = watch.seconds();
+    display.show({.samples_done = 0, .fraction = fraction, .seconds = seconds, .remaining = seconds * (1 - fraction) / std::max(fraction, 1e-9)});
+  };
+  CompareResult result = compare(world, plan, reference, {.progress = progress, .stop = &stop_requested()});
+  display.finish();
+  return result;
 }
 
 void warn_of_reference(const Reference& reference, const CompareOptions& o, CompareResult& result) {
@@ -64,44 +77,60 @@ void write_report(const std::string& folder, const nlohmann::ordered_json& resul
   write_file(compare_page(results, pictures), folder + "/index.html");
 }
 
-int run_compare(const CompareOptions& o, const std::string& command) {
-  SceneFile file = read_scene(o.scene);
-  apply(o.picture, file.scene);
-  apply(o.methods, file.scene.settings);
-  RenderSettings base = file.scene.settings;
-  base.threads = o.threads;
-  base.reproducible = true;
-  base.aovs = {"Variance"};
-  const ComparePlan plan = plan_of(o, base);
-  make_folder(o.folder);
-  const World world = build_for(std::move(file.scene), plan, base, o);
-  if (!o.quiet) {
-    for (const Warning& w : file.warnings) log("warning: {}: {}\n", w.where.str(), w.message);
-    for (const std::string& note : world.summary().notes) log("note: {}\n", note);
-  }
+/// Interrupted before anything could be reported: a folder that was made for it goes again.
+int give_up(const std::string& folder) {
+  std::error_code ignored;
+  std::filesystem::remove(folder, ignored);  // only if it is empty
+  log("tyndall: stopped before a seed was complete: no report\n");
+  return stop_exit_code();
+}
 
-  ProgressDisplay display(o.quiet ? "none" : o.progress);
-  const Reference reference = make_reference(world, base, plan, o, display);
-  reference.require_size(RenderJob(world, base).pixels());
-  display.begin(fmt::format("{} variants, {} seeds", plan.variants.size(), plan.seeds.size()));
-  const Stopwatch watch;
-  CompareResult result = compare(world, plan, reference, [&](double fraction) {
-    const double seconds = watch.seconds();
-    display.show({.samples_done = 0, .fraction = fraction, .seconds = seconds, .remaining = seconds * (1 - fraction) / std::max(fraction, 1e-9)});
-  });
-  display.finish();
-  warn_of_reference(reference, o, result);
-
-  const CompareContext context{.scene = o.scene, .options = common_options(o), .command = command, .width = reference.image.width(),
-                               .height = reference.image.height(), .threads = o.threads};
-  const auto results = compare_json(context, plan, reference, result);
-  write_report(o.folder, results, reference, result);
+void print_result(const CompareOptions& o, const CompareResult& result, const nlohmann::ordered_json& results) {
   if (!o.quiet) {
     for (const std::string& w : result.warnings) log("warning: {}\n", w);
     fmt::print(o.json ? stderr : stdout, "{}{}/index.html\n", compare_table(result), o.folder);
   }
   if (o.json) fmt::print("{}\n", results.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
-  return 0;
+}
+
+int exit_code_of(const CompareResult& result) {
+  if (stop_requested()) return stop_exit_code();
+  return result.variants.front().given_up ? static_cast<int>(Failure::incomplete) : 0;
+}
+
+int run_compare(const CompareOptions& o, const std::string& command) {
+  SceneFile file = read_scene(o.scene);
+  apply(o.picture, file.scene);
+  apply(o.methods, file.scene.settings);
+  RenderSettings base = file.scene.settings;
+  if (o.threads) base.threads = *o.threads;
+  base.reproducible = true;
+  base.aovs = {"Variance"};
+  const ComparePlan plan = plan_of(o, base);
+  std::optional<Reference> reference;
+  if (!o.reference.empty()) reference = read_reference(o.reference);
+  make_folder(o.folder);
+  const World world = build_for(std::move(file.scene), plan, base, o);
+  if (reference) reference->require_fit(world, base, plan.seeds);
+  if (!o.quiet) {
+    for (const Warning& w : file.warnings) log("warning: {}: {}\n", w.where.str(), w.message);
+    for (const std::string& note : world.summary().notes) log("note: {}\n", note);
+  }
+
+  catch_stop_signals("stopping; what is complete is reported; press again to quit at once\n");
+  ProgressDisplay display(o.quiet ? "none" : o.progress);
+  if (!reference) reference = make_reference(world, base, plan, o, display);
+  if (reference->stopped) return give_up(o.folder);
+  CompareResult result = run_plan(world, plan, *reference, display);
+  if (result.variants.empty()) return give_up(o.folder);
+  warn_of_reference(*reference, o, result);
+
+  const CompareContext context{.scene = o.scene, .options = common_options(o), .command = command, .width = reference->image.width(),
+                               .height = reference->image.height(), .threads = base.threads};
+  const auto results = compare_json(context, plan, *reference, result);
+  write_report(o.folder, results, *reference, result);
+  print_result(o, result, results);
+  return exit_code_of(result);
 }
 
 }  // namespace

@@ -2,12 +2,21 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
+
 #include "cli/variants.h"
 
 namespace tyndall::cli {
 namespace {
 
+/// NaN passes for a number with the parser.
+void require_seconds(const char* option, double seconds) {
+  if (!std::isfinite(seconds)) throw Error(Failure::usage, std::string(option) + " must be a finite number of seconds");
+}
+
 RaceBudget budget_of(const CompareOptions& o) {
+  if (o.time) require_seconds("--time", *o.time);
+  if (o.reference_time) require_seconds("--reference-time", *o.reference_time);
   if (o.spp) return {.seconds = std::nullopt, .samples = o.spp};
   return {.seconds = o.time.value_or(20), .samples = std::nullopt};
 }
@@ -31,7 +40,7 @@ void declare(CLI::App& command, CompareOptions& o) {
   command.add_option("--reference-time", o.reference_time, "seconds to render the reference for, at most [as long as all runs together; with --spp no limit]; --reference-time 600")
       ->check(CLI::PositiveNumber)->excludes(reference);
   command.add_option("-o,--output", o.folder, "folder for index.html, results.json, error.csv and the images [compare-report]; -o report");
-  command.add_option("--threads", o.threads, "threads [0: one a core]; --threads 2")->check(CLI::Range(0, 4096));
+  command.add_option("--threads", o.threads, "threads [the Integrator's, else 0: one a core]; --threads 2")->check(CLI::Range(0, 4096));
   declare(command, o.methods);
   declare(command, o.picture);
   declare_progress(command, o.progress);

@@ -16,7 +16,8 @@ struct CompareOptions {
   std::optional<double> time, reference_time;
   std::optional<int> spp;
   double reference_error = 1e-3;
-  int seeds = 5, threads = 0;
+  int seeds = 5;
+  std::optional<int> threads;
   std::uint64_t seed = 1;
   MethodOptions methods;
   PictureOptions picture;

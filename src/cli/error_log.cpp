@@ -2,14 +2,10 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tyndall/error.h"
 #include "tyndall/io.h"
 
 namespace tyndall::cli {
-
-ErrorLog::ErrorLog(const std::string& reference, const std::string& path, const PixelBounds& pixels)
-    : reference_(read_reference(reference)), path_(path) {
-  reference_.require_size(pixels);
-}
 
 void ErrorLog::add(double seconds, int samples, const Image& image) {
   const ErrorMetrics e = reference_.error_of(image);
@@ -17,11 +13,20 @@ void ErrorLog::add(double seconds, int samples, const Image& image) {
                                     {"relmse_trimmed", e.relmse_trimmed}, {"mape", e.mape}, {"smape", e.smape}};
   lines_ += line.dump() + "\n";
   last_samples_ = samples;
-  write_file(lines_, path_);
+  failure_.clear();
+  try {
+    write_file(lines_, path_);
+  } catch (const Error& error) {
+    failure_ = error.what();
+  }
 }
 
 void ErrorLog::finish(const Rendering& rendering) {
   if (rendering.report.samples != last_samples_) add(rendering.report.seconds, rendering.report.samples, rendering.image);
+}
+
+void ErrorLog::require_written() const {
+  if (!failure_.empty()) throw Error(Failure::output, failure_);
 }
 
 }  // namespace tyndall::cli

@@ -8,21 +8,22 @@
 namespace tyndall::cli {
 
 /// A file of JSON lines {"seconds", "samples", "mse", "relmse", "relmse_trimmed", "mape", "smape"}: compare's
-/// checkpoints. Written anew, safely, with every line.
+/// checkpoints. Written anew, safely, with every line; when that fails the render goes on.
 class ErrorLog {
  public:
-  /// Throws Error: scene when the reference cannot be read, usage when it has other pixels than the render.
-  ErrorLog(const std::string& reference, const std::string& path, const PixelBounds& pixels);
+  ErrorLog(Reference reference, const std::string& path) : reference_(std::move(reference)), path_(path) {}
 
   void add(const RenderJob& job) { add(job.seconds(), job.samples(), job.image()); }
   /// The end of a render, unless add() has seen it.
   void finish(const Rendering& rendering);
+  /// Throws the Error (output) with which the last writing failed, if it did: to be called when the image is safe.
+  void require_written() const;
 
  private:
   void add(double seconds, int samples, const Image& image);
 
   Reference reference_;
-  std::string path_, lines_;
+  std::string path_, lines_, failure_;
   int last_samples_ = 0;
 };
 

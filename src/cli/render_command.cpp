@@ -1,7 +1,4 @@
 #include <fmt/core.h>
-#include <unistd.h>
-
-#include <csignal>
 #include <filesystem>
 
 #include "cli/command.h"
@@ -10,27 +7,13 @@
 #include "cli/output_paths.h"
 #include "cli/progress_display.h"
 #include "cli/render_options.h"
+#include "cli/stop_signal.h"
 #include "cli/stopwatch.h"
 #include "cli/summary.h"
 #include "tyndall/io.h"
 
 namespace tyndall::cli {
 namespace {
-
-// Signal handlers can reach nothing but globals.
-std::atomic<bool> stop_requested{false};
-volatile std::sig_atomic_t stop_signal = 0;
-
-constexpr char kStopping[] = "stopping after this pass; press again to quit at once and lose the image\n";
-
-/// First signal: end at the next pass with what there is. Second, of either kind: end at once.
-void on_signal(int signal) {
-  stop_signal = signal;
-  stop_requested.store(true, std::memory_order_relaxed);
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
-  if (write(STDERR_FILENO, kStopping, sizeof kStopping - 1) < 0) return;
-}
 
 void write_image(const Image& image, const std::string& path) {
   if (std::filesystem::path(path).extension() == ".png") {
@@ -58,18 +41,20 @@ int run_render(const RenderOptions& options) {
   if (!options.error_log.empty()) check_writable(options.error_log);
   summary.read_seconds = watch.lap();
 
+  std::optional<Reference> reference;
+  if (!options.reference.empty()) reference = read_reference(options.reference);
   const World world = build(std::move(file.scene),
                             {.lights = {settings.lights}, .sanitize = options.picture.sanitize, .threads = settings.threads});
   summary.build = world.summary();
   summary.build_seconds = watch.lap();
   if (!options.quiet) print_notes(file, world);
 
+  if (reference) reference->require_fit(world, settings, {settings.seed});
   std::optional<ErrorLog> errors;
-  if (!options.error_log.empty()) errors.emplace(options.reference, options.error_log, RenderJob(world, settings).pixels());
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
+  if (reference) errors.emplace(std::move(*reference), options.error_log);
+  catch_stop_signals("stopping after this pass; press again to quit at once and lose the image\n");
   ProgressDisplay display(options.quiet ? "none" : options.progress);
-  RenderControl control{.progress = [&](const Progress& p) { display.show(p); }, .stop = &stop_requested};
+  RenderControl control{.progress = [&](const Progress& p) { display.show(p); }, .stop = &stop_requested()};
   if (errors) control.checkpoint = [&](const RenderJob& job) { errors->add(job); };
   const Rendering rendering = render(world, settings, control);
   display.finish();
@@ -82,8 +67,9 @@ int run_render(const RenderOptions& options) {
   summary.write_seconds = watch.lap();
 
   if (!options.quiet) log_text(as_text(summary));
+  if (errors) errors->require_written();
   if (options.json) fmt::print("{}\n", as_json(summary));
-  return rendering.report.stopped ? 128 + stop_signal : 0;
+  return rendering.report.stopped ? stop_exit_code() : 0;
 }
 
 }  // namespace

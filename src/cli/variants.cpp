@@ -1,9 +1,11 @@
 #include "cli/variants.h"
 
 #include <algorithm>
+#include <cctype>
 #include <sstream>
 
 #include "cli/render_options.h"
+#include "report/compare_results.h"
 
 namespace tyndall::cli {
 namespace {
@@ -73,19 +75,31 @@ bool same_method(const RenderSettings& a, const RenderSettings& b) {
          std::all_of(axes.begin(), axes.end(), [&](const StrategyAxis& axis) { return axis.get(a) == axis.get(b); });
 }
 
-/// A method that several presets hold appears once; two of one name are a mistake.
-std::vector<CompareVariant> without_repeats(const std::vector<CompareVariant>& all, bool explicit_ones) {
-  std::vector<CompareVariant> kept;
-  for (const CompareVariant& v : all) {
-    const auto same = [&](const CompareVariant& k) { return same_method(k.settings, v.settings); };
-    if (!explicit_ones && std::any_of(kept.begin(), kept.end(), same)) continue;
-    const auto same_name = [&](const CompareVariant& k) { return k.name == v.name; };
-    if (std::any_of(kept.begin(), kept.end(), same_name)) {
-      throw Error(Failure::usage, "two variants are called \"" + v.name + "\"; give each a name of its own");
-    }
-    kept.push_back(v);
+/// Pictures are files named after variants, on disks that may not know capitals.
+std::string file_key(const std::string& name) {
+  std::string key = picture_file(name);
+  for (char& c : key) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return key;
+}
+
+/// Two of one name are a mistake.
+void add_named(CompareVariant variant, std::vector<CompareVariant>& variants) {
+  const std::string key = file_key(variant.name);
+  if (key == "reference.exr") throw Error(Failure::usage, "a variant is called \"" + variant.name + "\", as the reference is; choose another name");
+  for (const CompareVariant& v : variants) {
+    if (file_key(v.name) != key) continue;
+    throw Error(Failure::usage, "variants \"" + v.name + "\" and \"" + variant.name + "\" would share the file " + picture_file(v.name) +
+                                    "; give each a name of its own");
   }
-  return kept;
+  variants.push_back(std::move(variant));
+}
+
+/// Of a preset's methods those that are not there yet: the presets have the default method in common.
+void add_new(const std::vector<CompareVariant>& preset, std::vector<CompareVariant>& variants) {
+  for (const CompareVariant& p : preset) {
+    const auto same = [&](const CompareVariant& v) { return same_method(v.settings, p.settings); };
+    if (std::none_of(variants.begin(), variants.end(), same)) add_named(p, variants);
+  }
 }
 
 }  // namespace
@@ -98,23 +112,23 @@ std::string preset_names() {
 
 std::vector<CompareVariant> parse_variants(const std::vector<std::string>& specs, const RenderSettings& base) {
   std::vector<CompareVariant> variants;
-  bool explicit_ones = false;
   for (const std::string& spec : specs) {
     for (const std::string& part : split(spec, ",;")) {
       const std::size_t colon = part.find(':');
-      if (colon == std::string::npos) {
-        if (add_preset(part, base, variants)) continue;
+      std::vector<CompareVariant> preset;
+      if (colon == std::string::npos && !add_preset(part, base, preset)) {
         throw Error(Failure::usage, "--variants " + part + " is not known; choose from " + preset_names() +
                                         ", or write \"name:--lights power\"");
       }
+      add_new(preset, variants);
+      if (colon == std::string::npos) continue;
       const std::string name = trimmed(part.substr(0, colon));
       if (name.empty()) throw Error(Failure::usage, "a variant has no name; write \"name:--lights power\"");
-      variants.push_back(variant_of(name, trimmed(part.substr(colon + 1)), base));
-      explicit_ones = true;
+      add_named(variant_of(name, trimmed(part.substr(colon + 1)), base), variants);
     }
   }
   if (variants.empty()) throw Error(Failure::usage, "--variants is empty; choose from " + preset_names());
-  return without_repeats(variants, explicit_ones);
+  return variants;
 }
 
 }  // namespace tyndall::cli

@@ -9,6 +9,15 @@ namespace {
 /// triangle's plane.
 constexpr double kSmallest = 1e-9, kLargest = 6.2831;
 
+/// The observer lies in the triangle's plane as far as floats can tell, on the triangle itself perhaps: a point of a
+/// surface is off by half a last digit in each coordinate. There a triangle shows only its edge, and at heights of
+/// rounding it would seem to fill half the sky of its own points.
+bool in_plane(Vec3 p, const Vec3d& a, const Vec3d& n, double n2) {
+  const double reach = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
+  const double height = dot(a, n), least = 0x1p-21 * reach;
+  return height * height <= least * least * n2;
+}
+
 bool by_solid_angle(double solid_angle) { return solid_angle > kSmallest && solid_angle < kLargest; }
 
 }  // namespace
@@ -61,7 +70,7 @@ std::optional<EmitterSample> TriangleEmitter::sample(std::uint32_t i, Vec3 p, Ve
   const Vec3d a = vertex(i, 0) - Vec3d(p), b = vertex(i, 1) - Vec3d(p), c = vertex(i, 2) - Vec3d(p);
   const Vec3d e1 = b - a, e2 = c - a, n = cross(e1, e2);
   const double n2 = dot(n, n);
-  if (!(n2 > 0)) return std::nullopt;
+  if (!(n2 > 0) || in_plane(p, a, n, n2)) return std::nullopt;
   const SphericalTriangle triangle(a, b, c);
 
   if (by_solid_angle(triangle.solid_angle())) {
@@ -86,10 +95,11 @@ std::optional<EmitterSample> TriangleEmitter::sample(std::uint32_t i, Vec3 p, Ve
 
 float TriangleEmitter::pdf(std::uint32_t i, Vec3 p, Vec3 hit) const {
   const Vec3d a = vertex(i, 0) - Vec3d(p), b = vertex(i, 1) - Vec3d(p), c = vertex(i, 2) - Vec3d(p);
+  const Vec3d n = cross(b - a, c - a);
+  const double n2 = dot(n, n);
+  if (!(n2 > 0) || in_plane(p, a, n, n2)) return 0;
   const SphericalTriangle triangle(a, b, c);
   if (by_solid_angle(triangle.solid_angle())) return static_cast<float>(1 / triangle.solid_angle());
-  const Vec3d n = cross(b - a, c - a);
-  if (!(dot(n, n) > 0)) return 0;
   return solid_angle_density(2 / length(n), Vec3d(hit) - Vec3d(p), n).value_or(0.0f);
 }
 

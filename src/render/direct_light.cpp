@@ -1,6 +1,7 @@
 #include "render/direct_light.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "math/small_vector.h"
 
@@ -21,30 +22,31 @@ struct Candidate {
 /// `tries`: times that light is tried, on average.
 std::optional<Candidate> look_at(const LightContext& context, const Vertex& vertex, Rgb beta, SelectedLight tried, Vec2 u) {
   const auto light = context.world.lights.sample(tried.light, vertex.p(), u, true);
-  if (!light || is_black(light->L) || !(light->pdf > 0)) return std::nullopt;
+  // What is not a number goes on, so that the film sees it and counts it.
+  if (!light || is_black(light->L)) return std::nullopt;
   const float density = tried.pmf * light->pdf;
-  if (!(density > 0)) return std::nullopt;
+  if (density <= 0) return std::nullopt;
   const Rgb f = vertex.eval(light->wi);
   if (is_black(f)) return std::nullopt;
   // The density of the candidates stands for the technique: it is known for every direction, unlike the resampled one.
   const float mis = light->delta ? 1.0f : mis_weight(density, vertex.pdf(light->wi, beta));
   const Rgb contribution = f * light->L * (mis / density);
   const float weight = mean(beta * contribution);
-  if (!(weight > 0)) return std::nullopt;
+  if (weight == 0) return std::nullopt;
   return Candidate{*light, contribution, weight};
 }
 
 /// The candidate's contribution dimmed by what is in between.
-Rgb trace(const LightContext& context, const Vertex& vertex, const Candidate& c) {
+Rgb trace(const LightContext& context, const Vertex& vertex, const Candidate& c, Sampler& sampler) {
   const World::Parts& world = context.world;
   const Vec3 origin = vertex.origin(world.geometry, c.light.wi);
-  return c.contribution * visibility(context, vertex.media_toward(world.geometry, c.light.wi), origin, c.light.wi, c.light.distance);
+  return c.contribution * visibility(context, vertex.media_toward(world.geometry, c.light.wi), origin, c.light.wi, c.light.distance, sampler);
 }
 
 Rgb trace_all(const LightContext& context, const Vertex& vertex, Rgb beta, Sampler& sampler) {
   Rgb sum;
   for (LightId id = 0; id < context.world.lights.size(); ++id) {
-    if (const auto c = look_at(context, vertex, beta, {id, 1}, sampler.next_2d())) sum += trace(context, vertex, *c);
+    if (const auto c = look_at(context, vertex, beta, {id, 1}, sampler.next_2d())) sum += trace(context, vertex, *c, sampler);
   }
   return sum;
 }
@@ -67,25 +69,26 @@ void add_candidates(const LightContext& context, const Vertex& vertex, const Poi
 
 /// Resampled importance sampling: `rays` of the candidates, drawn with replacement in proportion to their weights, stand
 /// for all [Talbot et al. 2005, eq. 4]. Strata of one number draw them.
-Rgb trace_some(const LightContext& context, const Vertex& vertex, const Candidates& candidates, int rays, float u) {
-  float total = 0;
+Rgb trace_some(const LightContext& context, const Vertex& vertex, const Candidates& candidates, Sampler& sampler, double u) {
+  double total = 0;
   for (const Candidate& c : candidates) total += c.weight;
-  if (!(total > 0)) return {};
+  if (!std::isfinite(total)) return Rgb(static_cast<float>(total));  // for the film to count
+  const int rays = context.settings.shadow_rays;
   Rgb sum;
   std::size_t i = 0;
-  float passed = candidates[0].weight;  // cumulative weight up to and with candidate i
+  double passed = candidates[0].weight;  // cumulative weight up to and with candidate i
   for (int k = 0; k < rays; ++k) {
-    const float target = (static_cast<float>(k) + u) / static_cast<float>(rays) * total;
+    const double target = (k + u) / rays * total;
     while (passed <= target && i + 1 < candidates.size()) passed += candidates[++i].weight;
     const Candidate& c = candidates[i];
-    sum += trace(context, vertex, c) * (total / (c.weight * static_cast<float>(rays)));
+    sum += trace(context, vertex, c, sampler) * static_cast<float>(total / (c.weight * static_cast<double>(rays)));
   }
   return sum;
 }
 
 }  // namespace
 
-Rgb visibility(const LightContext& context, const MediaState& media, Vec3 origin, Vec3 wi, float distance) {
+Rgb visibility(const LightContext& context, const MediaState& media, Vec3 origin, Vec3 wi, float distance, Sampler& sampler) {
   const World::Parts& world = context.world;
   const float t_end = distance * kShadowEnd;
   ++context.counters.shadow_rays;
@@ -95,7 +98,7 @@ Rgb visibility(const LightContext& context, const MediaState& media, Vec3 origin
   Rgb T{1.0f};
   if (!world.has_media()) return T;
 
-  Rng rng = context.sampler.stream();
+  Rng rng = sampler.stream();
   SpanWalk walk(world.media_context(), media, *crossings, t_end);
   while (const auto interval = walk.next()) {
     const MediaView view(interval->media.data(), interval->media.size());
@@ -126,9 +129,9 @@ Rgb direct_light(const LightContext& context, const Vertex& vertex, const LightS
   }
   if (candidates.empty()) return {};
   const int rays = context.settings.shadow_rays;
-  if (rays > 0 && candidates.size() > static_cast<std::size_t>(rays)) return trace_some(context, vertex, candidates, rays, u);
+  if (rays > 0 && candidates.size() > static_cast<std::size_t>(rays)) return trace_some(context, vertex, candidates, sampler, u);
   Rgb sum;
-  for (const Candidate& c : candidates) sum += trace(context, vertex, c);
+  for (const Candidate& c : candidates) sum += trace(context, vertex, c, sampler);
   return sum;
 }
 

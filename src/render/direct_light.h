@@ -28,7 +28,7 @@ inline float mis_weight(float a, float b) {
 }
 
 /// Fraction of light that gets through media and past surfaces over `distance` from `origin` along `wi`.
-Rgb visibility(const LightContext& context, const MediaState& media, Vec3 origin, Vec3 wi, float distance);
+Rgb visibility(const LightContext& context, const MediaState& media, Vec3 origin, Vec3 wi, float distance, Sampler& sampler);
 
 /// How lights are sought at one vertex: direct_light goes by it, and MIS must know it when a scattered ray hits one.
 struct LightSearch {

@@ -44,15 +44,24 @@ std::vector<CurvePoint> curve_of(const Runs& runs) {
   return curve;
 }
 
-/// One slope a seed, so that their spread is the slope's error. Points below the reference's noise say nothing.
-std::optional<Interval> slope_of(const Runs& runs, double floor, double (*x)(const RaceCheckpoint&)) {
+/// Points of the curve from the first on whose mean error is well above the reference's noise. That is taken off, but
+/// not without error: relMSE divides by the reference, which is dark where its noise made it so.
+std::size_t trusted_points(const std::vector<CurvePoint>& curve, double noise) {
+  constexpr double kWellAbove = 10;
+  std::size_t n = 0;
+  while (n < curve.size() && curve[n].relmse.value > kWellAbove * noise) ++n;
+  return n;
+}
+
+/// One slope a seed over its first `points` checkpoints, so that their spread is the slope's error.
+std::optional<Interval> slope_of(const Runs& runs, std::size_t points, double (*x)(const RaceCheckpoint&)) {
   std::vector<double> slopes;
   for (const RaceRun& r : runs) {
-    std::vector<ErrorPoint> points;
-    for (const RaceCheckpoint& c : r.checkpoints) {
-      if (c.error.relmse > floor) points.push_back({x(c), c.error.relmse});
+    std::vector<ErrorPoint> known;
+    for (std::size_t i = 0; i < std::min(points, r.checkpoints.size()); ++i) {
+      known.push_back({x(r.checkpoints[i]), r.checkpoints[i].error.relmse});
     }
-    if (const auto slope = log_slope(points)) slopes.push_back(*slope);
+    if (const auto slope = log_slope(known)) slopes.push_back(*slope);
   }
   if (slopes.size() < runs.size()) return std::nullopt;
   return mean_interval(slopes);
@@ -89,7 +98,7 @@ double build_seconds_of(const World& world, LightStrategy strategy) {
   return 0;
 }
 
-VariantResult summarize(const CompareVariant& variant, const Runs& runs, double noise_floor) {
+VariantResult summarize(const CompareVariant& variant, const Runs& runs, double noise) {
   VariantResult v;
   v.name = variant.name;
   v.options = variant.options;
@@ -100,8 +109,10 @@ VariantResult summarize(const CompareVariant& variant, const Runs& runs, double 
   v.seconds = mean_of(runs, [](const RaceRun& r) { return last(r).seconds; });
   v.error = mean_error(runs);
   v.curve = curve_of(runs);
-  v.slope = slope_of(runs, noise_floor, [](const RaceCheckpoint& c) { return c.seconds; });
-  v.slope_samples = slope_of(runs, noise_floor, [](const RaceCheckpoint& c) { return double(c.samples); });
+  const std::size_t trusted = trusted_points(v.curve, noise);
+  v.slope = slope_of(runs, trusted, [](const RaceCheckpoint& c) { return c.seconds; });
+  v.slope_samples = slope_of(runs, trusted, [](const RaceCheckpoint& c) { return double(c.samples); });
+  v.near_noise = v.error.relmse < noise;
   v.mean_rgb = mean_color(runs);
   v.image = runs.front().image;
   return v;
@@ -121,7 +132,8 @@ std::vector<std::size_t> entrants(const std::vector<Runs>& runs) {
   return in;
 }
 
-void run_seed(const World& world, const ComparePlan& plan, std::uint64_t seed, const RaceControl& control,
+/// False: stopped; `runs` is as before.
+bool run_seed(const World& world, const ComparePlan& plan, std::uint64_t seed, const RaceControl& control,
               std::vector<Runs>& runs) {
   const auto in = entrants(runs);
   std::vector<RenderSettings> methods;
@@ -131,10 +143,12 @@ void run_seed(const World& world, const ComparePlan& plan, std::uint64_t seed, c
     methods.back().aovs = {"Variance"};
   }
   auto results = race(world, methods, plan.budget, control);
+  if (results.empty()) return false;
   for (std::size_t k = 0; k < in.size(); ++k) {
     if (!runs[in[k]].empty()) results[k].image = {};  // one picture a variant is shown
     runs[in[k]].push_back(std::move(results[k]));
   }
+  return true;
 }
 
 void add_efficiency(const Runs& base, const Runs& runs, VariantResult& v) {
@@ -154,6 +168,9 @@ void add_warnings(const VariantResult& v, const ComparePlan& plan, std::vector<s
   } else if (plan.budget.seconds && v.seconds > 1.1 * *plan.budget.seconds) {
     warnings.push_back(v.name + ": took longer than the budget, since a sample a pixel is the least there is");
   }
+  if (v.near_noise) {
+    warnings.push_back(v.name + ": its error is as small as the reference's own noise; --reference-error or --reference-time make a better one");
+  }
   if (!v.slope_note().empty()) warnings.push_back(v.name + ": its error falls " + v.slope_note());
   if (v.non_finite > 0) warnings.push_back(v.name + ": " + std::to_string(v.non_finite) + " samples were not finite");
   if (v.majorant_violations > 0) warnings.push_back(v.name + ": " + std::to_string(v.majorant_violations) + " majorant violations");
@@ -163,21 +180,23 @@ void add_warnings(const VariantResult& v, const ComparePlan& plan, std::vector<s
 
 std::string VariantResult::slope_note() const {
   if (!slope || !slope_samples || slope->low <= -1) return "";
-  if (slope_samples->low <= -1) return "flatter than -1 in time but not in samples: the machine slowed down";
+  if (slope_samples->low <= -1) return "flatter than -1 in time but not in samples: the machine slowed down, perhaps";
   return "flatter than -1: a sign of bias";
 }
 
-CompareResult compare(const World& world, const ComparePlan& plan, const Reference& reference,
-                      const std::function<void(double)>& progress) {
+CompareResult compare(const World& world, const ComparePlan& plan, const Reference& reference, const CompareControl& control) {
   std::vector<Runs> runs(plan.variants.size());
-  for (std::size_t i = 0; i < plan.seeds.size(); ++i) {
-    const auto all = static_cast<double>(plan.seeds.size());
-    run_seed(world, plan, plan.seeds[i],
-             {.measure = [&](const Image& image) { return reference.error_of(image); },
-              .progress = [&](double fraction) { progress((static_cast<double>(i) + fraction) / all); }},
-             runs);
-  }
   CompareResult result;
+  for (const std::uint64_t seed : plan.seeds) {
+    const auto done = static_cast<double>(result.seeds_done), all = static_cast<double>(plan.seeds.size());
+    const auto progress = [&](double fraction) {
+      if (control.progress) control.progress((done + fraction) / all);
+    };
+    const auto measure = [&](const Image& image) { return reference.error_of(image); };
+    if (!run_seed(world, plan, seed, {.measure = measure, .progress = progress, .stop = control.stop}, runs)) break;
+    ++result.seeds_done;
+  }
+  if (result.seeds_done == 0) return result;
   for (std::size_t i = 0; i < plan.variants.size(); ++i) {
     VariantResult v = summarize(plan.variants[i], runs[i], reference.relmse);
     v.build_seconds = build_seconds_of(world, plan.variants[i].settings.lights);
@@ -187,6 +206,10 @@ CompareResult compare(const World& world, const ComparePlan& plan, const Referen
   }
   if (result.variants.front().given_up) {
     result.warnings.push_back("no efficiencies, since the first variant, which they are relative to, was given up");
+  }
+  if (result.seeds_done < plan.seeds.size()) {
+    result.warnings.push_back("stopped after " + std::to_string(result.seeds_done) + " of " + std::to_string(plan.seeds.size()) +
+                              " seeds: the intervals are wider for it");
   }
   return result;
 }

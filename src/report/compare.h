@@ -47,6 +47,8 @@ struct VariantResult {
   std::uint64_t non_finite = 0, majorant_violations = 0, caps_hit = 0, parity_errors = 0;
   bool given_up = false;
 
+  bool near_noise = false;  ///< its error is so near the reference's own that slope and efficiency say little
+
   /// "", or what the slopes are a sign of.
   std::string slope_note() const;
 };
@@ -54,10 +56,17 @@ struct VariantResult {
 struct CompareResult {
   std::vector<VariantResult> variants;
   std::vector<std::string> warnings;
+  std::size_t seeds_done = 0;  ///< fewer than planned: stopped
 };
 
-/// Run the plan on `world`, which must have been built for every light strategy in it.
+struct CompareControl {
+  std::function<void(double)> progress{};   ///< told the fraction that is done; may be empty
+  const std::atomic<bool>* stop = nullptr;  ///< set it to end with the seeds that are complete
+};
+
+/// Run the plan on `world`, which must have been built for every light strategy in it. No variants in the result: it was
+/// stopped before a seed was complete.
 CompareResult compare(const World& world, const ComparePlan& plan, const Reference& reference,
-                      const std::function<void(double)>& progress);
+                      const CompareControl& control = {});
 
 }  // namespace tyndall

@@ -44,15 +44,14 @@ std::optional<double> log_slope(std::span<const ErrorPoint> points) {
 }
 
 std::optional<Interval> relative_efficiency(std::span<const double> base, std::span<const double> other) {
-  if (base.size() < 2 || other.size() < 2) return std::nullopt;
-  const Estimate a = estimate_of(base), b = estimate_of(other);
-  if (!(a.mean > 0) || !(b.mean > 0)) return std::nullopt;
-  // Var log m = Var m / m^2, and Welch's degrees of freedom for the difference of two such logarithms.
-  const Estimate log_a{std::log(a.mean), a.variance / (a.mean * a.mean), a.dof};
-  const Estimate log_b{std::log(b.mean), b.variance / (b.mean * b.mean), b.dof};
-  const WelchResult w = welch_test(log_a, log_b);
-  const double reach = w.standard_error > 0 ? student_t_95(w.dof) * w.standard_error : 0;
-  return Interval{std::exp(w.difference), std::exp(w.difference - reach), std::exp(w.difference + reach)};
+  if (base.size() < 2 || base.size() != other.size()) return std::nullopt;
+  const double a = estimate_of(base).mean, b = estimate_of(other).mean;
+  if (!(a > 0) || !(b > 0)) return std::nullopt;
+  Moments differences;
+  for (std::size_t i = 0; i < base.size(); ++i) differences.add(base[i] / a - other[i] / b);
+  const Estimate e = differences.estimate();
+  const double ratio = std::log(a / b), reach = student_t_95(e.dof) * e.standard_error();
+  return Interval{std::exp(ratio), std::exp(ratio - reach), std::exp(ratio + reach)};
 }
 
 }  // namespace tyndall

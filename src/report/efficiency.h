@@ -26,8 +26,10 @@ struct ErrorPoint {
 /// Slope of log y against log x by least squares; nothing with fewer than three points above 0.
 std::optional<double> log_slope(std::span<const ErrorPoint> points);
 
-/// (mean of `base`) / (mean of `other`), both of cost = error x time: how many times as efficient `other` is. The
-/// interval is Welch's for the logarithms of the means (delta method). Nothing when a mean is not above 0.
+/// (mean of `base`) / (mean of `other`), both of cost = error x time by seed: how many times as efficient `other` is. The
+/// i-th runs of both have the same seed and ran side by side, so what they share takes no part: the interval is Student's
+/// for the logarithm of the ratio, by the delta method on the pairs. Nothing for fewer than two pairs, and when a mean is
+/// not above 0.
 std::optional<Interval> relative_efficiency(std::span<const double> base, std::span<const double> other);
 
 }  // namespace tyndall

@@ -20,6 +20,8 @@ std::array<double, 3> mean_color(const Image& image) {
   return mean;
 }
 
+bool stopped(const RaceControl& control) { return control.stop != nullptr && control.stop->load(std::memory_order_relaxed); }
+
 class Runner {
  public:
   Runner(const World& world, const RenderSettings& settings, const RaceBudget& budget)
@@ -29,10 +31,13 @@ class Runner {
 
   void turn(const RaceControl& control) {
     const int samples = next_pass();
-    const auto patient = [&](double) { return !budget_.seconds || watch_seconds() < kPatience * *budget_.seconds; };
-    pass_start_ = Clock::now();
     const bool first = job_.samples() == 0;
-    if (!job_.advance(samples, first ? RenderJob::PassWatch(patient) : RenderJob::PassWatch())) {
+    pass_start_ = Clock::now();
+    const auto go_on = [&](double) {
+      const bool patient = !first || !budget_.seconds || watch_seconds() < kPatience * *budget_.seconds;
+      return patient && !stopped(control);
+    };
+    if (!job_.advance(samples, go_on)) {
       run_.given_up = true;
       return;
     }
@@ -104,6 +109,7 @@ std::vector<RaceRun> race(const World& world, const std::vector<RenderSettings>&
     std::min_element(runners.begin(), runners.end(), [](const Runner& a, const Runner& b) {
       return a.fraction() < b.fraction();
     })->turn(control);
+    if (stopped(control)) return {};
     if (control.progress) control.progress(mean_fraction(runners));
   }
   std::vector<RaceRun> runs;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <functional>
 #include <optional>
 #include <string>
@@ -39,10 +40,11 @@ struct RaceControl {
   std::function<ErrorMetrics(const Image&)> measure;
   /// Told the fraction of the race that is run; may be empty.
   std::function<void(double)> progress{};
+  const std::atomic<bool>* stop = nullptr;  ///< set it to end the race at once; nothing of it is then of use
 };
 
 /// One run for each of `methods` on `world`, turn by turn in short passes, so that a machine that slows down slows all
-/// alike. Each method's clock runs while its own pass does. `spp`, `time` and `error` of the methods are not looked at.
+/// alike. Empty when stopped. Each method's clock runs while its own pass does. `spp`, `time` and `error` of the methods are not looked at.
 std::vector<RaceRun> race(const World& world, const std::vector<RenderSettings>& methods, const RaceBudget& budget,
                           const RaceControl& control);
 

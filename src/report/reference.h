@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <vector>
 
 #include "report/metrics.h"
 #include "tyndall/render.h"
@@ -15,16 +16,22 @@ struct Reference {
   std::string source;        ///< its file, or "rendered"
   bool has_variance = false; ///< its own noise is known and taken off every error
   int samples = 0;           ///< a pixel; 0: the file does not say
-  std::string seed;          ///< empty: the file does not say
+  std::string seed;          ///< several when merged, "1,2"; empty: the file does not say
   double seconds = 0;        ///< it took to render here
   double relmse = 0;         ///< estimated from its variance; 0 when that is absent
+  bool stopped = false;      ///< by RenderControl::stop, before it was good enough
 
   ErrorMetrics error_of(const Image& picture) const;
-  /// Throws Error (usage) unless it has as many pixels a side as `pixels`.
-  void require_size(const PixelBounds& pixels) const;
+  /// It can be held against renders of `world` with `settings` and these seeds. Throws Error (scene) for other pixels,
+  /// another scene (as far as the image says which it is of), and a seed that is among `seeds`: an error against one's own
+  /// samples means nothing.
+  void require_fit(const World& world, const RenderSettings& settings, const std::vector<std::uint64_t>& seeds) const;
+
+ private:
+  [[noreturn]] void refuse(const std::string& why) const;
 };
 
-/// Throws Error (scene) when it cannot be read or has no R, G and B.
+/// Throws Error (scene) when it cannot be read, has no R, G and B, or holds values that are not finite.
 Reference read_reference(const std::string& path);
 
 /// When a reference is good enough.
@@ -34,8 +41,8 @@ struct ReferenceGoal {
   int samples = std::numeric_limits<int>::max();                 ///< at most
 };
 
-/// Render one with the settings given, but for spp, time and error. `progress` is told how far it is, in [0, 1].
+/// Render one with the settings given, but for spp, time and error; at least 16 samples, unless stopped.
 Reference render_reference(const World& world, RenderSettings settings, const ReferenceGoal& goal,
-                           const std::function<void(const Progress&)>& progress);
+                           const RenderControl& control = {});
 
 }  // namespace tyndall

@@ -42,8 +42,31 @@ says 'tree-binary' err.txt
 expect 2 "$T" compare s.pbrt --variants "a:--lights power,a:--lights uniform" -o r
 expect 2 "$T" compare s.pbrt --spp 4 --time 1 -o r
 expect 2 "$T" compare s.pbrt --seeds 2 -o r
-expect 2 "$T" compare s.pbrt --variants lights --reference ref.exr --spp 2 -o r
-says '24x16' err.txt
+expect 2 "$T" compare s.pbrt --variants "reference:--lights power" -o r
+expect 2 "$T" compare s.pbrt --variants "a b:--lights power,A_b:--lights uniform" -o r
+says 'share the file' err.txt
+expect 2 "$T" compare s.pbrt --time nan -o r
+expect 2 "$T" compare s.pbrt --reference-time nan -o r
+
+# A reference must fit: size, place, scene, other samples, sound values.
+expect 3 "$T" compare s.pbrt --variants lights --reference ref.exr --spp 2 -o r
+says '0,24,0,16' err.txt
+expect 3 "$T" compare s.pbrt --resolution 24x16 --reference ref.exr --spp 2 -o r
+says 'of another scene' err.txt
+expect 3 "$T" compare s.pbrt --resolution 24x16 --max-depth 1 --reference ref.exr --spp 2 --seed 74 -o r
+says 'seed 77' err.txt
+expect 0 "$T" render s.pbrt --crop 0,20,0,24 -o left.exr --quiet
+expect 3 "$T" compare s.pbrt --crop 20,40,0,24 --reference left.exr --spp 2 -o r
+
+# Given up: nothing to compare with. Stopped: no report, or one of the seeds that are complete.
+expect 7 "$T" compare s.pbrt --time 1e-7 --reference-time 0.1 -o hurried
+says 'given up' out.txt
+"$T" compare s.pbrt --spp 1000000 --reference-time 0.2 --quiet -o stopped 2>err.txt &
+sleep 2
+kill -INT $!
+wait $!
+[ $? = 130 ] || fail "an interrupted compare does not exit with 130"
+[ -e stopped ] && fail "an interrupted compare leaves an empty folder"
 expect 3 "$T" compare absent.pbrt -o r
 expect 3 "$T" compare s.pbrt --reference absent.exr --resolution 24x16 -o r
 echo file >occupied
@@ -60,6 +83,7 @@ expect 0 "$T" render s.pbrt --resolution 24x16 --max-depth 1 --spp 20 --reproduc
 cmp plain.exr logged.exr || fail "--error-log changes the picture"
 expect 2 "$T" render s.pbrt --reference ref.exr -o a.exr
 expect 2 "$T" render s.pbrt --error 0 -o a.exr
-expect 2 "$T" render s.pbrt --reference ref.exr --error-log log.jsonl -o a.exr
+expect 3 "$T" render s.pbrt --reference ref.exr --error-log log.jsonl -o a.exr
+expect 3 "$T" render s.pbrt --resolution 24x16 --max-depth 1 --seed 77 --reference ref.exr --error-log log.jsonl -o a.exr
 expect 4 "$T" render s.pbrt --reference ref.exr --error-log nowhere/log.jsonl -o a.exr
 finish

@@ -51,6 +51,14 @@ TEST_CASE("relative efficiency: the interval holds the truth 95 times in 100") {
   CHECK(inside < 0.975 * kTrials);
 }
 
+TEST_CASE("what both runs of a seed share makes the interval no wider") {
+  const std::vector<double> a{1, 2, 0.5, 1.5, 3}, b{2, 4, 1, 3, 6.01};
+  const auto e = relative_efficiency(a, b);
+  REQUIRE(e);
+  CHECK(e->value == doctest::Approx(0.5).epsilon(1e-2));
+  CHECK(e->high / e->low < 1.01);
+}
+
 TEST_CASE("no efficiency without an error to divide by") {
   CHECK(!relative_efficiency(std::vector<double>{1, 1.1}, std::vector<double>{1e-9, -2e-9}));
   CHECK(!relative_efficiency(std::vector<double>{1}, std::vector<double>{1, 1}));

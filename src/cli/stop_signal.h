@@ -1,0 +1,15 @@
+/// Ctrl-C and SIGTERM as a request to end soon and keep what there is.
+#pragma once
+
+#include <atomic>
+
+namespace tyndall::cli {
+
+/// From now on the first signal sets stop_requested() and prints `message`; the second ends the program at once.
+/// `message` must live as long as the program.
+void catch_stop_signals(const char* message);
+const std::atomic<bool>& stop_requested();
+/// 128 + the signal: the exit code of a program that it ended; 0 when there was none.
+int stop_exit_code();
+
+}  // namespace tyndall::cli
