@@ -3,6 +3,7 @@
 #include <string>
 #include <utility>
 
+#include "io/pbrt_settings.h"
 #include "io/pbrt_suggest.h"
 
 namespace tyndall::pbrt {
@@ -47,6 +48,7 @@ void require_closed(State& state, std::size_t depth) {
 void read_world_begin(State& state, Tokenizer&, const Location&) {
   state.in_world = true;
   state.world_assumed = false;
+  finish_settings(state);
   state.graphics.ctm = Transform();
   state.graphics.start_active = true;
   state.coordinate_systems["world"] = Transform();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <limits>
 #include <string>
 
 #include "io/pbrt_suggest.h"
@@ -91,12 +92,20 @@ void ask_for_foreign_parameters(ParamList& params, const std::string& type) {
 
 }  // namespace
 
+void finish_settings(State& state) {
+  RenderSettings& s = state.scene.settings;
+  if (!state.spp_from_sampler && !state.spp_from_integrator && (s.time || s.error)) s.spp = std::numeric_limits<int>::max();
+}
+
 void read_sampler(State& state, Tokenizer& in, const Location& where) {
   const std::string type(in.expect_string("a kind of sampler, as \"independent\"").text);
   ParamList params = read_param_list(state, in, "sampler \"" + printable(type) + "\"", where);
   const std::vector<std::string> known{"halton", "independent", "paddedsobol", "pmj02bn", "sobol", "stratified", "zsobol"};
   if (std::find(known.begin(), known.end(), type) == known.end())
     throw params.error("sampler \"" + printable(type) + "\" is unknown; " + suggestion(type, known));
+  for (const char* name : {"pixelsamples", "xsamples", "ysamples"}) {
+    state.spp_from_sampler |= params.find(name, {ParamType::integer}) != nullptr;
+  }
   const int samples = read_pixel_samples(params, type);
   const auto seed = static_cast<std::uint64_t>(params.integer("seed", 0));
   params.finish();

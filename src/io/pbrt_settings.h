@@ -7,6 +7,8 @@ namespace tyndall::pbrt {
 
 void read_sampler(State& state, Tokenizer& in, const Location& where);
 void read_integrator(State& state, Tokenizer& in, const Location& where);
+/// At WorldBegin, when all of them are read: a limit of time or error alone leaves the number of samples open.
+void finish_settings(State& state);
 void read_option(State& state, Tokenizer& in, const Location& where);
 
 }  // namespace tyndall::pbrt

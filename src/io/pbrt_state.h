@@ -80,7 +80,7 @@ struct State {
   Location film_where;
   double exposure_time = 1;
   float iso = 100;
-  bool spp_from_integrator = false, seed_from_integrator = false;
+  bool spp_from_sampler = false, spp_from_integrator = false, seed_from_integrator = false;
 };
 
 /// A state at the start of a file: pbrt's defaults, one default material.

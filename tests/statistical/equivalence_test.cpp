@@ -84,7 +84,10 @@ TEST_CASE("several candidates, resampled to fewer shadow rays or all traced") {
   check_same("resampling", {{"one", scene},
                             {"4 to 1", scene, {.candidates = 4}},
                             {"5 to 2, by power", scene, {.lights = LightStrategy::power, .candidates = 5, .shadow_rays = 2}},
-                            {"3, all traced", scene, {.candidates = 3, .shadow_rays = 0}}});
+                            {"3, all traced", scene, {.candidates = 3, .shadow_rays = 0}},
+                            {"6 to 2, split", scene, {.lights = LightStrategy::tree, .candidates = 6, .shadow_rays = 2, .splitting = 0.8f}},
+                            {"all that splitting makes", scene, {.lights = LightStrategy::tree, .candidates = 0, .splitting = 0.6f}},
+                            {"12, split, all traced", scene, {.lights = LightStrategy::tree, .candidates = 12, .shadow_rays = 0, .splitting = 1}}});
 }
 
 TEST_CASE("transmittance estimators") {

@@ -24,6 +24,7 @@ RenderSettings settings_of(const Scene& scene, const Variant& variant) {
   settings.threads = variant.threads;
   settings.candidates = variant.candidates;
   settings.shadow_rays = variant.shadow_rays;
+  settings.splitting = variant.splitting;
   settings.reproducible = true;
   return settings;
 }

@@ -17,6 +17,7 @@ struct Variant {
   TransmittanceStrategy transmittance = TransmittanceStrategy::residual;
   int threads = 0;
   int candidates = 1, shadow_rays = 1;
+  float splitting = 0;
 };
 
 /// Builds a world and renders it as often as asked.

@@ -51,6 +51,24 @@ TEST_CASE("Tyndall's own options stand on the Integrator line") {
   CHECK_CONTAINS(error_of("Integrator \"volpath\" \"float time\" 0"), "above 0 seconds");
 }
 
+TEST_CASE("a limit of time or error alone leaves the samples open") {
+  CHECK(settings("Integrator \"volpath\" \"float time\" 3").spp == std::numeric_limits<int>::max());
+  CHECK(settings("Integrator \"volpath\" \"float error\" 0.01 Sampler \"sobol\"").spp == std::numeric_limits<int>::max());
+  CHECK(settings("Integrator \"volpath\" \"float error\" 0.01 Sampler \"sobol\" \"integer pixelsamples\" 9").spp == 9);
+  CHECK(settings("Integrator \"volpath\" \"float time\" 3 \"integer spp\" 7").spp == 7);
+  CHECK(*settings("Integrator \"volpath\" \"float error\" 0.01").error == doctest::Approx(0.01));
+  CHECK_CONTAINS(error_of("Integrator \"volpath\" \"float error\" 0"), "above 0");
+}
+
+TEST_CASE("candidates, splitting and shadow rays") {
+  const RenderSettings s = settings("Integrator \"volpath\" \"integer candidates\" 8 \"float splitting\" 0.5 \"integer shadow-rays\" 2");
+  CHECK(s.candidates == 8);
+  CHECK(s.splitting == 0.5f);
+  CHECK(s.shadow_rays == 2);
+  CHECK_CONTAINS(error_of("Integrator \"volpath\" \"float splitting\" 1.5"), "from 0 to 1");
+  CHECK_CONTAINS(error_of("Integrator \"volpath\" \"integer candidates\" -1"), "at least 0");
+}
+
 TEST_CASE("spp and seed of the Integrator win over the Sampler's, in either order") {
   CHECK(settings("Sampler \"sobol\" \"integer pixelsamples\" 64 Integrator \"volpath\" \"integer spp\" 9").spp == 9);
   CHECK(settings("Integrator \"volpath\" \"integer spp\" 9 \"integer seed\" 3 Sampler \"sobol\" \"integer pixelsamples\" 64")
