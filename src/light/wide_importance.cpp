@@ -14,6 +14,8 @@ constexpr float kEmissionSlack = 2e-4f;
 constexpr float kWider = 1 + 4e-6f;
 /// Squared distances below this have lost their bits: the point counts as inside.
 constexpr float kTooNear = 1e-33f;
+/// Of the largest cosine that is possible, a cluster is reckoned with at least these shares: on the way out, and here.
+constexpr float kShareOfEmission = 0.15f, kShareOfReceived = 0.3f;
 /// Factors never fall below this unless the test says "none": at the rim a cosine may round to 0 or below.
 constexpr float kLeastFactor = 1e-3f;
 /// What light that may contribute is worth at least.
@@ -41,12 +43,21 @@ struct Angle8 {
 
 }  // namespace
 
-// Flattened: the library's small functions must not be called one by one.
+// The bounds of the paper decide whether a cluster can contribute at all. How much is reckoned from the mean of its
+// lights: distance^2 to it plus half their variance, and the cosines there with a share of the bounds. That leaves a
+// third to a sixth of the variance of the bounds alone (tests/benchmark). Flattened, since GCC calls the library's
+// small functions one by one otherwise.
 [[gnu::flatten]] ChildImportance child_importance(const WideNode& node, const WideQuery& query) {
   const Vector8 d{load8(node.center[0]) - query.p.x, load8(node.center[1]) - query.p.y, load8(node.center[2]) - query.p.z};
   const Vector8 half{load8_upper(node.half[0]), load8_upper(node.half[1]), load8_upper(node.half[2])};
   const Float8 radius2 = dot(half, half), d2 = dot(d, d);
-  const Float8 per_distance2 = 1 / max(max(d2, 0.25f * radius2), Float8(kTooNear));  // not beyond half the radius
+  const auto to_mean = [&](Float8 center, Float8 side, const std::int8_t* offset) {
+    return center + load8(offset) * WideNode::kMeanStep * side;
+  };
+  const Vector8 mean{to_mean(d.x, half.x, node.mean[0]), to_mean(d.y, half.y, node.mean[1]),
+                     to_mean(d.z, half.z, node.mean[2])};
+  const Float8 deviation = load8_upper(node.deviation);
+  const Float8 per_distance = 1 / sqrt(max(dot(mean, mean) + 0.5f * deviation * deviation, Float8(kTooNear)));
 
   // A light without extent at the very point gives nothing that could be used.
   const Float8 intensity = load8_upper(node.intensity);
@@ -60,29 +71,33 @@ struct Angle8 {
 
   // How far beyond the normals' cone, as far as the sphere reaches, the point lies.
   const Vector8 axis{load8(node.axis[0]), load8(node.axis[1]), load8(node.axis[2])};
-  const Float8 facing = -dot(axis, d) * WideNode::kStep;
   const Mask8 two_sided = load8(node.flags) >= float(WideNode::kTwoSided);
-  const Angle8 theta = Angle8::of(choose(two_sided, abs(facing), facing), d2);
+  const auto facing = [&](const Vector8& to) {
+    const Float8 along = -dot(axis, to) * WideNode::kStep;
+    return choose(two_sided, abs(along), along);
+  };
   const Float8 cos_o = load8(node.cos_o) * WideNode::kStep, cos_e = load8(node.cos_e) * WideNode::kStep;
   const Float8 sin_o = sqrt((1 - cos_o) * (1 + cos_o));
   const Angle8 theta_ou{cos_o * theta_u.cos - sin_o * theta_u.sin, sin_o * theta_u.cos + cos_o * theta_u.sin};
-  const Float8 cos_beyond = theta.reduced_cosine(theta_ou, per_distance2);
-  const Mask8 directed = outside && cos_o > -1.0f;
-  none = none || (directed && cos_beyond <= cos_e - kEmissionSlack);
-  Float8 factor = choose(directed, max(cos_beyond, Float8(kLeastFactor)), 1.0f);
+  const Float8 cos_beyond = Angle8::of(facing(d), d2).reduced_cosine(theta_ou, 1 / max(d2, Float8(kTooNear)));
+  const Mask8 directed = cos_o > -1.0f;
+  none = none || (directed && outside && cos_beyond <= cos_e - kEmissionSlack);
 
-  // The largest cosine at which its light can arrive.
+  // The wider the cone, the less its axis says.
+  const Float8 bound = choose(outside, max(cos_beyond, Float8(kLeastFactor)), 1.0f);
+  const Float8 narrow = 0.5f + 0.5f * cos_o;
+  const Float8 likely = narrow * max(facing(mean) * per_distance, Float8(0.0f)) + (0.5f - 0.5f * narrow) * bound;
+  Float8 factor = choose(directed, max(likely, kShareOfEmission * bound), 1.0f);
+
   if (query.surface) {
     const Vector8 n{query.n.x, query.n.y, query.n.z};
-    const Float8 height = dot(n, d);
-    if (!query.transmissive) {
-      const Float8 reach = abs(n.x) * half.x + abs(n.y) * half.y + abs(n.z) * half.z;
-      none = none || height + reach <= -kSlack * reach1;
-    }
-    const Angle8 theta_i = Angle8::of(query.transmissive ? abs(height) : height, d2);
-    factor *= choose(outside, max(theta_i.reduced_cosine(theta_u, per_distance2), Float8(kLeastFactor)), 1.0f);
+    const Float8 reach = abs(n.x) * half.x + abs(n.y) * half.y + abs(n.z) * half.z;
+    if (!query.transmissive) none = none || dot(n, d) + reach <= -kSlack * reach1;
+    const Float8 along = dot(n, mean), height = query.transmissive ? abs(along) : along;
+    const Float8 received = max(height, kShareOfReceived * (height + reach)) * per_distance;
+    factor *= min(max(received, Float8(kLeastFactor)), Float8(1.0f));
   }
-  const Float8 importance = max(factor * intensity * per_distance2, Float8(kLeastImportance));
+  const Float8 importance = max(factor * intensity * per_distance * per_distance, Float8(kLeastImportance));
   ChildImportance result;
   store8(result.of.data(), choose(none, 0.0f, importance));
   return result;

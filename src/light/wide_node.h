@@ -27,21 +27,21 @@ struct alignas(64) WideNode {
   std::int16_t cos_o[kWidth];       ///< its half angle; -1: every direction
   std::int16_t cos_e[kWidth];       ///< reach of the emission beyond the normals
   std::uint16_t intensity[kWidth];  ///< upper half float, in units of `scale`; 0: there is no such child
+  std::uint16_t deviation[kWidth];  ///< upper half float: standard deviation of position about the mean
+  std::int8_t mean[3][kWidth];      ///< of position: offset from the center in 127ths of `half`
   std::uint8_t flags[kWidth];
   std::uint32_t child[kWidth];  ///< a leaf's light, or the index of a node
-  std::uint32_t count[kWidth];  ///< lights
-  std::uint32_t parent;         ///< the NodeRef that this node's children make up
-  float scale;                  ///< intensity of the strongest child, relative to that of all lights
-  // What splitting looks at; the descent does not.
-  std::uint16_t deviation[kWidth];      ///< upper half float: standard deviation of position about the mean
+  // The descent does not look further.
+  std::uint32_t count[kWidth];          ///< lights
   std::uint16_t intensity_cv2[kWidth];  ///< upper half float
-  std::int8_t mean[3][kWidth];          ///< of position: offset from the center in 127ths of `half`
+  std::uint32_t parent;                 ///< the NodeRef that this node's children make up
+  float scale;                          ///< intensity of the strongest child, relative to that of all lights
 
   bool used(int i) const { return intensity[i] != 0; }
   bool leaf(int i) const { return flags[i] & kLeaf; }
   /// Tells the processor that the descent comes here.
   void prefetch() const {
-    for (std::size_t line = 0; line < offsetof(WideNode, deviation); line += 64)
+    for (std::size_t line = 0; line < offsetof(WideNode, count); line += 64)
       __builtin_prefetch(reinterpret_cast<const char*>(this) + line);
   }
 
@@ -61,7 +61,7 @@ struct WideQuery {
 };
 
 /// Importance of each of a node's children, in units of `scale` / length^2: at least a tiny positive number unless no
-/// light of the child can contribute. [Conty Estevez and Kulla 2018, eq. 3], see wide_importance.cpp for departures.
+/// light of the child can contribute. After [Conty Estevez and Kulla 2018, eq. 3], see wide_importance.cpp.
 struct ChildImportance {
   alignas(32) std::array<float, WideNode::kWidth> of;
 };

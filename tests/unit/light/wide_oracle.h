@@ -16,35 +16,35 @@ inline OracleImportance oracle_importance(const Cluster& c, const WideQuery& q) 
   const double radius = length(half), distance = length(d);
   OracleImportance result;
   if (radius == 0 && distance == 0) return result;
-  const double nearest = std::max(distance, 0.5 * radius);
-  result.upper = c.intensity / (nearest * nearest);
+  const Vec3d mean = c.mean - Vec3d(q.p);
+  const double reckoned = std::sqrt(dot(mean, mean) + 0.5 * c.variance);
+  result.upper = c.intensity / (reckoned * reckoned);
 
   double factor = 1;
-  const bool outside = distance > radius;
-  const double theta_u = outside ? std::asin(radius / distance) : kPi;
-  const auto angle = [&](Vec3d v, double sign) {
-    return std::acos(std::clamp(sign * dot(v, d) / (length(v) * distance), -1.0, 1.0));
-  };
-  if (outside && !c.normals.full()) {
-    const Vec3d axis(c.normals.axis);
-    double theta = angle(axis, -1);
-    if (c.two_sided) theta = std::min(theta, kPi - theta);
-    const double cosine = std::cos(std::max(theta - c.normals.theta - theta_u, 0.0));
-    result.margin = std::min(result.margin, std::abs(cosine - std::cos(double(c.theta_e))));
-    if (cosine <= std::cos(double(c.theta_e))) return result;
-    factor *= std::max(cosine, 1e-3);
+  if (!c.normals.full()) {
+    const Vec3d axis = normalize(Vec3d(c.normals.axis));
+    double bound = 1;
+    if (distance > radius) {
+      double theta = std::acos(std::clamp(-dot(axis, d) / distance, -1.0, 1.0));
+      if (c.two_sided) theta = std::min(theta, kPi - theta);
+      bound = std::cos(std::max(theta - c.normals.theta - std::asin(radius / distance), 0.0));
+      result.margin = std::min(result.margin, std::abs(bound - std::cos(double(c.theta_e))));
+      if (bound <= std::cos(double(c.theta_e))) return result;
+      bound = std::max(bound, 1e-3);
+    }
+    double ahead = -dot(axis, mean) / reckoned;
+    if (c.two_sided) ahead = std::abs(ahead);
+    const double narrow = 0.5 * (1 + std::cos(double(c.normals.theta)));
+    factor *= std::max(narrow * std::max(ahead, 0.0) + 0.5 * (1 - narrow) * bound, 0.15 * bound);
   }
   if (q.surface) {
-    const double top = dot(n, d) + std::abs(n.x) * half.x + std::abs(n.y) * half.y + std::abs(n.z) * half.z;
+    const double reach = std::abs(n.x) * half.x + std::abs(n.y) * half.y + std::abs(n.z) * half.z;
     if (!q.transmissive) {
-      result.margin = std::min(result.margin, std::abs(top) / (distance + radius));
-      if (top <= 0) return result;
+      result.margin = std::min(result.margin, std::abs(dot(n, d) + reach) / (distance + radius));
+      if (dot(n, d) + reach <= 0) return result;
     }
-    if (outside) {
-      double theta = angle(n, 1);
-      if (q.transmissive) theta = std::min(theta, kPi - theta);
-      factor *= std::max(std::cos(std::max(theta - theta_u, 0.0)), 1e-3);
-    }
+    const double height = q.transmissive ? std::abs(dot(n, mean)) : dot(n, mean);
+    factor *= std::clamp(std::max(height, 0.3 * (height + reach)) / reckoned, 1e-3, 1.0);
   }
   result.value = factor * result.upper;
   return result;
