@@ -16,14 +16,14 @@
 namespace tyndall {
 
 struct BuildSettings {
-  std::vector<LightStrategy> lights{LightStrategy::tree_binary};  ///< those that will be rendered with
+  std::vector<LightStrategy> lights{LightStrategy::tree};  ///< those that will be rendered with
   bool sanitize = false;  ///< NaN and infinite voxels become 0 instead of an error
   int threads = 0;        ///< 0: all cores
 };
 
 /// What one light strategy adds to a build.
 struct LightStrategyBuild {
-  LightStrategy strategy = LightStrategy::tree_binary;
+  LightStrategy strategy = LightStrategy::tree;
   double seconds = 0;
   std::size_t bytes = 0;
 };

@@ -29,7 +29,7 @@ struct RenderSettings {
   int max_depth = 5;             ///< scattering events a path, counted as pbrt's volpath; >= 0
   std::uint64_t seed = 0;
   int threads = 0;               ///< 0: all cores
-  LightStrategy lights = LightStrategy::tree_binary;  ///< one that the World was built with
+  LightStrategy lights = LightStrategy::tree;  ///< one that the World was built with
   /// Lights chosen at a vertex, >= 0; 0: as many as splitting makes clusters, one without a tree. Exhaustive takes all
   /// lights and traces all.
   int candidates = 1;

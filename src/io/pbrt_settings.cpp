@@ -39,7 +39,7 @@ int read_pixel_samples(ParamList& params, const std::string& type) {
 /// pbrt's own light samplers.
 void read_light_sampler(ParamList& params, RenderSettings& settings) {
   const std::string sampler = params.choice("lightsampler", "", {"", "uniform", "power", "bvh", "exhaustive"});
-  if (sampler == "bvh") settings.lights = LightStrategy::tree_binary;
+  if (sampler == "bvh") settings.lights = LightStrategy::tree;
   if (sampler == "uniform") settings.lights = LightStrategy::uniform;
   if (sampler == "power") settings.lights = LightStrategy::power;
   if (sampler == "exhaustive") settings.lights = LightStrategy::exhaustive;

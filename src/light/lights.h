@@ -44,7 +44,7 @@ struct EmitterShape {
 };
 
 struct LightBuildOptions {
-  std::vector<LightStrategy> strategies{LightStrategy::tree_binary};  ///< a selector is built for each
+  std::vector<LightStrategy> strategies{LightStrategy::tree};  ///< a selector is built for each
   const Textures* textures = nullptr;  ///< read for the alpha of emissive shapes; null: opaque. Must outlive the lights
   int threads = 0;                     ///< to build with; 0: one a core
 };
@@ -58,7 +58,7 @@ struct LightStats {
 
 /// What a selector costs.
 struct SelectorStats {
-  LightStrategy strategy = LightStrategy::tree_binary;
+  LightStrategy strategy = LightStrategy::tree;
   double seconds = 0;  ///< to build
   std::size_t memory_bytes = 0;
 };

@@ -58,7 +58,7 @@ TEST_CASE("a million triangle lights: built in little memory, chosen as stated")
   shape.emission = AreaLight{};
   shape.emission->L = Rgb(1);
   const std::vector<EmitterShape> placed{{&shape, {}}};
-  const Lights lights = build_lights({}, placed, {{-1, -1, -1}, {1, 1, 1}});
+  const Lights lights = build_lights({}, placed, {{-1, -1, -1}, {1, 1, 1}}, {{LightStrategy::tree_binary}});
   const LightSelector& selector = lights.selector(LightStrategy::tree_binary);
   CHECK(lights.size() == kLights);
   CHECK(double(lights.memory_bytes()) / kLights < 165);

@@ -13,7 +13,7 @@ namespace tyndall::test {
 
 /// What a test changes of the scene's own settings.
 struct Variant {
-  LightStrategy lights = LightStrategy::tree_binary;
+  LightStrategy lights = LightStrategy::tree;
   TransmittanceStrategy transmittance = TransmittanceStrategy::residual;
   int threads = 0;
   int candidates = 1, shadow_rays = 1;

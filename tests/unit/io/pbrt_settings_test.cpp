@@ -25,7 +25,7 @@ TEST_CASE("Integrator gives depth and light sampler") {
   CHECK(settings("Integrator \"volpath\" \"string lightsampler\" \"power\"").lights == LightStrategy::power);
   CHECK(settings("Integrator \"volpath\" \"string lightsampler\" \"uniform\"").lights == LightStrategy::uniform);
   CHECK(settings("Integrator \"volpath\" \"string lightsampler\" \"exhaustive\"").lights == LightStrategy::exhaustive);
-  CHECK(settings("Integrator \"volpath\" \"string lightsampler\" \"bvh\"").lights == LightStrategy::tree_binary);
+  CHECK(settings("Integrator \"volpath\" \"string lightsampler\" \"bvh\"").lights == LightStrategy::tree);
   CHECK_CONTAINS(error_of("Integrator \"volpath\" \"string lightsampler\" \"bvx\""), "did you mean \"bvh\"?");
   CHECK_CONTAINS(error_of("Integrator \"volpaht\""), "did you mean \"volpath\"");
   CHECK_CONTAINS(error_of("Integrator \"volpath\" \"integer maxdepth\" -1"), "at least 0");

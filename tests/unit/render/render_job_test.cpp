@@ -17,7 +17,7 @@ Translate 0 0 4
 Shape "sphere" "float radius" 1.5
 )";
 
-World world_of(std::vector<LightStrategy> strategies = {LightStrategy::tree_binary}) {
+World world_of(std::vector<LightStrategy> strategies = {LightStrategy::tree}) {
   return build(read_scene_text(kScene, "test.pbrt").scene, {.lights = std::move(strategies), .threads = 1});
 }
 
@@ -107,7 +107,7 @@ TEST_CASE("checkpoints come at every power of two, and change nothing") {
 }
 
 TEST_CASE("one world serves several light strategies, and refuses those it was not built for") {
-  const World world = world_of({LightStrategy::power, LightStrategy::tree_binary});
+  const World world = world_of({LightStrategy::power, LightStrategy::tree});
   REQUIRE(world.summary().light_strategies.size() == 2);
   CHECK(world.summary().light_strategies[0].strategy == LightStrategy::power);
   CHECK(world.summary().light_strategies[1].bytes > 0);
