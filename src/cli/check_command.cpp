@@ -1,6 +1,5 @@
-#include <fmt/core.h>
-
 #include "cli/command.h"
+#include "cli/print.h"
 #include "tyndall/io.h"
 #include "tyndall/render.h"
 
@@ -10,17 +9,17 @@ namespace {
 /// Problems of one scene, printed one a line; returns how many.
 std::size_t check_file(const std::string& path) {
   SceneCheck check = check_scene(path);
-  for (const Warning& w : check.warnings) fmt::print("{}: warning: {}\n", w.where.str(), w.message);
-  for (const std::string& error : check.errors) fmt::print("{}\n", error);
+  for (const Warning& w : check.warnings) print("{}: warning: {}\n", w.where.str(), w.message);
+  for (const std::string& error : check.errors) print("{}\n", error);
   if (!check.errors.empty()) return check.errors.size();
   try {
     const World world = build(std::move(check.scene));
-    for (const std::string& note : world.summary().notes) fmt::print("{}: note: {}\n", path, note);
+    for (const std::string& note : world.summary().notes) print("{}: note: {}\n", path, note);
   } catch (const Error& e) {
-    fmt::print("{}\n", e.what());
+    print("{}\n", e.what());
     return 1;
   }
-  fmt::print("{}: ok\n", path);
+  print("{}: ok\n", path);
   return 0;
 }
 
@@ -30,7 +29,7 @@ int run_check(const std::vector<std::string>& scenes) {
     try {
       problems += check_file(scene);
     } catch (const Error& e) {
-      fmt::print("{}\n", e.what());
+      print("{}\n", e.what());
       ++problems;
     }
   }

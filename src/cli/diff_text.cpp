@@ -43,9 +43,9 @@ std::string group_table(const ImageDiff& diff, std::size_t width) {
 
 std::string flip_text(const ImageDiff& diff, std::size_t width, double pixels_per_degree) {
   return fmt::format(
-      "  {:{}}  LDR {:.6f}, HDR {:.6f} (mean; {:.3g} pixels a degree, {} exposures from {:+.1f} to {:+.1f} stops)\n", "FLIP",
+      "  {:{}}  LDR {:.6f}, HDR {:.6f} (mean; {:.3g} pixels a degree, {} exposure{} from {:+.1f} to {:+.1f} stops)\n", "FLIP",
       width, diff.flip_ldr->mean(), diff.flip_hdr->mean(), pixels_per_degree, diff.flip_hdr->exposures,
-      diff.flip_hdr->start_exposure, diff.flip_hdr->stop_exposure);
+      diff.flip_hdr->exposures == 1 ? "" : "s", diff.flip_hdr->start_exposure, diff.flip_hdr->stop_exposure);
 }
 
 Json as_json(const ErrorMetrics& e) {
@@ -77,6 +77,15 @@ Json as_json(const GroupDiff& g) {
   return j;
 }
 
+Json as_json(const std::vector<BadValues>& bad) {
+  Json j = Json::array();
+  for (const BadValues& v : bad) {
+    j.push_back(
+        {{"channel", v.channel}, {"in", v.in_reference ? "reference" : "image"}, {"count", v.count}, {"x", v.x}, {"y", v.y}});
+  }
+  return j;
+}
+
 Json as_json(const ImageTest& test, const ImageTestSettings& settings) {
   const BlockDifference& w = test.worst_block;
   Json j{{"same", test.same},
@@ -102,11 +111,8 @@ Json as_json(const ImageTest& test, const ImageTestSettings& settings) {
 void add_findings(const ImageDiff& diff, const DiffOptions& options, Json& j) {
   j["only_in_image"] = diff.only_in_image;
   j["only_in_reference"] = diff.only_in_reference;
-  j["non_finite"] = Json::array();
-  for (const NonFinite& n : diff.non_finite) {
-    j["non_finite"].push_back(
-        {{"channel", n.channel}, {"in", n.in_reference ? "reference" : "image"}, {"count", n.count}, {"x", n.x}, {"y", n.y}});
-  }
+  j["non_finite"] = as_json(diff.non_finite);
+  j["negative_variances"] = as_json(diff.negative_variances);
   j["channels"] = Json::array();
   for (const ChannelDiff& c : diff.channels) j["channels"].push_back(as_json(c));
   j["groups"] = Json::array();
@@ -123,6 +129,12 @@ void add_findings(const ImageDiff& diff, const DiffOptions& options, Json& j) {
   j["test"] = diff.test ? as_json(*diff.test, options.settings.test) : Json(nullptr);
 }
 
+/// The verdict of the test is long, and once is enough.
+bool is_said(const std::string& verdict, const Judgement& judgement) {
+  return std::any_of(judgement.reasons.begin(), judgement.reasons.end(),
+                     [&](const std::string& reason) { return reason.find(verdict) != std::string::npos; });
+}
+
 }  // namespace
 
 std::string as_text(const ImageDiff& diff, const Judgement& judgement, const DiffOptions& options) {
@@ -132,7 +144,7 @@ std::string as_text(const ImageDiff& diff, const Judgement& judgement, const Dif
     for (const ChannelDiff& c : diff.channels) width = std::max(width, c.name.size());
     if (!diff.channels.empty()) text += channel_table(diff, width) + group_table(diff, width);
     if (diff.flip_hdr) text += flip_text(diff, width, options.settings.flip_settings.pixels_per_degree);
-    if (diff.test) text += fmt::format("  {:{}}  {}\n", "test", width, diff.test->verdict);
+    if (diff.test && !is_said(diff.test->verdict, judgement)) text += fmt::format("  {:{}}  {}\n", "test", width, diff.test->verdict);
   }
   text += fmt::format("{} by {}\n", judgement.same ? "same" : "differs", judgement.criterion);
   for (const std::string& reason : judgement.reasons) text += fmt::format("  {}\n", reason);

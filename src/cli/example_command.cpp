@@ -2,6 +2,8 @@
 
 #include "cli/command.h"
 #include "cli/log.h"
+#include "cli/print.h"
+#include "cli/validators.h"
 #include "example/example.h"
 #include "tyndall/error.h"
 
@@ -35,13 +37,13 @@ void read_resolution(const std::string& text, ExampleOptions& options) {
 
 int run_example(Arguments& a) {
   if (a.list) {
-    fmt::print("{}", list_text());
+    print("{}", list_text());
     return 0;
   }
   if (!a.shape.empty()) a.options.shape = a.shape == "point" ? LampShape::point : LampShape::triangle;
   if (!a.resolution.empty()) read_resolution(a.resolution, a.options);
   const std::vector<ExampleFile> files = make_example(a.name, a.options);
-  fmt::print("{}\n", write_example(files, a.folder.empty() ? a.name : a.folder));
+  print("{}\n", write_example(files, a.folder.empty() ? a.name : a.folder));
   return 0;
 }
 
@@ -67,7 +69,7 @@ void add_example(CLI::App& app, int& exit_code) {
   command->add_option("--max-depth", a->options.max_depth, "scattering events a path, at most [see --list]; --max-depth 8");
   command->add_option("--resolution", a->resolution, "frame size in pixels [640x360]; --resolution 1280x720");
   command->add_option("--seed", a->options.seed, "of everything random in the scene [0]; --seed 7")
-      ->check(CLI::NonNegativeNumber);
+      ->check(whole_number());
   command->footer("Examples and their defaults:\n" + list_text());
   command->callback([a, &exit_code] {
     if (!a->list && a->name.empty()) throw Error(Failure::usage, "example takes a name or --list:\n" + list_text());

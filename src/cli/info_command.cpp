@@ -1,24 +1,24 @@
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "cli/command.h"
 #include "cli/log.h"
+#include "cli/print.h"
 #include "tyndall/io.h"
 
 namespace tyndall::cli {
 namespace {
 
-void print_text(const Description& d) {
-  fmt::print("{}: {}\n", d.path, d.kind);
+void print_description(const Description& d) {
+  print("{}: {}\n", d.path, d.kind);
   std::size_t width = 0;
   for (const Property& p : d.properties) width = std::max(width, p.name.size());
   std::string subject;
   for (const Property& p : d.properties) {
-    if (p.subject != subject) fmt::print("  {}\n", p.subject);
+    if (p.subject != subject) print("  {}\n", p.subject);
     subject = p.subject;
-    fmt::print("    {:{}}  {}\n", p.name, width, p.value);
+    print("    {:{}}  {}\n", p.name, width, p.value);
   }
 }
 
@@ -38,19 +38,21 @@ int run_info(const std::vector<std::string>& files, bool json) {
   int exit_code = 0;
   auto all = nlohmann::ordered_json::array();
   for (const std::string& file : files) {
+    std::optional<Description> d;
     try {
-      const Description d = describe(file);
-      if (json) {
-        all.push_back(as_json(d));
-      } else {
-        print_text(d);
-      }
+      d = describe(file);
     } catch (const Error& e) {
       log("tyndall: {}\n", e.what());
       exit_code = static_cast<int>(e.failure());
+      continue;
+    }
+    if (json) {
+      all.push_back(as_json(*d));
+    } else {
+      print_description(*d);
     }
   }
-  if (json) fmt::print("{}\n", all.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+  if (json) print("{}\n", all.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   return exit_code;
 }
 

@@ -1,10 +1,10 @@
 #include <csignal>
-#include <cstdio>
 #include <exception>
 #include <new>
 
 #include "cli/command.h"
 #include "cli/log.h"
+#include "cli/print.h"
 #include "tyndall/error.h"
 #include "tyndall/render.h"
 
@@ -58,9 +58,8 @@ int main(int argc, char** argv) {
 #endif
   try {
     const int exit_code = run(argc, argv);
-    if (std::fflush(stdout) == 0) return exit_code;
-    tyndall::cli::log("tyndall: stdout could not be written\n");
-    return static_cast<int>(tyndall::Failure::output);
+    tyndall::cli::finish_printing();
+    return exit_code;
   } catch (const tyndall::Error& e) {
     tyndall::cli::log("tyndall: {}\n", e.what());
     return static_cast<int>(e.failure());

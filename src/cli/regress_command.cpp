@@ -1,4 +1,3 @@
-#include <fmt/core.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -9,6 +8,8 @@
 #include "cli/command.h"
 #include "cli/log.h"
 #include "cli/output_paths.h"
+#include "cli/print.h"
+#include "cli/validators.h"
 #include "report/page.h"
 #include "report/regress.h"
 #include "report/regress_results.h"
@@ -85,7 +86,7 @@ void write_report(const SuiteResult& result, const std::string& folder) {
 class Display {
  public:
   Display(const RegressOptions& options, std::size_t width) : json_(options.json), width_(width), bar_(isatty(STDERR_FILENO)) {
-    print(regress_head(width_));
+    show(regress_head(width_));
   }
 
   void run(const RegressProgress& p) const {
@@ -93,16 +94,14 @@ class Display {
   }
   void row(const CaseResult& result, const RegressProgress& p) const {
     if (bar_) log("\r{:40}\r", "");
-    print(regress_row(result, width_));
+    show(regress_row(result, width_));
     if (!bar_) log("{}: {} ({:.0f} %, {:.0f} s left)\n", result.name, name_of(result.status), 100 * p.fraction, p.remaining);
   }
-  void end(const SuiteResult& result) const { print("\n" + regress_summary(result) + "\n"); }
+  void end(const SuiteResult& result) const { show("\n" + regress_summary(result) + "\n"); }
 
  private:
-  void print(const std::string& text) const {
-    if (json_) return;
-    fmt::print("{}", text);
-    std::fflush(stdout);
+  void show(const std::string& text) const {
+    if (!json_) print_now(text);
   }
 
   bool json_;
@@ -136,7 +135,7 @@ int run_regress(RegressOptions options) {
   display.end(result);
   if (!options.report.empty()) write_report(result, options.report);
   if (!options.junit.empty()) write_file(regress_junit(result), options.junit);
-  if (options.json) fmt::print("{}\n", regress_json(result).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+  if (options.json) print("{}\n", regress_json(result).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   return exit_code_of(result);
 }
 
@@ -152,12 +151,12 @@ void add_regress(CLI::App& app, int& exit_code) {
                       "folder for the report: index.html, results.json, renders [none]; -o regress-report");
   command->add_option("--filter", s.filter, "cases to run: part of a name, or a glob [all]; --filter 'medium_*'");
   command->add_option("--seed", s.seed, "of the random numbers; another one must pass as well [0]; --seed 7")
-      ->check(CLI::Range(std::uint64_t{0}, std::uint64_t{1} << 40));
+      ->check(whole_number(0, std::uint64_t{1} << 40));
   command->add_flag("--update", s.update, "render the references anew, say what changed, and replace them");
   command->add_option("--jobs,--threads", s.jobs, "renders side by side, of one thread each [0: one a core]; --jobs 2")
-      ->check(CLI::Range(0, 4096));
+      ->check(whole_number(0, 4096));
   command->add_option("--level", s.family_level, "chance of a false alarm in a run of the whole suite [0.001]; --level 0.01")
-      ->check(CLI::Range(1e-12, 0.5));
+      ->check(number_between(1e-12, 0.5));
   command->add_option("--junit", options->junit, "JUnit XML to write, for CI [none]; --junit regress.xml");
   command->add_flag("--json", options->json, "results as JSON on stdout instead of the table");
   command->callback([options, &exit_code] { exit_code = run_regress(*options); });

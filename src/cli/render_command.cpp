@@ -1,10 +1,10 @@
-#include <fmt/core.h>
 #include <filesystem>
 
 #include "cli/command.h"
 #include "cli/error_log.h"
 #include "cli/log.h"
 #include "cli/output_paths.h"
+#include "cli/print.h"
 #include "cli/progress_display.h"
 #include "cli/render_options.h"
 #include "cli/stop_signal.h"
@@ -68,7 +68,7 @@ int run_render(const RenderOptions& options) {
 
   if (!options.quiet) log_text(as_text(summary));
   if (errors) errors->require_written();
-  if (options.json) fmt::print("{}\n", as_json(summary));
+  if (options.json) print("{}\n", as_json(summary));
   return rendering.report.stopped ? stop_exit_code() : 0;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
 #include <tuple>
 
 #include "tyndall/error.h"
@@ -39,23 +40,44 @@ std::string text(const PixelBounds& b) {
          std::to_string(b.y0) + ")";
 }
 
-void find_non_finite(const Image& image, bool is_reference, const DiffSettings& settings, std::vector<NonFinite>& found) {
-  for (const Channel& c : image.channels) {
-    if (!wanted(c.name, settings)) continue;
-    NonFinite bad{c.name, is_reference, 0, 0, 0};
-    for (std::size_t i = 0; i < c.values.size(); ++i) {
-      if (std::isfinite(c.values[i]) || bad.count++ > 0) continue;
-      bad.x = image.data.x0 + static_cast<int>(i % static_cast<std::size_t>(image.width()));
-      bad.y = image.data.y0 + static_cast<int>(i / static_cast<std::size_t>(image.width()));
-    }
-    if (bad.count > 0) found.push_back(bad);
+/// Values of the channel that are `bad`, when there are any.
+template <typename Bad>
+void find_values(const Image& image, const Channel& c, bool is_reference, Bad bad, std::vector<BadValues>& found) {
+  BadValues values{c.name, is_reference, 0, 0, 0};
+  for (std::size_t i = 0; i < c.values.size(); ++i) {
+    if (!bad(c.values[i]) || values.count++ > 0) continue;
+    values.x = image.data.x0 + static_cast<int>(i % static_cast<std::size_t>(image.width()));
+    values.y = image.data.y0 + static_cast<int>(i / static_cast<std::size_t>(image.width()));
   }
+  if (values.count > 0) found.push_back(values);
+}
+
+/// Variances are looked at with the channels that they belong to: these are judged by them.
+void find_bad_values(const Image& image, bool is_reference, const DiffSettings& settings, ImageDiff& diff) {
+  constexpr std::string_view kVariance = "Variance.";
+  for (const Channel& c : image.channels) {
+    const bool is_variance = c.name.starts_with(kVariance);
+    if (wanted(c.name, settings)) {
+      find_values(image, c, is_reference, [](float v) { return !std::isfinite(v); }, diff.non_finite);
+    }
+    if (is_variance && (wanted(c.name, settings) || wanted(c.name.substr(kVariance.size()), settings))) {
+      find_values(image, c, is_reference, [](float v) { return v < 0; }, diff.negative_variances);
+    }
+  }
+}
+
+/// The variances of a channel; none unless they can be believed.
+const Channel* variances_of(const Image& image, const std::string& channel) {
+  const Channel* variances = image.find("Variance." + channel);
+  if (!variances) return nullptr;
+  const bool negative = std::any_of(variances->values.begin(), variances->values.end(), [](float v) { return v < 0; });
+  return negative ? nullptr : variances;
 }
 
 /// One standard error of the mean difference: by the variances of both, else by the spread over pixels (`squares`: sum of
 /// squared differences).
 void measure_bias_error(const Image& image, const Image& reference, double squares, ChannelDiff& diff) {
-  const Channel *a = image.find("Variance." + diff.name), *b = reference.find("Variance." + diff.name);
+  const Channel *a = variances_of(image, diff.name), *b = variances_of(reference, diff.name);
   const auto n = static_cast<double>(required_channel(image, diff.name).values.size());
   diff.error_from_variance = a && b;
   if (a && b) {
@@ -150,8 +172,8 @@ ImageDiff compare_images(const Image& image, const Image& reference, const DiffS
   if (settings.reference_noise && !has_variances(reference)) {
     throw Error(Failure::usage, "the reference has no variances, so that its noise is unknown; render it with --aov Variance");
   }
-  find_non_finite(image, false, settings, diff.non_finite);
-  find_non_finite(reference, true, settings, diff.non_finite);
+  find_bad_values(image, false, settings, diff);
+  find_bad_values(reference, true, settings, diff);
   compare_channels(image, reference, settings, diff);
   for (GroupDiff& group : diff.groups) {
     group.errors = measure_error(image, reference, group.channels);
@@ -160,11 +182,11 @@ ImageDiff compare_images(const Image& image, const Image& reference, const DiffS
     }
   }
   if (!has_rgb(diff)) return diff;
-  if (has_variances(image) && has_variances(reference)) {
+  if (has_variances(image) && has_variances(reference) && diff.negative_variances.empty()) {
     diff.test = test_images(mean_image(image, 1), mean_image(reference, 1), settings.test);
   }
   const bool finite = std::none_of(diff.non_finite.begin(), diff.non_finite.end(),
-                                   [](const NonFinite& n) { return group_of(n.channel) == "RGB"; });
+                                   [](const BadValues& n) { return group_of(n.channel) == "RGB"; });
   if (settings.flip && finite) {
     diff.flip_ldr = flip_ldr(image, reference, settings.flip_settings);
     diff.flip_hdr = flip_hdr(image, reference, settings.flip_settings);

@@ -22,8 +22,8 @@ struct DiffSettings {
   ImageTestSettings test{};
 };
 
-/// Values of one channel in one image that are NaN or infinite.
-struct NonFinite {
+/// Values of one channel in one image that no render has: NaN, infinity, or variances below 0.
+struct BadValues {
   std::string channel;
   bool in_reference = false;
   std::size_t count = 0;
@@ -54,11 +54,12 @@ struct ImageDiff {
   PixelBounds data;
   std::string windows;  ///< how the data windows differ; if they do, nothing below is known
   std::vector<std::string> only_in_image, only_in_reference;  ///< channels
-  std::vector<NonFinite> non_finite;
+  std::vector<BadValues> non_finite;
+  std::vector<BadValues> negative_variances;
   std::vector<ChannelDiff> channels;
   std::vector<GroupDiff> groups;
   std::optional<FlipMap> flip_ldr, flip_hdr;  ///< of R, G, B, when finite
-  std::optional<ImageTest> test;              ///< of R, G, B, when both have variances
+  std::optional<ImageTest> test;              ///< of R, G, B, when both have variances, none of them negative
 };
 
 /// Variance and SampleCount: channels (and groups) that describe a render and not its picture.
@@ -68,8 +69,8 @@ bool is_statistic(const std::string& channel);
 ImageDiff compare_images(const Image& image, const Image& reference, const DiffSettings& settings = {});
 
 /// What must hold for two images to count as the same; all that are set must. None set: the statistical test where there
-/// are variances, else equality. Whatever is set: values that are not finite, a channel that one image lacks and different
-/// data windows are differences. What is_statistic is judged by `exact` only.
+/// are variances, else equality. Whatever is set: values that are not finite, negative variances, a channel that one image
+/// lacks and different data windows are differences. What is_statistic is judged by `exact` only.
 struct Criteria {
   bool test = false;                   ///< the statistical test of R, G, B
   bool exact = false;                  ///< equal values in every pixel of every channel

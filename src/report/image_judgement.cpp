@@ -14,11 +14,17 @@ std::string number(double v) {
   return text.data();
 }
 
+/// "3 values of R in the image not finite, first at (1, 0)".
+std::string describe(const BadValues& v, const std::string& what) {
+  return std::to_string(v.count) + (v.count == 1 ? " value of " : " values of ") + v.channel +
+         (v.in_reference ? " in the reference " : " in the image ") + what + ", first at (" + std::to_string(v.x) + ", " +
+         std::to_string(v.y) + ")";
+}
+
 void judge_always(const ImageDiff& diff, std::vector<std::string>& reasons) {
-  for (const NonFinite& n : diff.non_finite) {
-    reasons.push_back(std::to_string(n.count) + (n.count == 1 ? " value of " : " values of ") + n.channel +
-                      (n.in_reference ? " in the reference" : " in the image") + " not finite, first at (" +
-                      std::to_string(n.x) + ", " + std::to_string(n.y) + ")");
+  for (const BadValues& n : diff.non_finite) reasons.push_back(describe(n, "not finite"));
+  for (const BadValues& n : diff.negative_variances) {
+    reasons.push_back(describe(n, "negative") + ": a variance is 0 or more; render the image again");
   }
   for (const std::string& name : diff.only_in_image) reasons.push_back("channel " + name + " is in the image only");
   for (const std::string& name : diff.only_in_reference) reasons.push_back("channel " + name + " is in the reference only");
@@ -60,6 +66,7 @@ void judge_flip(const ImageDiff& diff, double limit, std::vector<std::string>& r
 
 void judge_test(const ImageDiff& diff, std::vector<std::string>& reasons) {
   if (!diff.test) {
+    if (!diff.negative_variances.empty()) return;  // a difference in itself
     throw Error(Failure::usage,
                 "--test needs R, G, B and their Variance in both images; render them with --aov Variance, or choose "
                 "--max-relmse, --max-error, --max-flip or --exact");
@@ -70,7 +77,7 @@ void judge_test(const ImageDiff& diff, std::vector<std::string>& reasons) {
 /// With the default made explicit.
 Criteria resolved(const ImageDiff& diff, Criteria criteria) {
   const bool none = !criteria.test && !criteria.exact && !criteria.max_error && !criteria.max_relmse && !criteria.max_flip;
-  if (none) (diff.test ? criteria.test : criteria.exact) = true;
+  if (none) (diff.test || !diff.negative_variances.empty() ? criteria.test : criteria.exact) = true;
   return criteria;
 }
 

@@ -45,6 +45,7 @@ for text in relMSE trimmed MAPE SMAPE 'FLIP' '95 % interval' '0.01'; do says "$t
 expect 5 "$T" diff brighter.exr b.exr
 says 'differs by --test' out.txt
 says 'mean R' out.txt
+[ "$(grep -c 'mean R' out.txt)" = 1 ] || fail "the verdict of the test is printed twice: $(cat out.txt)"
 expect 0 "$T" diff brighter.exr b.exr --max-relmse 0.5
 expect 5 "$T" diff a.exr b.exr --exact
 expect 0 "$T" diff a.exr a.exr --exact --no-flip
@@ -82,6 +83,11 @@ expect 5 "$T" diff crop.exr plain.exr
 says '12 x 8 pixels from (8, 4)' out.txt
 expect 2 "$T" diff a.exr b.exr --channels Depth
 
+rm -f none.png
+expect 5 "$T" diff crop.exr plain.exr -o none.png
+says 'none.png: no error picture is made' err.txt
+[ -e none.png ] && fail "an error picture of images that have nothing in common"
+
 # JSON alone on stdout, with numbers that are not finite as null.
 expect 5 "$T" diff brighter.exr b.exr --json
 [ "$(head -c 1 out.txt)" = "{" ] || fail "stdout does not start with JSON"
@@ -102,11 +108,22 @@ says 'missing.exr' err.txt
 expect 3 "$T" diff a.exr s.pbrt
 "$T" diff a.exr b.exr >/dev/full 2>err.txt
 [ $? = 4 ] || fail "results that cannot be written are not an error"
+for command in "diff a.exr b.exr --json" "diff z.exr z.exr --no-flip" "info z.exr" "info --json a.exr b.exr z.exr" "check s.pbrt" "example --list"; do
+  "$T" $command >/dev/full 2>err.txt
+  [ $? = 4 ] || fail "$command to a full disk does not exit with 4"
+  says 'stdout could not be written' err.txt
+done
 expect 2 "$T" diff a.exr
 expect 2 "$T" diff a.exr b.exr --level 0
 expect 2 "$T" diff a.exr b.exr --block 0
 expect 2 "$T" diff a.exr b.exr --max-error -1
 expect 2 "$T" diff a.exr b.exr --ppd 0
+for number in nan inf -1 0.1x 1e400 ''; do
+  for option in --max-error --max-relmse --max-flip --level --ppd; do expect 2 "$T" diff a.exr b.exr $option "$number"; done
+done
+expect 2 "$T" diff a.exr b.exr --level 1
+says '--level: must be a number above 0 and below 1, not 1' err.txt
+expect 0 "$T" diff a.exr b.exr --max-error +1e3
 expect 0 "$T" diff --help
 says '--max-relmse' out.txt
 finish

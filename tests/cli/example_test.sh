@@ -35,6 +35,9 @@ done
 
 # Options reach the scene.
 expect 0 "$T" example smoke-lights --lights 30 --shape point --density 0.25 --max-depth 3 --resolution 64x48 --seed 5 -o out/points
+expect 2 "$T" example furnace --seed -1
+says "--seed: must be a whole number from 0 to 18446744073709551615, not -1" err.txt
+expect 2 "$T" example smoke-lights --density nan
 [ "$(grep -c 'LightSource "point"' out/points/smoke-lights.pbrt)" = 30 ] || fail "not 30 point lights"
 says '"float scale" 0.25' out/points/smoke-lights.pbrt
 says '"integer maxdepth" 3' out/points/smoke-lights.pbrt

@@ -114,6 +114,27 @@ TEST_CASE("NaN and infinity always differ, in either image, and are counted and 
   }
 }
 
+TEST_CASE("a variance below 0 differs by itself, is found, and nothing is judged by it") {
+  const Image good = noisy(1, 1);
+  Image image = noisy(1, 2);
+  CHECK(judge(compare_images(image, good), {}).same);
+  for (Channel& c : image.channels) {
+    if (c.name == "Variance.R") c.values[33] = -0.5f;
+  }
+  for (const bool in_reference : {false, true}) {
+    const ImageDiff diff = in_reference ? compare_images(good, image) : compare_images(image, good);
+    CHECK(!diff.test);
+    CHECK(std::isfinite(channel(diff, "R").bias_error));
+    CHECK(!channel(diff, "R").error_from_variance);
+    for (const Criteria& criteria : {Criteria{}, Criteria{.test = true}, Criteria{.max_error = 1e30}}) {
+      CHECK(says(judge(diff, criteria), std::string("1 value of Variance.R in the ") +
+                                            (in_reference ? "reference" : "image") + " negative, first at (1, 1)"));
+    }
+  }
+  CHECK(!judge(compare_images(image, good, {.channels = {"RGB"}}), {}).same);
+  CHECK(judge(compare_images(image, good, {.channels = {"G"}}), {.max_error = 10}).same);
+}
+
 TEST_CASE("data windows that differ are a difference") {
   const Image a = flat(4, 4, 1, 1, 1);
   Image moved = a;
