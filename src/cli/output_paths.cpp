@@ -10,18 +10,18 @@ namespace tyndall::cli {
 
 namespace fs = std::filesystem;
 
-void check_writable(const std::string& path) {
+void check_writable(const std::string& path, const std::string& option) {
   fs::path folder = fs::path(path).parent_path();
   if (folder.empty()) folder = ".";
   std::error_code ignored;
   if (fs::is_directory(path, ignored)) {
-    throw Error(Failure::output, path + ": is a folder; give a file name with -o");
+    throw Error(Failure::output, path + ": is a folder; give a file name with " + option);
   }
   if (!fs::is_directory(folder, ignored)) {
     throw Error(Failure::output, path + ": folder " + folder.string() + " does not exist; make it first");
   }
   if (access(folder.c_str(), W_OK) != 0) {
-    throw Error(Failure::output, path + ": folder " + folder.string() + " is not writable; choose another with -o");
+    throw Error(Failure::output, path + ": folder " + folder.string() + " is not writable; choose another with " + option);
   }
 }
 

@@ -13,6 +13,7 @@
 #include "report/page.h"
 #include "report/regress.h"
 #include "report/regress_results.h"
+#include "report/utf8.h"
 #include "tyndall/io.h"
 
 namespace tyndall::cli {
@@ -65,7 +66,7 @@ std::string own_path() {
 
 std::size_t longest_name(const RegressSuite& suite) {
   std::size_t width = 4;
-  for (const RegressCase& c : suite.cases) width = std::max(width, c.name.size());
+  for (const RegressCase& c : suite.cases) width = std::max(width, utf8_count(c.name));
   return width;
 }
 
@@ -109,18 +110,28 @@ class Display {
   bool bar_;
 };
 
-/// 5 when a picture differs, else 7 when a case could not be judged.
+/// 4 when a reference could not be written, else 5 when a picture differs, else 7 when a case could not be judged.
 int exit_code_of(const SuiteResult& result) {
   if (stop_signal != 0) return 128 + stop_signal;
+  if (std::any_of(result.cases.begin(), result.cases.end(), [](const CaseResult& c) { return c.unwritten; }))
+    return static_cast<int>(Failure::output);
   if (result.count(CaseStatus::fail) > 0) return static_cast<int>(Failure::differs);
   const std::size_t unjudged = result.count(CaseStatus::crash) + result.count(CaseStatus::timeout) +
                                result.count(CaseStatus::error) + result.count(CaseStatus::stopped);
   return unjudged > 0 ? static_cast<int>(Failure::incomplete) : 0;
 }
 
+/// Before anything is rendered: what is rendered for nothing has taken minutes.
+void require_writable(const RegressOptions& options, const std::string& suite) {
+  if (!options.report.empty()) make_folder(options.report);
+  if (!options.junit.empty()) check_writable(options.junit, "--junit");
+  if (options.settings.update && access(suite.c_str(), W_OK) != 0)
+    throw Error(Failure::output, suite + ": folder is not writable; --update puts the references there");
+}
+
 int run_regress(RegressOptions options) {
   const RegressSuite suite = read_suite(options.suite);
-  if (!options.report.empty()) make_folder(options.report);
+  require_writable(options, suite.folder);
   const ScratchFolder scratch;
   options.settings.work_folder = scratch.path();
   options.settings.program = own_path();
@@ -133,9 +144,9 @@ int run_regress(RegressOptions options) {
                                         .run_done = [&](const RegressProgress& p) { display.run(p); },
                                         .stop = &stop_requested});
   display.end(result);
+  if (options.json) print("{}\n", regress_json(result).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   if (!options.report.empty()) write_report(result, options.report);
   if (!options.junit.empty()) write_file(regress_junit(result), options.junit);
-  if (options.json) print("{}\n", regress_json(result).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   return exit_code_of(result);
 }
 
@@ -145,6 +156,10 @@ void add_regress(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("regress", "hold a suite of scenes against its references, statistically");
   auto options = std::make_shared<RegressOptions>();
   RegressSettings& s = options->settings;
+  command->footer(
+      "Exit codes: 0 all agree, 5 a picture differs, 7 a case could not be judged (no or another reference, settings that\n"
+      "cannot be read, a render that fails, crashes or takes too long), 2 usage, 3 no suite, 4 something cannot be written,\n"
+      "130/143 interrupted: what was judged by then is in the report.");
   command->add_option("suite", options->suite, "folder of scenes, each with settings NAME.json and a reference NAME.exr")
       ->required();
   command->add_option("-o,--output", options->report,

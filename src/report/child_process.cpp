@@ -92,10 +92,23 @@ std::optional<ChildResult> finished(const Child& child, double timeout, bool sto
   return std::nullopt;
 }
 
+/// Children on their way; none outlives the list of them, also when a callback throws.
+struct Running {
+  std::vector<Child> list;
+
+  Running() = default;
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
+  ~Running() {
+    for (const Child& child : list) end_by_force(child, ChildResult::End::skipped);
+  }
+};
+
 }  // namespace
 
 void run_children(const std::vector<ChildCommand>& commands, const ChildControl& control) {
-  std::vector<Child> running;
+  Running children;
+  std::vector<Child>& running = children.list;
   std::size_t next = 0;
   while (next < commands.size() || !running.empty()) {
     const bool stopped = control.stop != nullptr && control.stop->load();

@@ -30,7 +30,8 @@ struct ChildControl {
   const std::atomic<bool>* stop = nullptr;                    ///< set it to kill what runs and skip the rest
 };
 
-/// Runs them all, in order of start. Throws Error (run_time) when no process can be made.
+/// Runs them all, in order of start. Throws Error (run_time) when no process can be made, and what a callback throws; no
+/// child is left then, nor when this process is killed.
 void run_children(const std::vector<ChildCommand>& commands, const ChildControl& control);
 
 /// "segmentation fault", "killed by signal 31".

@@ -5,10 +5,12 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <thread>
 
 #include "report/regress_plan.h"
 #include "report/regress_reference.h"
+#include "report/shell_quote.h"
 #include "report/statistics.h"
 #include "tyndall/error.h"
 #include "tyndall/io.h"
@@ -79,7 +81,7 @@ class Verdict {
       result.samples = bunch.about->spp * run_counts(*result.render, "the render").runs;
       settings_.update ? bless(bunch, result) : test(bunch, result);
     } catch (const Error& e) {
-      if (e.failure() == Failure::output) throw;
+      result.unwritten = e.failure() == Failure::output;
       result.status = CaseStatus::error;
       result.message = e.what();
     }
@@ -114,12 +116,15 @@ class Verdict {
     const RegressCase& c = *bunch.about;
     const std::string path = suite_.reference_path(c);
     if (!fs::exists(path))
-      throw Error(Failure::scene, path + ": there is no reference yet; make one with --update --filter " + c.name);
+      throw Error(Failure::scene, path + ": there is no reference yet; make one with --update --filter " + shell_quoted(c.name));
     result.reference = read_image(path);
     if (run_counts(*result.reference, path).spp != c.spp) {
       throw Error(Failure::scene,
-                  path + ": was made with another \"spp\" than " + std::to_string(c.spp) + "; renew it with --update");
+                  path + ": was made with another \"spp\" than " + std::to_string(c.spp) + "; renew it with --update --filter " + shell_quoted(c.name));
     }
+    require_same_layers(*result.render, *result.reference, c);
+    if (c.bytes && !fs::exists(suite_.bytes_path(c)))
+      throw Error(Failure::scene, suite_.bytes_path(c) + ": is missing; make it with --update --filter " + shell_quoted(c.name));
     result.tests = judge(*result.render, *result.reference, layer_level_);
     result.tests.push_back(health(bunch));
     if (c.bytes) result.tests.push_back(bytes_test(bunch));
@@ -128,10 +133,25 @@ class Verdict {
     if (result.message.empty()) result.message = result.tests.front().verdict;
   }
 
+  /// A layer that one of them lacks cannot be judged.
+  void require_same_layers(const Image& render, const Image& reference, const RegressCase& c) const {
+    const auto names = [](const Image& image) {
+      std::set<std::string> set;
+      for (const Layer& layer : layers_of(image)) set.insert(layer.name);
+      return set;
+    };
+    const std::set<std::string> rendered = names(render), stored = names(reference);
+    const std::string path = suite_.reference_path(c), advice = "; renew it with --update --filter " + shell_quoted(c.name);
+    for (const std::string& name : rendered) {
+      if (!stored.contains(name)) throw Error(Failure::scene, path + ": lacks " + name + ", which is to be tested" + advice);
+    }
+    for (const std::string& name : stored) {
+      if (!rendered.contains(name)) throw Error(Failure::scene, path + ": has " + name + ", which the render lacks" + advice);
+    }
+  }
+
   LayerTest bytes_test(const Bunch& bunch) const {
-    const std::string path = suite_.bytes_path(*bunch.about);
-    if (!fs::exists(path)) return {.what = "bytes", .verdict = path + ": is missing; make it with --update"};
-    const bool same = same_bytes(bunch.runs.back()->image, path);
+    const bool same = same_bytes(bunch.runs.back()->image, suite_.bytes_path(*bunch.about));
     return {.what = "bytes", .same = same, .verdict = same ? "" : "the file is not the stored one, byte for byte"};
   }
 
@@ -193,9 +213,16 @@ class SuiteRun {
                .jobs = settings.jobs,
                .family_level = settings.family_level,
                .cases = {}};
+    for (const std::size_t i : select_cases(suite, settings.filter)) {
+      const RegressCase& c = suite.cases[i];
+      if (!c.fault.empty()) result_.cases.push_back({.name = c.name, .status = CaseStatus::error, .message = c.fault});
+    }
   }
 
   SuiteResult finish(int jobs) {
+    for (const CaseResult& faulty : result_.cases) {
+      if (control_.case_done) control_.case_done(faulty, progress(0, std::max<std::size_t>(runs_.size(), 1), seconds()));
+    }
     std::vector<ChildCommand> commands;
     for (const Run& run : runs_) commands.push_back(run.command);
     run_children(commands, {.at_once = jobs,

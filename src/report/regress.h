@@ -35,6 +35,7 @@ struct CaseResult {
   int samples = 0;        ///< a pixel, of all its runs
   std::string message{};  ///< one line
   std::vector<LayerTest> tests{};
+  bool unwritten = false;  ///< an error, for the new reference could not be written
   std::optional<Image> render{}, reference{};  ///< with variances; reference: as it was before an update
 };
 
@@ -59,7 +60,7 @@ struct RegressControl {
 };
 
 /// A case that cannot be rendered or judged is a result, not an exception. Throws Error for a filter that matches
-/// nothing, when no process can be made, and (output) when a reference cannot be written.
+/// nothing and when no process can be made.
 SuiteResult run_suite(const RegressSuite& suite, const RegressSettings& settings, const RegressControl& control = {});
 
 }  // namespace tyndall

@@ -67,6 +67,7 @@ std::vector<Run> plan_runs(const RegressSuite& suite, const RegressSettings& set
   std::vector<Run> runs;
   for (const std::size_t index : select_cases(suite, settings.filter)) {
     const RegressCase& c = suite.cases[index];
+    if (!c.fault.empty()) continue;
     const Planner planner{suite, settings, index};
     const int count = settings.update ? c.reference_runs : c.runs;
     const std::uint64_t first = (settings.seed + c.seed) * kSeedsOfACase + (settings.update ? kReferenceSeeds : 0);

@@ -19,7 +19,7 @@ struct Run {
   ChildResult result{};
 };
 
-/// The runs of all chosen cases, those of a case in a row.
+/// The runs of all chosen cases without a fault, those of a case in a row.
 std::vector<Run> plan_runs(const RegressSuite& suite, const RegressSettings& settings);
 
 /// What is wrong with how a run ended; status pass when nothing is.

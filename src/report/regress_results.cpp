@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "report/machine.h"
+#include "report/utf8.h"
 #include "tyndall/render.h"
 
 namespace tyndall {
@@ -50,7 +51,14 @@ Json case_json(const CaseResult& c) {
 /// What XML 1.0 can hold, quoted; control characters, which it cannot, become blanks.
 std::string xml(const std::string& text) {
   std::string quoted;
-  for (const char c : text) {
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (const std::size_t length = utf8_length(text, i); length > 1) {
+      const std::string character = text.substr(i, length);
+      quoted += character == "\xef\xbf\xbe" || character == "\xef\xbf\xbf" ? "?" : character;  // U+FFFE, U+FFFF
+      i += length - 1;
+      continue;
+    }
     switch (c) {
       case '&':
         quoted += "&amp;";
@@ -107,7 +115,9 @@ Json regress_json(const SuiteResult& result) {
   j["family_level"] = result.family_level;
   const auto good = std::count_if(result.cases.begin(), result.cases.end(), [](const auto& c) { return is_good(c.status); });
   j["passed"] = good;
-  j["failed"] = static_cast<std::ptrdiff_t>(result.cases.size()) - good;
+  const auto stopped = static_cast<std::ptrdiff_t>(result.count(CaseStatus::stopped));
+  j["failed"] = static_cast<std::ptrdiff_t>(result.cases.size()) - good - stopped;
+  j["stopped"] = stopped;
   j["cases"] = Json::array();
   for (const CaseResult& c : result.cases) j["cases"].push_back(case_json(c));
   return j;
@@ -132,8 +142,9 @@ std::string regress_head(std::size_t width) {
 }
 
 std::string regress_row(const CaseResult& c, std::size_t width) {
-  std::string row = formatted("%-*s  %-7s  %7.1f  %6d", static_cast<int>(width), c.name.c_str(), name_of(c.status).c_str(),
-                              c.seconds, c.samples);
+  const std::size_t letters = utf8_count(c.name);  // printf pads by bytes
+  std::string row = c.name + std::string(width - std::min(width, letters), ' ') +
+                    formatted("  %-7s  %7.1f  %6d", name_of(c.status).c_str(), c.seconds, c.samples);
   if (c.tests.empty()) {
     row += formatted("  %8s  %8s", "", "");
   } else {

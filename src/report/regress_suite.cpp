@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <string_view>
 
 #include "tyndall/error.h"
 #include "tyndall/settings.h"
@@ -37,8 +39,8 @@ std::string text(const Json& value) {
   return value.get<std::string>();
 }
 
-std::vector<std::string> texts(const Json& value) {
-  if (!value.is_array()) throw Error(Failure::scene, "must be a list of texts, such as [\"Albedo\", \"N\"]");
+std::vector<std::string> texts(const Json& value, const std::string& example) {
+  if (!value.is_array()) throw Error(Failure::scene, "must be a list of texts, such as " + example);
   std::vector<std::string> list;
   for (const Json& entry : value) list.push_back(text(entry));
   return list;
@@ -47,7 +49,7 @@ std::vector<std::string> texts(const Json& value) {
 /// Sample counts and variances are no means of samples, and are there anyway.
 std::vector<std::string> aov_list(const Json& value) {
   const auto known = aov_names();
-  std::vector<std::string> list = texts(value);
+  std::vector<std::string> list = texts(value, "[\"Albedo\", \"N\"]");
   for (const std::string& name : list) {
     const bool testable = name != "Variance" && name != "SampleCount";
     if (!testable || std::find(known.begin(), known.end(), name) == known.end()) {
@@ -61,7 +63,7 @@ std::vector<std::string> aov_list(const Json& value) {
 }
 
 std::vector<std::string> option_list(const Json& value) {
-  std::vector<std::string> list = texts(value);
+  std::vector<std::string> list = texts(value, "[\"--max-depth\", \"8\"]");
   for (const std::string& option : list) {
     const std::string name = option.substr(0, option.find('='));
     if (std::find(kTaken.begin(), kTaken.end(), name) != kTaken.end()) {
@@ -108,13 +110,39 @@ void set(RegressCase& c, const std::string& key, const Json& value) {
                 "is no setting; known are about, spp, runs, reference_runs, aovs, seed, bytes, timeout, options");
 }
 
-RegressCase read_case(const std::string& folder, const std::string& name) {
-  RegressCase c{.name = name};
-  const std::string path = folder + "/" + name + ".json";
-  if (!fs::exists(path)) return c;
-  std::ifstream stream(path);
-  const Json settings = Json::parse(stream, nullptr, false);
+/// "file:line:column" of a byte, counted from 1.
+std::string place(const std::string& path, const std::string& text, std::size_t byte) {
+  const std::string_view before = std::string_view(text).substr(0, byte > 0 ? byte - 1 : 0);
+  const std::size_t line = 1 + static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n'));
+  const std::size_t column = before.size() - (before.rfind('\n') + 1) + 1;  // npos + 1 = 0
+  return path + ":" + std::to_string(line) + ":" + std::to_string(column);
+}
+
+/// The object in a settings file. JSON readers take the last of two equal keys, and the first was meant as well.
+Json read_object(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  std::set<std::string> keys;
+  std::string twice;
+  const auto see_key = [&](int depth, Json::parse_event_t event, const Json& key) {
+    const bool own = event == Json::parse_event_t::key && depth == 1;
+    if (own && !keys.insert(key.get<std::string>()).second) twice = key.get<std::string>();
+    return true;
+  };
+  Json settings;
+  try {
+    settings = Json::parse(text, see_key);
+  } catch (const Json::parse_error& e) {
+    bad(place(path, text, e.byte), "is no JSON from here on; write settings as {\"spp\": 64, \"aovs\": [\"N\"]}");
+  }
   if (!settings.is_object()) bad(path, "is no JSON object; write settings as {\"spp\": 64}");
+  if (!twice.empty()) bad(path, "\"" + twice + "\" is there twice; keep one");
+  return settings;
+}
+
+void read_settings(const std::string& path, RegressCase& c) {
+  if (!fs::exists(path)) return;
+  const Json settings = read_object(path);
   for (const auto& [key, value] : settings.items()) {
     try {
       set(c, key, value);
@@ -122,14 +150,25 @@ RegressCase read_case(const std::string& folder, const std::string& name) {
       bad(path, "\"" + key + "\" " + e.what());
     }
   }
+}
+
+RegressCase read_case(const std::string& folder, const std::string& name) {
+  RegressCase c{.name = name};
+  try {
+    read_settings(folder + "/" + name + ".json", c);
+  } catch (const Error& e) {
+    c.fault = e.what();
+  }
   return c;
 }
 
 /// Settings that belong to no scene are a slip of the pen in one of the two names.
-void require_scene(const fs::path& settings) {
-  fs::path scene = settings;
-  if (!fs::exists(scene.replace_extension(".pbrt")))
-    bad(settings, "has no scene beside it; name it like its .pbrt, or remove it");
+bool has_scene(const fs::path& settings) { return fs::exists(fs::path(settings).replace_extension(".pbrt")); }
+
+RegressCase case_without_scene(const fs::path& settings) {
+  RegressCase c{.name = settings.stem()};
+  c.fault = settings.string() + ": has no scene beside it; name it like its .pbrt, or remove it";
+  return c;
 }
 
 }  // namespace
@@ -146,7 +185,7 @@ RegressSuite read_suite(const std::string& folder) {
   while (suite.folder.size() > 1 && suite.folder.back() == '/') suite.folder.pop_back();
   for (const auto& entry : fs::directory_iterator(folder, problem)) {
     const fs::path path = entry.path();
-    if (path.extension() == ".json") require_scene(path);
+    if (path.extension() == ".json" && !has_scene(path)) suite.cases.push_back(case_without_scene(path));
     if (path.extension() == ".pbrt") suite.cases.push_back(read_case(suite.folder, path.stem()));
   }
   if (problem) bad(folder, problem.message() + "; give the folder of a suite");

@@ -20,6 +20,7 @@ struct RegressCase {
   bool bytes = false;                  ///< a --reproducible render must equal NAME.bytes.exr byte for byte
   double timeout = 60;                 ///< seconds that one run may take
   std::vector<std::string> options{};  ///< further options of `tyndall render`
+  std::string fault{};                 ///< what is wrong with its files; such a case cannot be rendered. "": nothing
 
   /// Layers that are tested: R G B, A, and each AOV.
   std::size_t layers() const { return 2 + aovs.size(); }
@@ -35,8 +36,8 @@ struct RegressSuite {
   std::size_t layers() const;  ///< of all cases
 };
 
-/// Reads the folder and every settings file in it. Throws Error (scene) for a folder without scenes and for settings that
-/// cannot be understood; an unknown key is an error.
+/// Reads the folder and every settings file in it. Throws Error (scene) for a folder without scenes. Settings that cannot
+/// be understood (an unknown key, say) or belong to no scene are the `fault` of a case by their name.
 RegressSuite read_suite(const std::string& folder);
 
 /// Indices of the cases whose name matches `filter`: a glob when it has * ? or [, else a part of the name; "": all.

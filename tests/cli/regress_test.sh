@@ -103,18 +103,67 @@ kill -INT $parent
 wait $parent
 [ $? = 130 ] || fail "an interrupted suite does not exit with 130"
 [ -z "$(ls -A scratch)" ] || fail "a scratch folder is left: $(ls -A scratch)"
-rm suite/crash.*
+
+# Killed, it takes its renders with it; a zombie, which nobody may have fetched, is gone too.
+TMPDIR=$PWD/scratch "$T" regress suite --filter crash --jobs 2 >out.txt 2>err.txt &
+parent=$!
+for _ in $(seq 50); do
+  sleep 0.1
+  children=$(cat /proc/$parent/task/$parent/children)
+  [ "$(echo $children | wc -w)" = 2 ] && break
+done
+[ "$(echo $children | wc -w)" = 2 ] || fail "two jobs have not two renders: $children"
+kill -KILL $parent
+wait $parent 2>/dev/null
+sleep 1
+for child in $children; do
+  state=$(sed -n 's/^State:[[:space:]]*\([A-Z]\).*/\1/p' /proc/$child/status 2>/dev/null)
+  case "$state" in '' | Z | X) ;; *) fail "render $child outlives the suite, in state $state" ;; esac
+done
+# So does a table that cannot be printed, with its own exit code.
+TMPDIR=$PWD/scratch "$T" regress suite --filter crash >/dev/full 2>err.txt
+[ $? = 4 ] || fail "a table that cannot be printed does not exit with 4"
+says 'stdout could not be written' err.txt
+rm -r suite/crash.* scratch/*
+
+# Numbers out of their range.
+for level in nan 0 0.9 inf; do expect 2 "$T" regress suite --level $level; done
+says 'must be a number from 1e-12 to 0.5' err.txt
+expect 2 "$T" regress suite --seed 2e13
+says '--seed: must be a whole number from 0 to' err.txt
 
 # What is no suite, and settings that mean nothing.
 expect 3 "$T" regress no_such_folder
 expect 3 "$T" regress scratch
 echo '{"ssp": 16}' >suite/lamp.json
-expect 3 "$T" regress suite
-says 'lamp.json: "ssp"' err.txt
+echo '{}' >suite/orphan.json
+expect 7 "$T" regress suite --junit junit.xml
+says 'lamp.json: "ssp"' out.txt
+says 'orphan.json: has no scene beside it' out.txt
+says '1 pass, 2 error' out.txt
+says 'errors="2"' junit.xml
+expect 7 "$T" regress suite --filter orphan
+expect 0 "$T" regress suite --filter fog
+rm suite/orphan.json
 echo '{"spp": 32}' >suite/lamp.json
 expect 7 "$T" regress suite --filter lamp
 says 'another "spp"' out.txt
+# What the reference lacks cannot be judged.
+mv suite/fog.bytes.exr kept.exr
+expect 7 "$T" regress suite --filter fog
+says 'fog.bytes.exr: is missing; make it with --update --filter fog' out.txt
+mv kept.exr suite/fog.bytes.exr
+sed 's/"Z"/"Z", "N"/' suite/fog.json >more.json
+cp suite/fog.json kept.json
+cp more.json suite/fog.json
+expect 7 "$T" regress suite --filter fog
+says 'fog.exr: lacks N' out.txt
+cp kept.json suite/fog.json
+
 cp suite/fog.exr kept.exr
+expect 4 "$T" regress suite --filter fog --junit no/such/folder/junit.xml
+grep -q '^fog' out.txt && fail "rendered before it was seen that --junit cannot be written"
+says 'no/such/folder' err.txt
 expect 4 "$T" regress suite --filter fog -o /dev/null/report
 cmp suite/fog.exr kept.exr || fail "a failed run changed a reference"
 finish

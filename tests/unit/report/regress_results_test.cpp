@@ -27,7 +27,8 @@ TEST_CASE("results.json counts and lists the cases") {
   CHECK(j["suite"] == "my <suite>");
   CHECK(j["seed"] == 7);
   CHECK(j["passed"] == 1);
-  CHECK(j["failed"] == 3);
+  CHECK(j["failed"] == 2);
+  CHECK(j["stopped"] == 1);
   CHECK(j["machine"]["threads"] >= 1);
   CHECK(j["machine"]["memory_gib"] > 0.1);
   CHECK(j["cases"][0]["tests"][0]["blocks"] == 192);
@@ -43,6 +44,15 @@ TEST_CASE("JUnit tells failures from errors and quotes what XML cannot hold") {
   CHECK(has(xml, "<failure type=\"fail\" message=\"mean is &quot;off&quot; &amp; more &lt; ?&gt;\">\nA: 3 &lt; 4</failure>"));
   CHECK(has(xml, "<error type=\"crash\" message=\"Segmentation fault\"></error>"));
   CHECK(has(xml, "<skipped message=\"\"></skipped>"));
+}
+
+TEST_CASE("letters beyond ASCII keep their form in JUnit and their column in the table") {
+  SuiteResult result{.suite = "s", .cases = {}};
+  result.cases.push_back({.name = "h\xc3\xb6hle", .status = CaseStatus::error, .message = "\xe2\x82\xac \xc3 \xc0\x80 \xed\xa0\x80"});
+  const std::string xml = regress_junit(result);
+  CHECK(has(xml, "name=\"h\xc3\xb6hle\""));
+  CHECK(has(xml, "message=\"\xe2\x82\xac ? ?? ???\""));
+  CHECK(regress_row(result.cases[0], 8).find("error") == regress_head(8).find("status") + 1);  // one letter of two bytes
 }
 
 TEST_CASE("rows of the table stand under its head") {
