@@ -74,6 +74,14 @@ void require_variance(const Slice& slice) {
   }
 }
 
+/// One file by one name; by two names it is found by its samples.
+void require_new_files(const std::vector<Slice>& slices) {
+  std::set<std::string> paths;
+  for (const Slice& slice : slices) {
+    if (!paths.insert(slice.path).second) fail(slice, "is given twice; name it once");
+  }
+}
+
 /// Equal seeds give equal samples: in one pixel they would count twice and their error be taken for half of what it is.
 void require_new_samples(const std::vector<Slice>& slices) {
   struct Rendered {
@@ -106,6 +114,7 @@ void require_mergeable(const std::vector<Slice>& slices) {
     require_counts(slice);
     require_variance(slice);
   }
+  require_new_files(slices);
   require_new_samples(slices);
 }
 

@@ -44,8 +44,10 @@ for other in denser deeper; do
 done
 
 # What cannot be merged: exit code, one line that says why, and no file.
-expect 3 "$T" merge s1.exr s1.exr -o no.exr
+expect 3 "$T" merge s1.exr ./s1.exr -o no.exr
 says 'the same samples would count twice' err.txt
+expect 3 "$T" merge s1.exr s1.exr -o no.exr
+says 's1.exr: is given twice; name it once' err.txt
 render s.pbrt --seed 5 --resolution 20x12 -o small.exr
 expect 3 "$T" merge s1.exr small.exr -o no.exr
 says 'frame is 20x12' err.txt

@@ -224,7 +224,8 @@ TEST_CASE("what does not go together is refused with what is wrong and where") {
   CHECK_SAYS(altered(
                  "b.exr", [](Image&) {}, 1),
              "seed 1 is in ");
-  CHECK_SAYS(files.refusal({"a.exr", "a.exr"}), "both hold pixels 0,8,0,6");
+  CHECK_SAYS(files.refusal({"a.exr", "a.exr"}), "a.exr: is given twice");
+  CHECK_SAYS(files.refusal({"a.exr", "./a.exr"}), "both hold pixels 0,8,0,6");
   files.write("c.exr", made_slice(3, 2, {4, 4, 8, 6})), files.write("d.exr", made_slice(3, 2, {0, 0, 5, 5}));
   files.write("ac.exr", files.merge({"a.exr", "c.exr"}));
   CHECK_SAYS(files.refusal({"d.exr", "ac.exr"}), "seed 3 is in");
