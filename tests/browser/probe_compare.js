@@ -35,7 +35,7 @@ function checkTable() {
   check('a click sorts', rendered().join() === [...samples].sort(falling).join(), rendered());
   header('samples').click();
   check('a second click turns it round', rendered().join() === [...samples].sort(falling).reverse().join(), rendered());
-  all('thead button', table).filter((button) => button.textContent === 'trimmed')[0].click();
+  all('thead button', table).filter((button) => button.textContent === 'efficiency, trimmed')[0].click();
   const last = all('tbody tr', table).at(-1);
   check(
       'what is missing comes last', one('[data-path$=\'efficiency_trimmed.relative\']', last).textContent === '–',

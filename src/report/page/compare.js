@@ -40,17 +40,36 @@ function numberColumn(field, label, title, format = formatNumber, first = 1) {
   return {label, title, first, key: (v) => v[field], cell: (v) => datum(variantPath(v, field), format)};
 }
 
+/** Variants with a word on their slope; the word is a footnote, for it would make the column or the row too large. */
+const withSlopeNote = () => RESULTS.variants.filter((variant) => variant.slope_note);
+
 function slopeCell(variant) {
-  const note =
-      variant.slope_note ? element('div', {class: 'bad'}, datum(variantPath(variant, 'slope_note'), formatText)) : null;
+  const number = withSlopeNote().indexOf(variant) + 1;
   return [
     datumWithInterval(variantPath(variant, 'slope'), variantPath(variant, 'slope_low'), variantPath(variant, 'slope_high')),
-    note
+    number ? element('sup', {class: 'bad'}, String(number)) : null
   ];
+}
+
+function slopeNotes() {
+  const rows = withSlopeNote().map(
+      (variant, i) => element(
+          'li', {}, element('sup', {}, String(i + 1)), ' slope of ', element('strong', {}, variant.name), ': ',
+          datum(variantPath(variant, 'slope_note'), formatText)));
+  return rows.length ? element('ul', {class: 'footnotes note'}, rows) : null;
+}
+
+/** A variant that rendered nothing has no picture, and its zeros say nothing. */
+const gaveUp = (variant) => variant.image === null;
+
+function secondsCell(variant) {
+  if (gaveUp(variant)) return element('span', {class: 'bad'}, 'gave up');
+  return datum(variantPath(variant, 'seconds'), formatSeconds);
 }
 
 /** Counters that should be zero and are not. */
 function healthCell(variant) {
+  if (gaveUp(variant)) return element('span', {class: 'bad'}, 'gave up');
   const faults = Object.keys(variant.health ?? {}).filter((counter) => variant.health[counter] !== 0);
   if (!faults.length) return element('span', {class: 'quiet'}, variant.health ? 'no faults' : DASH);
   return faults.map(
@@ -71,15 +90,20 @@ const VARIANT_COLUMNS = [
   {label: 'variant', text: true, title: 'Name and options', key: (v) => v.name, cell: nameCell},
   efficiencyColumn(
       'efficiency', 'efficiency', '1 / (MSE × time) relative to the first variant, with a 95 % interval over the seeds'),
-  efficiencyColumn('efficiency_trimmed', 'trimmed', 'The same for relMSE without the worst 0.1 % of pixels'),
+  efficiencyColumn('efficiency_trimmed', 'efficiency, trimmed', 'The same for relMSE without the worst 0.1 % of pixels'),
   numberColumn('relmse', 'relMSE', 'Mean of (x − r)² / (r² + eps)'),
-  numberColumn('relmse_trimmed', 'trimmed', 'relMSE without the worst 0.1 % of pixels'),
+  numberColumn('relmse_trimmed', 'relMSE, trimmed', 'relMSE without the worst 0.1 % of pixels'),
   numberColumn('mse', 'MSE', 'Mean squared error'),
   numberColumn('mape', 'MAPE', 'Mean of |x − r| / (|r| + eps)'),
   numberColumn('smape', 'SMAPE', 'Mean of 2 |x − r| / (|x| + |r| + eps)'),
   {label: 'slope', title: 'Of log error against log time; −1 is Monte Carlo\'s', key: (v) => v.slope, cell: slopeCell},
   numberColumn('build_seconds', 'build', 'Time to build, not part of the efficiency', formatSeconds),
-  numberColumn('seconds', 'render', 'Render time of one seed', formatSeconds),
+  {
+    label: 'render',
+    title: 'Render time of one seed',
+    key: (v) => gaveUp(v) ? null : v.seconds,
+    cell: secondsCell
+  },
   numberColumn('samples', 'samples', 'Samples a pixel in that time', formatNumber, -1),
   {
     label: 'mean R, G, B',
@@ -161,7 +185,7 @@ function comparePage() {
   document.getElementById('page').append(
       ...[header(), warningList('warnings'), section('Convergence', plot.root, checkpointTable(variants)),
           section(
-              'Results', table.root,
+              'Results', table.root, slopeNotes(),
               element(
                   'p', {class: 'note'},
                   'Efficiency is 1 / (MSE × time) relative to the first variant, with a 95 % interval over the seeds; build time is not in it. A click on a header sorts.')),

@@ -1,6 +1,6 @@
 // The page of a regression suite.
 
-const STATUSES = ['crash', 'timeout', 'error', 'fail', 'new', 'updated', 'pass'];  // the worst first
+const STATUSES = ['crash', 'timeout', 'error', 'fail', 'stopped', 'new', 'updated', 'pass'];  // the worst first
 const GOOD = new Set(['new', 'updated', 'pass']);
 
 const casePath = (item, field) => `cases.${RESULTS.cases.indexOf(item)}.${field}`;
@@ -94,15 +94,22 @@ function statusBar() {
 }
 
 function header() {
-  const failed = RESULTS.failed !== 0;
+  const failed = RESULTS.failed !== 0 || RESULTS.stopped > 0;
   return element(
       'header', {}, element('div', {class: 'brand'}, 'Tyndall regress', themeSwitch()),
       element('h1', {}, datum('suite', formatText)),
-      element('p', {class: `headline ${failed ? 'bad' : 'good'}`}, datum('passed'), ' passed, ', datum('failed'), ' failed'),
+      element('p', {class: `headline ${failed ? 'bad' : 'good'}`}, datum('passed'), ' passed, ', datum('failed'), ' failed',
+          RESULTS.stopped ? [', ', datum('stopped'), ' stopped'] : null),
       element(
           'p', {class: 'subtitle'}, `${RESULTS.cases.length} cases in `, datum('seconds', formatSeconds), ', seed ',
           datum('seed')),
       statusBar());
+}
+
+function settingsFacts() {
+  return factList('Settings', [
+    ['seed', datum('seed')], ['level: chance of a false alarm in the whole suite', datum('family_level')]
+  ]);
 }
 
 function regressPage() {
@@ -116,7 +123,7 @@ function regressPage() {
                   'p', {class: 'note'},
                   'Failures first. A click on a case opens its tests and pictures: 0 shows the reference, 1 the render, e the error.'),
               table.root),
-          section('How it was measured', element('div', {class: 'fact-lists'}, machineFacts()), commandLine('command'))]
+          section('How it was measured', element('div', {class: 'fact-lists'}, settingsFacts(), machineFacts()), commandLine('command'))]
           .filter(Boolean));
   table.sort(1, 1);
   const failures = table.entries.filter(({row}) => !GOOD.has(row.status));
