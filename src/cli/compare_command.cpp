@@ -7,6 +7,7 @@
 #include "cli/compare_options.h"
 #include "cli/log.h"
 #include "cli/output_paths.h"
+#include "cli/print.h"
 #include "cli/progress_display.h"
 #include "cli/stop_signal.h"
 #include "cli/stopwatch.h"
@@ -88,9 +89,10 @@ int give_up(const std::string& folder) {
 void print_result(const CompareOptions& o, const CompareResult& result, const nlohmann::ordered_json& results) {
   if (!o.quiet) {
     for (const std::string& w : result.warnings) log("warning: {}\n", w);
-    fmt::print(o.json ? stderr : stdout, "{}{}/index.html\n", compare_table(result), o.folder);
+    const std::string table = fmt::format("{}{}/index.html\n", compare_table(result), o.folder);
+    o.json ? log_text(table) : print_text(table);
   }
-  if (o.json) fmt::print("{}\n", results.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+  if (o.json) print("{}\n", results.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 int exit_code_of(const CompareResult& result) {

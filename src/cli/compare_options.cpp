@@ -2,21 +2,13 @@
 
 #include <fmt/core.h>
 
-#include <cmath>
-
+#include "cli/validators.h"
 #include "cli/variants.h"
 
 namespace tyndall::cli {
 namespace {
 
-/// NaN passes for a number with the parser.
-void require_seconds(const char* option, double seconds) {
-  if (!std::isfinite(seconds)) throw Error(Failure::usage, std::string(option) + " must be a finite number of seconds");
-}
-
 RaceBudget budget_of(const CompareOptions& o) {
-  if (o.time) require_seconds("--time", *o.time);
-  if (o.reference_time) require_seconds("--reference-time", *o.reference_time);
   if (o.spp) return {.seconds = std::nullopt, .samples = o.spp};
   return {.seconds = o.time.value_or(20), .samples = std::nullopt};
 }
@@ -29,16 +21,16 @@ void declare(CLI::App& command, CompareOptions& o) {
                      "what to compare: " + preset_names() + ", or \"name:--lights power\"; several separated by commas; the "
                      "first is what the others are measured by [lights]; --variants \"a:--lights power, b:--lights tree-binary\"")
       ->expected(1)->take_all();
-  auto* time = command.add_option("--time", o.time, "seconds that each variant renders for each seed [20]; --time 5")->check(CLI::PositiveNumber);
+  auto* time = command.add_option("--time", o.time, "seconds that each variant renders for each seed [20]; --time 5")->check(positive());
   command.add_option("--spp", o.spp, "samples a pixel for each variant and seed, instead of --time [none]; --spp 64")
       ->check(CLI::Range(1, 1 << 30))->excludes(time);
   command.add_option("--seeds", o.seeds, "runs of each variant; the intervals come from their spread [5]; --seeds 10")->check(CLI::Range(5, 1000));
-  command.add_option("--seed", o.seed, "of the first run; the others count up [1]; --seed 100")->check(CLI::NonNegativeNumber);
+  command.add_option("--seed", o.seed, "of the first run; the others count up [1]; --seed 100")->check(whole_number());
   auto* reference = command.add_option("--reference", o.reference, "image that errors are measured against; with channels Variance.R .. its own noise is taken off [rendered]; --reference best.exr");
   command.add_option("--reference-error", o.reference_error, "estimated relMSE at which the rendered reference is good enough [0.001]; --reference-error 1e-4")
-      ->check(CLI::PositiveNumber)->excludes(reference);
+      ->check(positive())->excludes(reference);
   command.add_option("--reference-time", o.reference_time, "seconds to render the reference for, at most [as long as all runs together; with --spp no limit]; --reference-time 600")
-      ->check(CLI::PositiveNumber)->excludes(reference);
+      ->check(positive())->excludes(reference);
   command.add_option("-o,--output", o.folder, "folder for index.html, results.json, error.csv and the images [compare-report]; -o report");
   command.add_option("--threads", o.threads, "threads [the Integrator's, else 0: one a core]; --threads 2")->check(CLI::Range(0, 4096));
   declare(command, o.methods);

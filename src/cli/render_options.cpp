@@ -5,6 +5,8 @@
 #include <limits>
 #include <sstream>
 
+#include "cli/validators.h"
+
 namespace tyndall::cli {
 namespace {
 
@@ -84,7 +86,7 @@ void declare(CLI::App& command, MethodOptions& o) {
   command.add_option("--candidates", o.candidates, "lights chosen at a vertex and looked at without visibility; 0: one for each cluster that --splitting makes [the Integrator's, else 1]; --candidates 8")
       ->check(CLI::Range(0, 4096));
   command.add_option("--splitting", o.splitting, "clusters of the light tree predicted worse than this are split while --candidates allow, 0..1; 0: none, 1: down to single lights [the Integrator's, else 0]; --splitting 0.7")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(fraction());
   command.add_option("--shadow-rays", o.shadow_rays, "of these are traced, resampled by their contribution; 0: all [the Integrator's, else 1]; --shadow-rays 0")
       ->check(CLI::Range(0, 4096));
 }
@@ -111,11 +113,11 @@ void declare(CLI::App& command, RenderOptions& o) {
   command.add_option("-o,--output", o.output, "image to write, .exr or .png [the Film's name, else SCENE.exr]; -o plume.exr");
   command.add_option("--spp", o.spp, "samples a pixel, at most [the Sampler's, else 16]; --spp 256")->check(CLI::Range(1, 1 << 30));
   command.add_option("--time", o.time, "seconds to render for, at most; without --spp the samples are as many as that gives [none]; --time 60")
-      ->check(CLI::PositiveNumber);
+      ->check(positive());
   command.add_option("--error", o.error, "stop when the estimated relMSE, mean of variance / (mean^2 + 0.01), is below this; looked at when the samples are 64, 128, 256 ... [none]; --error 0.001")
-      ->check(CLI::PositiveNumber);
+      ->check(positive());
   command.add_option("--threads", o.threads, "threads [0: one a core]; --threads 2")->check(CLI::Range(0, 4096));
-  command.add_option("--seed", o.seed, "of the random numbers [0]; --seed 7")->check(CLI::NonNegativeNumber);
+  command.add_option("--seed", o.seed, "of the random numbers [0]; --seed 7")->check(whole_number());
   declare(command, o.picture);
   declare(command, o.methods);
   command.add_option("--aov", o.aovs, "extra channels, comma-separated: " + join(aov_names(), ", ") + " [none]; --aov Albedo,N");
