@@ -12,7 +12,7 @@ namespace {
 
 constexpr const char* kExitCodes =
     "Exit codes: 0 done, 1 run-time failure, 2 usage, 3 scene or asset, 4 output, 5 differs, 7 incomplete,\n"
-    "130/143 interrupted (while rendering: the image so far is written).";
+    "130/143 interrupted (render, compare and regress keep what is complete).";
 
 /// As typed, near enough to be typed again.
 std::string command_line(int argc, char** argv) {
