@@ -36,7 +36,7 @@ Reference make_reference(const World& world, RenderSettings settings, const Comp
   if (o.reference_time) {
     goal.seconds = *o.reference_time;
   } else if (plan.budget.seconds) {
-    goal.seconds = *plan.budget.seconds * static_cast<double>(plan.variants.size() * plan.seeds.size());
+    goal.seconds = 0.5 * *plan.budget.seconds * static_cast<double>(plan.variants.size() * plan.seeds.size());
   }
   display.begin("reference");
   return render_reference(world, settings, goal, {.progress = [&](const Progress& p) { display.show(p); }, .stop = &stop_requested()});

@@ -29,7 +29,7 @@ void declare(CLI::App& command, CompareOptions& o) {
   auto* reference = command.add_option("--reference", o.reference, "image that errors are measured against; with channels Variance.R .. its own noise is taken off [rendered]; --reference best.exr");
   command.add_option("--reference-error", o.reference_error, "estimated relMSE at which the rendered reference is good enough [0.001]; --reference-error 1e-4")
       ->check(positive())->excludes(reference);
-  command.add_option("--reference-time", o.reference_time, "seconds to render the reference for, at most [as long as all runs together; with --spp no limit]; --reference-time 600")
+  command.add_option("--reference-time", o.reference_time, "seconds to render the reference for, at most [half as long as all runs together; with --spp no limit]; --reference-time 600")
       ->check(positive())->excludes(reference);
   command.add_option("-o,--output", o.folder, "folder for index.html, results.json, error.csv and the images [compare-report]; -o report");
   command.add_option("--threads", o.threads, "threads [the Integrator's, else 0: one a core]; --threads 2")->check(CLI::Range(0, 4096));
