@@ -1,7 +1,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 
@@ -9,6 +8,7 @@
 #include "cli/log.h"
 #include "cli/output_paths.h"
 #include "cli/print.h"
+#include "cli/stop_signal.h"
 #include "cli/validators.h"
 #include "report/page.h"
 #include "report/regress.h"
@@ -27,16 +27,8 @@ struct RegressOptions {
   bool json = false;
 };
 
-// Signal handlers can reach nothing but globals.
-std::atomic<bool> stop_requested{false};
-volatile std::sig_atomic_t stop_signal = 0;
-
-void on_signal(int signal) {
-  stop_signal = signal;
-  stop_requested.store(true, std::memory_order_relaxed);
-}
-
-/// A folder for the runs, gone with everything in it when the suite has ended.
+/// A folder for the runs, gone with everything in it when the suite has ended. mkdtemp() writes a name of its own over
+/// the X of its template.
 class ScratchFolder {
  public:
   ScratchFolder() : path_(fs::absolute(fs::temp_directory_path()) / "tyndall-regress-XXXXXX") {
@@ -112,7 +104,7 @@ class Display {
 
 /// 4 when a reference could not be written, else 5 when a picture differs, else 7 when a case could not be judged.
 int exit_code_of(const SuiteResult& result) {
-  if (stop_signal != 0) return 128 + stop_signal;
+  if (stop_requested()) return stop_exit_code();
   if (std::any_of(result.cases.begin(), result.cases.end(), [](const CaseResult& c) { return c.unwritten; }))
     return static_cast<int>(Failure::output);
   if (result.count(CaseStatus::fail) > 0) return static_cast<int>(Failure::differs);
@@ -135,14 +127,13 @@ int run_regress(RegressOptions options) {
   const ScratchFolder scratch;
   options.settings.work_folder = scratch.path();
   options.settings.program = own_path();
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
+  catch_stop_signals("stopping; what is complete is reported; press again to quit at once\n");
 
   const Display display(options, longest_name(suite));
   const SuiteResult result = run_suite(suite, options.settings,
                                        {.case_done = [&](const CaseResult& c, const RegressProgress& p) { display.row(c, p); },
                                         .run_done = [&](const RegressProgress& p) { display.run(p); },
-                                        .stop = &stop_requested});
+                                        .stop = &stop_requested()});
   display.end(result);
   if (options.json) print("{}\n", regress_json(result).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
   if (!options.report.empty()) write_report(result, options.report);

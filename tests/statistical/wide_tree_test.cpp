@@ -2,11 +2,10 @@
 // More points under TYNDALL_NIGHTLY.
 #include <doctest/doctest.h>
 
-#include <cstdlib>
-
 #include "light/lights.h"
 #include "light/tree_selector.h"
 #include "support/chi_squared.h"
+#include "support/measure.h"
 #include "unit/light/light_cases.h"
 
 namespace tyndall {
@@ -14,8 +13,6 @@ namespace {
 
 using NodeRef = WideLightTree::NodeRef;
 constexpr double kByNumber = 0x1p-20;
-
-bool nightly() { return std::getenv("TYNDALL_NIGHTLY") != nullptr; }
 
 /// The part of the range of u that belongs to a leaf, apart from what it has by its number.
 struct Interval {
@@ -70,15 +67,15 @@ void check_reach(std::size_t n, const std::vector<LightBounds>& lights, std::siz
 }
 
 TEST_CASE("every light that may contribute owns its probability's share of u, 30,000 lights") {
-  check_reach(30'000, test::mixed_lights(30'000, 5), nightly() ? 60 : 12);
+  check_reach(30'000, test::mixed_lights(30'000, 5), test::nightly() ? 60 : 12);
 }
 
 TEST_CASE("every light that may contribute owns its probability's share of u, a million lights") {
-  check_reach(1'000'000, test::mixed_lights(1'000'000, 6), nightly() ? 12 : 1);
+  check_reach(1'000'000, test::mixed_lights(1'000'000, 6), test::nightly() ? 12 : 1);
 }
 
 TEST_CASE("degenerate layouts: every light is within reach") {
-  for (const auto& c : test::degenerate_cases(nightly() ? 3000 : 300)) {
+  for (const auto& c : test::degenerate_cases(test::nightly() ? 3000 : 300)) {
     CAPTURE(c.name);
     check_reach(c.lights.size(), c.lights, 6);
   }
@@ -98,7 +95,7 @@ TEST_CASE("a million lights in 96 bytes each, chosen as stated; coincident ones 
   CHECK(double(selector->memory_bytes()) / kLights <= 96);
 
   // Frequencies of 64 groups of lights against the sums of their probabilities.
-  for (const PointQuery& q : test::queries_for(bounds, nightly() ? 12 : 2, 8)) {
+  for (const PointQuery& q : test::queries_for(bounds, test::nightly() ? 12 : 2, 8)) {
     constexpr std::size_t kGroups = 64;
     constexpr int kDraws = 200'000;
     std::vector<double> expected(kGroups + 1), counts(kGroups + 1);
