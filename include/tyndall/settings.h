@@ -13,8 +13,9 @@ namespace tyndall {
 
 /// How one light is chosen for next-event estimation. ALGORITHMS: see README.
 enum class LightStrategy { uniform, power, exhaustive, tree, tree_binary };
-/// What stands for a stretch of medium when its light is chosen: a tracked collision.
-enum class MediaStrategy { vertex };
+/// What stands for a stretch of medium when its light is chosen: a tracked collision, the point of the ray closest to the
+/// lights, the integral of 1/r^2 along it, or that times transmittance, scattering and phase function.
+enum class MediaStrategy { vertex, closest, integral, product };
 /// How the distance of a scattering event along a ray is sampled.
 enum class DistanceStrategy { tracking };
 /// Estimator of transmittance along shadow rays.

@@ -18,7 +18,12 @@ constexpr Table<LightStrategy, 5> kLights{{
     {"tree", LightStrategy::tree},
     {"tree-binary", LightStrategy::tree_binary},
 }};
-constexpr Table<MediaStrategy, 1> kMedia{{{"vertex", MediaStrategy::vertex}}};
+constexpr Table<MediaStrategy, 4> kMedia{{
+    {"vertex", MediaStrategy::vertex},
+    {"closest", MediaStrategy::closest},
+    {"integral", MediaStrategy::integral},
+    {"product", MediaStrategy::product},
+}};
 constexpr Table<DistanceStrategy, 1> kDistances{{{"tracking", DistanceStrategy::tracking}}};
 constexpr Table<TransmittanceStrategy, 3> kTransmittances{{
     {"residual", TransmittanceStrategy::residual},
