@@ -24,6 +24,7 @@ class BrickGridBuilder {
         channels_(static_cast<std::size_t>(source.channels())),
         voxels_(kVoxels * channels_) {
     grid_.bricks_ = BrickStore(source.channels(), options.float_bricks);
+    grid_.block_means_ = BlockMeans(source.channels());
   }
 
   BrickGrid build() {
@@ -69,6 +70,7 @@ class BrickGridBuilder {
     grid_.nodes_.shrink_to_fit();
     grid_.ranges_.shrink_to_fit();
     grid_.bricks_.shrink_to_fit();
+    grid_.block_means_.shrink_to_fit();
     for (int i = 0; i < 3; ++i) {
       const auto axis = static_cast<std::size_t>(i);
       grid_.support_.lo[i] = static_cast<double>(non_zero_.lo[axis] - 1 - grid_.origin_[axis]);
@@ -183,6 +185,7 @@ class BrickGridBuilder {
     if (!non_zero_.contains(box)) note_non_zero(box.lo);
     Built built;
     built.node.first = grid_.bricks_.add(voxels_.data(), built.ranges);
+    grid_.block_means_.add(voxels_.data(), built.ranges);
     return built;
   }
 

@@ -16,6 +16,21 @@ void BrickGrid::lookup(const Vec3d& p, float* out) const {
   bricks_.lookup_all(nodes_[found].first, offset(0), offset(1), offset(2), out);
 }
 
+void BrickGrid::block_mean(const Vec3d& p, float* out) const {
+  std::fill_n(out, channels(), 0.0f);
+  if (empty()) return;
+  const std::int64_t last = extent(root_level_) - 1;
+  const auto cell_of = [&](int axis) { return std::min(static_cast<std::int64_t>(p[axis]), last); };
+  const Index3 cell{cell_of(0), cell_of(1), cell_of(2)};
+  const std::uint32_t found = leaf(root(), root_level_, cell);
+  if (found == kNone) return;
+  const auto inside = [&](std::size_t axis) { return static_cast<unsigned>(cell[axis]) & 7u; };
+  const std::size_t block = BlockMeans::block_of(inside(0), inside(1), inside(2));
+  const std::span<const ValueRange> in_brick = ranges(found);
+  const std::uint32_t slot = bricks_.slot(nodes_[found].first);
+  for (int c = 0; c < channels(); ++c) out[c] = block_means_.mean(slot, c, block, in_brick[static_cast<std::size_t>(c)]);
+}
+
 ValueRange BrickGrid::range(int channel) const {
   if (empty()) return {};
   const ValueRange r = ranges_[static_cast<std::size_t>(channel)];
@@ -23,7 +38,8 @@ ValueRange BrickGrid::range(int channel) const {
 }
 
 std::size_t BrickGrid::memory_bytes() const {
-  return nodes_.capacity() * sizeof(Node) + ranges_.capacity() * sizeof(ValueRange) + bricks_.memory_bytes();
+  return nodes_.capacity() * sizeof(Node) + ranges_.capacity() * sizeof(ValueRange) + bricks_.memory_bytes() +
+         block_means_.memory_bytes();
 }
 
 }  // namespace tyndall

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "volume/affine.h"
+#include "volume/block_means.h"
 #include "volume/brick_store.h"
 #include "volume/voxel_source.h"
 
@@ -73,6 +74,9 @@ class BrickGrid {
     return out[0];
   }
 
+  /// Means of all channels over the block of cells that holds local point `p` in support(), rounded as BlockMeans says.
+  void block_mean(const Vec3d& p, float* out) const;
+
  private:
   friend class BrickGridBuilder;
 
@@ -82,6 +86,7 @@ class BrickGrid {
   std::vector<Node> nodes_;
   std::vector<ValueRange> ranges_;  // channels() a node
   BrickStore bricks_;
+  BlockMeans block_means_;
 };
 
 }  // namespace tyndall

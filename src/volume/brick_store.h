@@ -31,7 +31,9 @@ class BrickStore {
   std::uint32_t add(float* voxels, ChannelRanges& ranges);
   /// Append a brick of one value a channel; it costs no voxels.
   std::uint32_t add_constant(const float* values, ChannelRanges& ranges);
-  bool is_constant(std::uint32_t brick) const { return slots_[brick] == 0; }
+  bool is_constant(std::uint32_t brick) const { return slot(brick) == 0; }
+  /// Where the brick's voxels are kept: 1, 2 ... in the order of add(), or 0, which stands for every brick of one value.
+  std::uint32_t slot(std::uint32_t brick) const { return slots_[brick]; }
   float constant(std::uint32_t brick, int channel) const { return decode(brick, channel).low; }
   void shrink_to_fit();
 

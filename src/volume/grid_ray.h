@@ -32,6 +32,9 @@ class GridRay {
 
   Vec3d at(double t) const { return {{o_[0] + t * d_[0], o_[1] + t * d_[1], o_[2] + t * d_[2]}}; }
 
+  /// Cells a unit of t.
+  double speed() const { return std::sqrt(d_[0] * d_[0] + d_[1] * d_[1] + d_[2] * d_[2]); }
+
   /// The part of [t0, t1] inside `box`; (infinity, -infinity) if there is none.
   std::pair<double, double> clip(const Box3d& box, double t0, double t1) const {
     double begin = t0, end = box.empty() ? -kInf : t1;

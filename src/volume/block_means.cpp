@@ -1,0 +1,40 @@
+#include "volume/block_means.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tyndall {
+namespace {
+
+/// Mean of the trilinear interpolant over a block: its outermost voxel layers count half.
+double mean_of(const float* corner) {
+  constexpr int kCells = BlockMeans::kCells, kY = BrickStore::kVoxelSide, kZ = kY * kY;
+  const auto weight = [](int i) { return i == 0 || i == kCells ? 0.5 : 1.0; };
+  double sum = 0;
+  for (int z = 0; z <= kCells; ++z)
+    for (int y = 0; y <= kCells; ++y)
+      for (int x = 0; x <= kCells; ++x) sum += weight(x) * weight(y) * weight(z) * corner[z * kZ + y * kY + x];
+  return sum / (kCells * kCells * kCells);
+}
+
+std::uint8_t step_of(double mean, const ValueRange& range) {
+  const double width = double{range.max} - range.min;
+  if (!(width > 0)) return 0;
+  const double step = std::round((mean - range.min) / width * 255);
+  return static_cast<std::uint8_t>(std::clamp(step, mean == 0 ? 0.0 : 1.0, 255.0));
+}
+
+}  // namespace
+
+void BlockMeans::add(const float* voxels, const ChannelRanges& ranges) {
+  constexpr int kY = BrickStore::kVoxelSide, kZ = kY * kY;
+  for (std::size_t c = 0; c < channels_; ++c) {
+    const float* channel = voxels + c * BrickStore::kVoxels;
+    for (int z = 0; z < BrickStore::kSide; z += kCells)
+      for (int y = 0; y < BrickStore::kSide; y += kCells)
+        for (int x = 0; x < BrickStore::kSide; x += kCells)
+          steps_.push_back(step_of(mean_of(channel + z * kZ + y * kY + x), ranges[c]));
+  }
+}
+
+}  // namespace tyndall

@@ -1,0 +1,102 @@
+#include "volume/coarse.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "volume/grid_ray.h"
+#include "volume/medium_data.h"
+
+namespace tyndall {
+namespace {
+
+CoarseOptics means_of(const MediumOptics& optics, float density) {
+  const float s = mean(optics.sigma_s);
+  return {(mean(optics.sigma_a) + s) * density, s * density};
+}
+
+/// A cloud's density costs as much as hundreds of reads of a grid: its mean over the whole stands in for it.
+float cloud_level(const MediumData& medium) { return std::max(medium.cloud_mean, 1e-4f); }
+
+/// Of a medium that is not homogeneous, at a local point inside its clip box.
+CoarseOptics optics_around(const MediumData& medium, const Vec3d& p) {
+  if (medium.kind == MediumData::Kind::cloud) return means_of(medium.optics, cloud_level(medium));
+  float values[kMaxChannels];
+  medium.density.grid.block_mean(p, values);
+  if (medium.density.grid.channels() == 1) return means_of(medium.optics, values[0]);
+  Rgb sigma_a, sigma_s;
+  medium.scale_by(values, sigma_a, sigma_s);
+  const float s = mean(sigma_s);
+  return {mean(sigma_a) + s, s};
+}
+
+double depth_of(const MediumData& medium, const Ray& ray, double t0, double t1, int taps) {
+  if (medium.kind == MediumData::Kind::homogeneous) {
+    const float sigma_t = means_of(medium.optics, 1).sigma_t;
+    return sigma_t > 0 ? sigma_t * (t1 - t0) : 0;
+  }
+  const GridRay local(medium.density.to_local, ray);
+  const auto [begin, end] = local.clip(medium.clip, t0, t1);
+  if (!(begin < end) || taps < 1) return 0;
+  if (medium.kind == MediumData::Kind::cloud)
+    return double{means_of(medium.optics, cloud_level(medium)).sigma_t} * (end - begin);
+
+  // Denser points would read the same blocks again. Points farther apart than blocks are wide read blocks all the same:
+  // the mean of a larger node that the ray only grazes is worse than a gap.
+  const double cells = (end - begin) * local.speed();
+  const int count = static_cast<int>(std::clamp(std::ceil(cells / BlockMeans::kCells), 1.0, double(taps)));
+  const double step = (end - begin) / count;
+  double sum = 0;
+  for (int i = 0; i < count; ++i) {
+    Vec3d p = local.at(begin + (i + 0.5) * step);
+    for (int axis = 0; axis < 3; ++axis) p[axis] = std::clamp(p[axis], medium.clip.lo[axis], medium.clip.hi[axis]);
+    sum += double{optics_around(medium, p).sigma_t};
+  }
+  return sum * step;
+}
+
+}  // namespace
+
+CoarseOptics coarse_optics(MediaView media, Vec3 p) {
+  CoarseOptics sum;
+  for (const ParticipatingMedium* medium : media) {
+    const MediumData& m = medium->data();
+    CoarseOptics one;
+    if (m.kind == MediumData::Kind::homogeneous) {
+      one = means_of(m.optics, 1);
+    } else {
+      const Vec3d local = m.density.to_local.point(p);
+      if (!m.clip.contains(local)) continue;
+      one = optics_around(m, local);
+    }
+    sum.sigma_t += one.sigma_t;
+    sum.sigma_s += one.sigma_s;
+  }
+  return sum;
+}
+
+float coarse_optical_depth(MediaView media, const Ray& ray, float t0, float t1, int taps) {
+  double sum = 0;
+  if (t0 < t1)
+    for (const ParticipatingMedium* medium : media) sum += depth_of(medium->data(), ray, t0, t1, taps);
+  return static_cast<float>(sum);
+}
+
+std::optional<std::pair<float, float>> coarse_extent(MediaView media, const Ray& ray, float t0, float t1) {
+  if (!(t0 < t1)) return std::nullopt;
+  double lo = kInfinity, hi = -kInfinity;
+  for (const ParticipatingMedium* medium : media) {
+    const MediumData& m = medium->data();
+    const auto [begin, end] = m.kind == MediumData::Kind::homogeneous
+                                  ? std::pair{double{t0}, double{t1}}
+                                  : GridRay(m.density.to_local, ray).clip(m.clip, t0, t1);
+    lo = std::min(lo, begin);
+    hi = std::max(hi, end);
+  }
+  if (!(lo < hi)) return std::nullopt;
+  const auto first = static_cast<float>(lo), last = static_cast<float>(hi);
+  return std::pair{std::max(t0, first > lo ? std::nextafter(first, -kInfinity) : first),
+                   std::min(t1, last < hi ? std::nextafter(last, kInfinity) : last)};
+}
+
+}  // namespace tyndall

@@ -1,0 +1,30 @@
+/// Media seen coarsely: what they amount to around a point and along a ray, for choosing and never for estimating.
+///
+/// Everything here is deterministic and costs tens of nanoseconds a point. Grids answer with means over blocks of 2^3 cells
+/// that are kept beside the bricks in a byte each, a procedural cloud with its mean.
+#pragma once
+
+#include <optional>
+#include <utility>
+
+#include "volume/tracking.h"
+
+namespace tyndall {
+
+/// Means over the colour channels, 1/world unit.
+struct CoarseOptics {
+  float sigma_t = 0, sigma_s = 0;
+};
+
+/// Mean of the media in a block around `p`; exact where homogeneous. Above 0 wherever a grid's density is, but for the
+/// rounding of `p` at the faces of blocks.
+CoarseOptics coarse_optics(MediaView media, Vec3 p);
+
+/// Integral of sigma_t over [t0, t1], t1 may be infinite. Exact for homogeneous media; of any other, means are read at no
+/// more than `taps` points, evenly in the part of the ray inside it.
+float coarse_optical_depth(MediaView media, const Ray& ray, float t0, float t1, int taps);
+
+/// The part of [t0, t1] where the media can be anything but empty, rounded outward: the hull over the media.
+std::optional<std::pair<float, float>> coarse_extent(MediaView media, const Ray& ray, float t0, float t1);
+
+}  // namespace tyndall
