@@ -1,4 +1,4 @@
-/// Choices that do not look at the point: uniform, by power, and all lights at once.
+/// Choices that do not look at the point or segment: uniform, by power, and all lights at once.
 #pragma once
 
 #include "light/selection.h"
@@ -10,17 +10,20 @@ class AliasSelector : public LightSelector {
  public:
   explicit AliasSelector(const std::vector<double>& weights) : table_(weights) {}
 
-  std::optional<SelectedLight> select(const PointQuery&, double u) const override {
+  std::optional<SelectedLight> select(const PointQuery&, double u) const override { return draw(u); }
+  std::optional<SelectedLight> select(const SegmentQuery&, double u) const override { return draw(u); }
+  float pmf(const PointQuery&, LightId light) const override { return chance(light); }
+  float pmf(const SegmentQuery&, LightId light) const override { return chance(light); }
+  std::size_t memory_bytes() const override { return table_.memory_bytes(); }
+
+ private:
+  std::optional<SelectedLight> draw(double u) const {
     if (!(table_.total() > 0)) return std::nullopt;
     const auto choice = table_.sample(u);
     return SelectedLight{choice.index, static_cast<float>(choice.pmf)};
   }
-  float pmf(const PointQuery&, LightId light) const override {
-    return table_.total() > 0 ? static_cast<float>(table_.pmf(light)) : 0.0f;
-  }
-  std::size_t memory_bytes() const override { return table_.memory_bytes(); }
+  float chance(LightId light) const { return table_.total() > 0 ? static_cast<float>(table_.pmf(light)) : 0.0f; }
 
- private:
   AliasTable table_;
 };
 
@@ -28,6 +31,7 @@ class ExhaustiveSelector final : public AliasSelector {
  public:
   using AliasSelector::AliasSelector;
   float pmf(const PointQuery&, LightId) const override { return 1; }
+  float pmf(const SegmentQuery&, LightId) const override { return 1; }
   bool exhaustive() const override { return true; }
 };
 

@@ -36,20 +36,33 @@ double FarLights::cone_importance(const Cone& cone, const PointQuery& query) {
   return fluence * std::max({fold(dot(n, Vec3d(cone.mean))), kShareOfBound * bound, kSlack});
 }
 
-double FarLights::light_importance(std::uint32_t index, const PointQuery& query) const {
-  double sum = 0;
-  for (std::uint32_t i = lights_[index].begin; i < lights_[index].end; ++i) sum += cone_importance(cones_[i], query);
-  return sum;
+/// Lobes add up their mean cosines' logarithms: the cone's spread blurs the phase function.
+double FarLights::cone_importance(const Cone& cone, const Segment& segment) {
+  const double fluence = segment.mis_partner ? cone.fluence_partner : cone.fluence;
+  const double bundled = length(Vec3d(cone.mean));
+  const double cosine = bundled > 0 ? dot(segment.d, Vec3d(cone.mean)) / bundled : 0;
+  const bool weighted = segment.importance == MediaStrategy::product;
+  const double phase = weighted ? phase_ratio(segment.g * std::min(bundled, 1.0), cosine) : 1;
+  return fluence * std::max(phase * segment.lit_length, kLeastScattering * segment.length);
 }
 
-double FarLights::importance(const PointQuery& query) const {
-  double sum = 0;
-  for (std::uint32_t i = 0; i < lights_.size(); ++i) sum += light_importance(i, query);
-  return sum;
+template <typename Query>
+double FarLights::light_importance(std::uint32_t index, const Query& query) const {
+  double all = 0;
+  for (std::uint32_t i = lights_[index].begin; i < lights_[index].end; ++i) all += cone_importance(cones_[i], query);
+  return all;
 }
 
-std::optional<FarLights::Choice> FarLights::select(const PointQuery& query, double u) const {
-  const double total = importance(query);
+template <typename Query>
+double FarLights::sum(const Query& query) const {
+  double all = 0;
+  for (std::uint32_t i = 0; i < lights_.size(); ++i) all += light_importance(i, query);
+  return all;
+}
+
+template <typename Query>
+std::optional<FarLights::Choice> FarLights::choose(const Query& query, double u) const {
+  const double total = sum(query);
   if (!(total > 0)) return std::nullopt;
   std::optional<Choice> choice;
   double remaining = u * total;
@@ -62,9 +75,18 @@ std::optional<FarLights::Choice> FarLights::select(const PointQuery& query, doub
   return choice;  // rounding leaves the end of the range to the last light that has importance
 }
 
-double FarLights::pmf(const PointQuery& query, std::uint32_t index) const {
-  const double total = importance(query);
+template <typename Query>
+double FarLights::share(const Query& query, std::uint32_t index) const {
+  const double total = sum(query);
   return total > 0 ? light_importance(index, query) / total : 0;
 }
+
+std::optional<FarLights::Choice> FarLights::select(const PointQuery& query, double u) const { return choose(query, u); }
+double FarLights::pmf(const PointQuery& query, std::uint32_t index) const { return share(query, index); }
+double FarLights::importance(const PointQuery& query) const { return sum(query); }
+
+std::optional<FarLights::Choice> FarLights::select(const Segment& query, double u) const { return choose(query, u); }
+double FarLights::pmf(const Segment& query, std::uint32_t index) const { return share(query, index); }
+double FarLights::importance(const Segment& query) const { return sum(query); }
 
 }  // namespace tyndall

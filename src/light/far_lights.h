@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "light/cone.h"
-#include "light/query.h"
+#include "light/segment_importance.h"
 
 namespace tyndall {
 
@@ -24,7 +24,8 @@ struct FarLight {
   LightId light;
 };
 
-/// Importance is an irradiance: the unit of intensity / distance^2, so that it compares with the light tree's.
+/// Importance is an irradiance: the unit of intensity / distance^2, so that it compares with the light tree's; for a
+/// segment, irradiance times what of its length scatters the light toward the origin.
 /// Chosen by a linear pass, since scenes have few such lights.
 class FarLights {
  public:
@@ -36,8 +37,11 @@ class FarLights {
     double pmf;
   };
   std::optional<Choice> select(const PointQuery& query, double u) const;
+  std::optional<Choice> select(const Segment& query, double u) const;
   double pmf(const PointQuery& query, std::uint32_t index) const;  ///< index: order of construction
-  double importance(const PointQuery& query) const;                ///< of all
+  double pmf(const Segment& query, std::uint32_t index) const;
+  double importance(const PointQuery& query) const;  ///< of all
+  double importance(const Segment& query) const;
 
   bool empty() const { return lights_.empty(); }
   std::size_t size() const { return lights_.size(); }
@@ -54,7 +58,15 @@ class FarLights {
     std::uint32_t begin, end;  ///< its cones
   };
   static double cone_importance(const Cone& cone, const PointQuery& query);
-  double light_importance(std::uint32_t index, const PointQuery& query) const;
+  static double cone_importance(const Cone& cone, const Segment& query);
+  template <typename Query>
+  double light_importance(std::uint32_t index, const Query& query) const;
+  template <typename Query>
+  std::optional<Choice> choose(const Query& query, double u) const;
+  template <typename Query>
+  double share(const Query& query, std::uint32_t index) const;
+  template <typename Query>
+  double sum(const Query& query) const;
 
   std::vector<Cone> cones_;
   std::vector<Entry> lights_;

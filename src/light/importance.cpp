@@ -1,12 +1,9 @@
 #include "light/importance.h"
 
+#include "light/emission_angle.h"
+
 namespace tyndall {
 namespace {
-
-/// Margin, in cosines, for the rounding of float axes and normals here and in the lights' own evaluation.
-constexpr double kSlack = 1e-6;
-/// Factors never fall below this unless the test says "none": at the rim a cosine may round to 0 or below.
-constexpr double kLeastFactor = 1e-3;
 
 /// The next float toward the wider angle; a cosine of exactly 1 belongs to an angle of exactly 0.
 float widened_cosine(float angle) {
@@ -14,24 +11,10 @@ float widened_cosine(float angle) {
   return std::max(std::nextafter(static_cast<float>(std::cos(static_cast<double>(angle))), -2.0f), -1.0f);
 }
 
-struct Angle {
-  double cos, sin;
-  static Angle from_cosine(double c) {
-    c = std::clamp(c, -1.0, 1.0);
-    return {c, std::sqrt((1 - c) * (1 + c))};
-  }
-};
-
-/// max(a - b, 0) by the subtraction identities.
-Angle reduced(Angle a, Angle b) {
-  if (a.cos >= b.cos) return {1, 0};
-  return {a.cos * b.cos + a.sin * b.sin, a.sin * b.cos - a.cos * b.sin};
-}
-
 /// No point of the box is above the tangent plane.
 bool wholly_below(const Bounds3& box, Vec3d n, Vec3d to_center, Vec3d half) {
   const double reach = std::abs(n.x) * half.x + std::abs(n.y) * half.y + std::abs(n.z) * half.z;
-  const double margin = kSlack * (length(to_center) + length(half));
+  const double margin = kCosineSlack * (length(to_center) + length(half));
   return !box.empty() && dot(n, to_center) + reach <= -margin;
 }
 
@@ -53,16 +36,13 @@ double importance(const ClusterBounds& cluster, bool two_sided, const PointQuery
   // The sphere around the box is seen under theta_u; from inside it nothing is known of directions.
   double factor = 1;
   if (distance > radius) {
-    const double sine = radius / distance;
-    const Angle theta_u{std::sqrt((1 - sine) * (1 + sine)), sine};
+    const Angle theta_u = Angle::from_sine(radius / distance);
 
     // How far beyond the normals' cone the point lies.
     if (cluster.cos_o > -1) {
       const double c = -dot(Vec3d(cluster.axis), to_center) / distance;
-      const Angle theta = Angle::from_cosine(two_sided ? std::abs(c) : c);
-      const Angle beyond = reduced(reduced(theta, Angle::from_cosine(cluster.cos_o)), theta_u);
-      if (beyond.cos <= cluster.cos_e - kSlack) return 0;
-      factor = std::max(beyond.cos, kLeastFactor);
+      factor = emission_factor(cluster, Angle::from_cosine(two_sided ? std::abs(c) : c), theta_u);
+      if (factor == 0) return 0;
     }
 
     // The largest cosine at which its light can arrive.

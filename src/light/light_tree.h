@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "light/importance.h"
+#include "light/segment_importance.h"
 
 namespace tyndall {
 
@@ -45,10 +46,13 @@ class LightTree {
   /// Descends by one number u in [0, 1), rescaled after every decision. Nothing: u fell on a branch whose lights all
   /// have importance 0.
   std::optional<Choice> select(const PointQuery& query, double u) const;
+  std::optional<Choice> select(const Segment& query, double u) const;
   /// Probability of select() giving the light whose leaf is `leaf`: the same decisions from the leaf upward.
   double pmf(const PointQuery& query, std::uint32_t leaf) const;
-  /// Importance of all lights together, in W/sr / length^2.
+  double pmf(const Segment& query, std::uint32_t leaf) const;
+  /// Importance of all lights together, in W/sr / length^2; for segments in W/sr / length.
   double importance(const PointQuery& query) const;
+  double importance(const Segment& query) const;
 
   bool empty() const { return nodes_.empty(); }
   std::span<const Node> nodes() const { return nodes_; }
@@ -63,11 +67,19 @@ class LightTree {
 
   /// Probability of descending into the first child of an inner node; nothing when neither child has importance.
   std::optional<double> child_probability(std::uint32_t node, const PointQuery& query) const;
+  std::optional<double> child_probability(std::uint32_t node, const Segment& query) const;
 
  private:
-  double node_importance(std::uint32_t node, const PointQuery& query) const {
+  template <typename Query>
+  double node_importance(std::uint32_t node, const Query& query) const {
     return tyndall::importance(nodes_[node].bounds, nodes_[node].two_sided, query);
   }
+  template <typename Query>
+  std::optional<double> first_probability(std::uint32_t node, const Query& query) const;
+  template <typename Query>
+  std::optional<Choice> descend(const Query& query, double u) const;
+  template <typename Query>
+  double ascend(const Query& query, std::uint32_t leaf) const;
 
   std::vector<Node> nodes_;
   double intensity_ = 0;  ///< of all lights, W/sr

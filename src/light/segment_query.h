@@ -13,23 +13,23 @@ namespace tyndall {
 /// weights the choice; no estimate is made from it.
 struct SegmentProfile {
   static constexpr int kBins = 8;
-  std::array<float, kBins + 1> edge{};   ///< distances along the ray, increasing; the last may be infinite
+  std::array<float, kBins + 1> edge{};    ///< distances along the ray, increasing; the last may be infinite
   std::array<float, kBins> scattering{};  ///< mean of sigma_s x transmittance from the origin over the bin, >= 0
   std::array<float, kBins> sigma{};       ///< mean extinction on the way from the bin toward lights, 1/length
   std::array<float, kBins> escape{};      ///< optical depth at most on that way (the medium ends); may be infinite
-  float g = 0;                           ///< mean cosine of the phase function, Henyey-Greenstein
+  float g = 0;                            ///< mean cosine of the phase function, Henyey-Greenstein
 };
 
 /// The part of a ray between `t0` and `t1`.
 struct SegmentQuery {
-  Vec3 o, d;         ///< d is unit
-  float t0, t1;      ///< 0 <= t0 < t1; t1 may be infinite
+  Vec3 o, d;                                          ///< d is unit
+  float t0, t1;                                       ///< 0 <= t0 < t1; t1 may be infinite
   MediaStrategy importance = MediaStrategy::product;  ///< closest, integral or product
   /// Distance within which most of the light that is scattered along the ray is: stands for t1 - t0 where that is
   /// longer, and for the length in the importance of lights at infinity. Length, > 0, finite.
   float reach = 1;
-  bool mis_partner = true;  ///< as in PointQuery
-  SegmentProfile profile;   ///< read by `product` only
+  bool mis_partner = true;   ///< as in PointQuery
+  SegmentProfile profile{};  ///< read by `product` only
 };
 
 }  // namespace tyndall

@@ -15,21 +15,30 @@ std::vector<double> equal_weights(std::vector<double> power) {
   return power;
 }
 
-}  // namespace
-
-bool uses_bounds(LightStrategy strategy) { return strategy == LightStrategy::tree || strategy == LightStrategy::tree_binary; }
-
-LightCut LightSelector::cut(const PointQuery&, const CutSettings& settings) const {
+LightCut all_as_one(const CutSettings& settings) {
   LightCut whole;
   whole.push_back({0, static_cast<std::uint32_t>(std::max(settings.candidates, 1))});
   return whole;
 }
 
+}  // namespace
+
+bool uses_bounds(LightStrategy strategy) { return strategy == LightStrategy::tree || strategy == LightStrategy::tree_binary; }
+
+LightCut LightSelector::cut(const PointQuery&, const CutSettings& settings) const { return all_as_one(settings); }
+LightCut LightSelector::cut(const SegmentQuery&, const CutSettings& settings) const { return all_as_one(settings); }
+
 std::optional<SelectedLight> LightSelector::select_in(const LightCluster&, const PointQuery& query, double u) const {
+  return select(query, u);
+}
+std::optional<SelectedLight> LightSelector::select_in(const LightCluster&, const SegmentQuery& query, double u) const {
   return select(query, u);
 }
 
 float LightSelector::expected(const LightCut& cut, const PointQuery& query, LightId light) const {
+  return exhaustive() ? 1.0f : static_cast<float>(cut[0].candidates) * pmf(query, light);
+}
+float LightSelector::expected(const LightCut& cut, const SegmentQuery& query, LightId light) const {
   return exhaustive() ? 1.0f : static_cast<float>(cut[0].candidates) * pmf(query, light);
 }
 

@@ -10,6 +10,7 @@
 #include "light/light_cut.h"
 #include "light/light_tree.h"
 #include "light/query.h"
+#include "light/segment_query.h"
 #include "tyndall/settings.h"
 
 namespace tyndall {
@@ -30,6 +31,13 @@ class LightSelector {
   virtual std::optional<SelectedLight> select_in(const LightCluster& cluster, const PointQuery& query, double u) const;
   /// How often the candidates of the cut are `light`, on average; exhaustive: 1.
   virtual float expected(const LightCut& cut, const PointQuery& query, LightId light) const;
+
+  // The same for a segment of a ray through media: a light is chosen for all that the segment scatters.
+  virtual std::optional<SelectedLight> select(const SegmentQuery& query, double u) const = 0;
+  virtual float pmf(const SegmentQuery& query, LightId light) const = 0;
+  virtual LightCut cut(const SegmentQuery& query, const CutSettings& settings) const;
+  virtual std::optional<SelectedLight> select_in(const LightCluster& cluster, const SegmentQuery& query, double u) const;
+  virtual float expected(const LightCut& cut, const SegmentQuery& query, LightId light) const;
 
   /// Callers loop over all lights, each with pmf 1, in place of select().
   virtual bool exhaustive() const { return false; }

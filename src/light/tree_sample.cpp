@@ -10,7 +10,8 @@ constexpr double kLeastChance = 1e-9;
 
 }  // namespace
 
-std::optional<double> LightTree::child_probability(std::uint32_t node, const PointQuery& query) const {
+template <typename Query>
+std::optional<double> LightTree::first_probability(std::uint32_t node, const Query& query) const {
   const double first = node_importance(node + 1, query);
   const double second = node_importance(nodes_[node].second_or_light, query);
   if (!(first + second > 0)) return std::nullopt;
@@ -18,12 +19,13 @@ std::optional<double> LightTree::child_probability(std::uint32_t node, const Poi
   return std::clamp(first / (first + second), kLeastChance, 1 - kLeastChance);
 }
 
-std::optional<LightTree::Choice> LightTree::select(const PointQuery& query, double u) const {
+template <typename Query>
+std::optional<LightTree::Choice> LightTree::descend(const Query& query, double u) const {
   if (nodes_.empty() || !(node_importance(0, query) > 0)) return std::nullopt;
   std::uint32_t node = 0;
   double pmf = 1;
   while (!nodes_[node].leaf) {
-    const auto p = child_probability(node, query);
+    const auto p = first_probability(node, query);
     if (!p) return std::nullopt;
     if (u < *p) {
       u = std::min(u / *p, kBelowOne);
@@ -38,20 +40,33 @@ std::optional<LightTree::Choice> LightTree::select(const PointQuery& query, doub
   return Choice{nodes_[node].second_or_light, pmf};
 }
 
-double LightTree::pmf(const PointQuery& query, std::uint32_t leaf) const {
+template <typename Query>
+double LightTree::ascend(const Query& query, std::uint32_t leaf) const {
   if (!(node_importance(0, query) > 0)) return 0;
   double pmf = 1;
   for (std::uint32_t node = leaf; nodes_[node].parent != kNoParent && pmf > 0; node = nodes_[node].parent) {
     const std::uint32_t parent = nodes_[node].parent;
-    const auto p = child_probability(parent, query);
+    const auto p = first_probability(parent, query);
     if (!p) return 0;
     pmf *= node == parent + 1 ? *p : 1 - *p;
   }
   return pmf;
 }
 
+std::optional<double> LightTree::child_probability(std::uint32_t node, const PointQuery& query) const {
+  return first_probability(node, query);
+}
+std::optional<LightTree::Choice> LightTree::select(const PointQuery& query, double u) const { return descend(query, u); }
+double LightTree::pmf(const PointQuery& query, std::uint32_t leaf) const { return ascend(query, leaf); }
 double LightTree::importance(const PointQuery& query) const {
   return nodes_.empty() ? 0 : node_importance(0, query) * intensity_;
 }
+
+std::optional<double> LightTree::child_probability(std::uint32_t node, const Segment& query) const {
+  return first_probability(node, query);
+}
+std::optional<LightTree::Choice> LightTree::select(const Segment& query, double u) const { return descend(query, u); }
+double LightTree::pmf(const Segment& query, std::uint32_t leaf) const { return ascend(query, leaf); }
+double LightTree::importance(const Segment& query) const { return nodes_.empty() ? 0 : node_importance(0, query) * intensity_; }
 
 }  // namespace tyndall

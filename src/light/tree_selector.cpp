@@ -20,7 +20,8 @@ TreeSelector<Tree>::TreeSelector(Tree tree, const SelectionInput& input)
 }
 
 template <typename Tree>
-typename TreeSelector<Tree>::Shares TreeSelector<Tree>::shares(const PointQuery& query) const {
+template <typename Query>
+typename TreeSelector<Tree>::Shares TreeSelector<Tree>::divide(const Query& query) const {
   if (far_.empty()) return {1, 0};
   const double near = tree_.importance(query), far = far_.importance(query);
   if (near == 0 || far == 0) return {near > 0 ? 1.0 : 0.0, far > 0 ? 1.0 : 0.0};
@@ -29,7 +30,8 @@ typename TreeSelector<Tree>::Shares TreeSelector<Tree>::shares(const PointQuery&
 }
 
 template <typename Tree>
-std::optional<SelectedLight> TreeSelector<Tree>::select(const PointQuery& query, double u) const {
+template <typename Query>
+std::optional<SelectedLight> TreeSelector<Tree>::choose(const Query& query, double u) const {
   const Shares share = shares(query);
   if (u < share.near) {
     const auto choice = tree_.select(query, std::min(u / share.near, kBelowOne));
@@ -43,12 +45,38 @@ std::optional<SelectedLight> TreeSelector<Tree>::select(const PointQuery& query,
 }
 
 template <typename Tree>
-float TreeSelector<Tree>::pmf(const PointQuery& query, LightId light) const {
+template <typename Query>
+float TreeSelector<Tree>::chance(const Query& query, LightId light) const {
   const std::uint32_t slot = slot_[light];
   if (slot == kDark) return 0;
   const Shares share = shares(query);
   if (slot >= kFar) return share.far > 0 ? static_cast<float>(share.far * far_.pmf(query, slot - kFar)) : 0.0f;
   return share.near > 0 ? static_cast<float>(share.near * tree_.pmf(query, slot)) : 0.0f;
+}
+
+template <typename Tree>
+typename TreeSelector<Tree>::Shares TreeSelector<Tree>::shares(const PointQuery& query) const {
+  return divide(query);
+}
+template <typename Tree>
+typename TreeSelector<Tree>::Shares TreeSelector<Tree>::shares(const Segment& query) const {
+  return divide(query);
+}
+template <typename Tree>
+std::optional<SelectedLight> TreeSelector<Tree>::select(const PointQuery& query, double u) const {
+  return choose(query, u);
+}
+template <typename Tree>
+std::optional<SelectedLight> TreeSelector<Tree>::select(const SegmentQuery& query, double u) const {
+  return choose(Segment(query), u);
+}
+template <typename Tree>
+float TreeSelector<Tree>::pmf(const PointQuery& query, LightId light) const {
+  return chance(query, light);
+}
+template <typename Tree>
+float TreeSelector<Tree>::pmf(const SegmentQuery& query, LightId light) const {
+  return chance(Segment(query), light);
 }
 
 template <typename Tree>

@@ -6,14 +6,16 @@
 
 namespace tyndall {
 
-/// `Tree` is LightTree or WideLightTree.
+/// `Tree` is LightTree or WideLightTree. Queries inside are PointQuery and Segment.
 template <typename Tree>
 class TreeSelector : public LightSelector {
  public:
   TreeSelector(Tree tree, const SelectionInput& input);
 
   std::optional<SelectedLight> select(const PointQuery& query, double u) const override;
+  std::optional<SelectedLight> select(const SegmentQuery& query, double u) const override;
   float pmf(const PointQuery& query, LightId light) const override;
+  float pmf(const SegmentQuery& query, LightId light) const override;
   std::size_t memory_bytes() const override;
 
   const Tree& tree() const { return tree_; }
@@ -27,10 +29,18 @@ class TreeSelector : public LightSelector {
   static constexpr std::uint32_t kDark = 0xffffffff;
 
   Shares shares(const PointQuery& query) const;
+  Shares shares(const Segment& query) const;
   const FarLights& far() const { return far_; }
   std::uint32_t slot_of(LightId light) const { return slot_[light]; }
 
  private:
+  template <typename Query>
+  Shares divide(const Query& query) const;
+  template <typename Query>
+  std::optional<SelectedLight> choose(const Query& query, double u) const;
+  template <typename Query>
+  float chance(const Query& query, LightId light) const;
+
   Tree tree_;
   FarLights far_;
   std::vector<std::uint32_t> slot_;  ///< by LightId: tree leaf, or kFar + index among the far lights, or kDark

@@ -17,6 +17,7 @@
 
 #include "light/light_tree.h"
 #include "light/wide_node.h"
+#include "light/wide_segment.h"
 #include "math/big_array.h"
 
 namespace tyndall {
@@ -38,10 +39,14 @@ class WideLightTree {
   /// Descends by one number u in [0, 1), rescaled after every decision. Nothing: u fell on a branch whose lights all
   /// have importance 0.
   std::optional<Choice> select(const PointQuery& query, double u) const { return select_below(kAll, localize(query), u); }
+  std::optional<Choice> select(const Segment& query, double u) const { return select_below(kAll, localize(query), u); }
   /// Probability of select() giving the light whose leaf is `leaf`: the same decisions from the leaf upward.
   double pmf(const PointQuery& query, NodeRef leaf) const { return pmf_below(kAll, leaf, localize(query)); }
-  /// Importance of all lights together, in W/sr / length^2: the sum over the root's children.
+  double pmf(const Segment& query, NodeRef leaf) const { return pmf_below(kAll, leaf, localize(query)); }
+  /// Importance of all lights together, in W/sr / length^2, for segments in W/sr / length: the sum over the root's
+  /// children.
   double importance(const PointQuery& query) const;
+  double importance(const Segment& query) const;
 
   bool empty() const { return nodes_.empty(); }
   std::span<const WideNode> nodes() const { return nodes_; }
@@ -58,14 +63,20 @@ class WideLightTree {
   /// The node whose children a cluster that is no leaf has.
   std::uint32_t node_of(NodeRef ref) const { return ref == kAll ? 0 : nodes_[ref / 8].child[ref % 8]; }
   WideQuery localize(const PointQuery& query) const;
+  WideSegment localize(const Segment& query) const;
   /// Importance of the children of a cluster, child i being NodeRef 8 node_of(ref) + i; relative to each other.
   ChildImportance children(NodeRef ref, const WideQuery& query) const { return child_importance(nodes_[node_of(ref)], query); }
+  ChildImportance children(NodeRef ref, const WideSegment& query) const {
+    return child_importance(nodes_[node_of(ref)], query);
+  }
   /// Bounds and moments of a cluster, lengths in the tree's unit, intensity relative to that of all lights.
   Cluster cluster(NodeRef ref) const { return ref == kAll ? all_ : nodes_[ref / 8].cluster(static_cast<int>(ref % 8)); }
   /// select() within one cluster; a leaf has pmf 1.
   std::optional<Choice> select_below(NodeRef top, const WideQuery& query, double u) const;
+  std::optional<Choice> select_below(NodeRef top, const WideSegment& query, double u) const;
   /// Probability of select_below(top) giving the light of `leaf`, which is below `top`.
   double pmf_below(NodeRef top, NodeRef leaf, const WideQuery& query) const;
+  double pmf_below(NodeRef top, NodeRef leaf, const WideSegment& query) const;
 
   /// The tree's lengths in one of the scene's, for a query at `p`: the same everywhere, but where all lights are at the
   /// origin and nothing else gives a scale.
@@ -73,7 +84,12 @@ class WideLightTree {
 
  private:
   friend class WideTreeBuilder;
-  std::optional<Choice> select_by_number(NodeRef top, const WideQuery& query, double u) const;
+  template <typename Query>
+  std::optional<Choice> descend(NodeRef top, const Query& query, double u) const;
+  template <typename Query>
+  std::optional<Choice> select_by_number(NodeRef top, const Query& query, double u) const;
+  template <typename Query>
+  double ascend(NodeRef top, NodeRef leaf, const Query& query) const;
   std::uint32_t count_of(NodeRef ref) const { return ref == kAll ? all_.count : nodes_[ref / 8].count[ref % 8]; }
 
   BigArray<WideNode> nodes_;  ///< the first is the root

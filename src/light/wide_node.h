@@ -55,6 +55,9 @@ static_assert(sizeof(WideNode) == 384);
 
 /// A query in the tree's unit of length.
 struct WideQuery {
+  /// Farther than this directions and ratios of distances no longer change.
+  static constexpr double kFar = 0x1p20;
+
   Vec3 p, n;
   bool surface = false;       ///< n is a normal
   bool transmissive = false;  ///< and light from below counts

@@ -10,9 +10,6 @@ constexpr double kBelowOne = 1 - 0x1p-52;
 /// Weight of the choice by number.
 constexpr double kByNumber = 0x1p-20;
 
-/// Farther than this, in units of the tree, directions and ratios of distances no longer change.
-constexpr double kFar = 0x1p20;
-
 double mixed(double by_importance, std::uint32_t lights) { return (1 - kByNumber) * by_importance + kByNumber / lights; }
 
 /// Ends of the children's parts of [0, sum], the first at [1].
@@ -33,6 +30,8 @@ struct Ends {
   double width(std::size_t child) const { return at[child + 1] - at[child]; }
 };
 
+double total(const ChildImportance& children) { return Ends(children).sum(); }
+
 }  // namespace
 
 double WideLightTree::to_unit(Vec3 p) const {
@@ -44,11 +43,18 @@ double WideLightTree::to_unit(Vec3 p) const {
 WideQuery WideLightTree::localize(const PointQuery& query) const {
   Vec3d p = Vec3d(query.p) * to_unit(query.p);
   const double largest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  if (largest > kFar) p = p * (kFar / largest);
+  if (largest > WideQuery::kFar) p = p * (WideQuery::kFar / largest);
   return {to_vec3(p), query.n, dot(query.n, query.n) > 0, query.transmissive};
 }
 
-std::optional<WideLightTree::Choice> WideLightTree::select_below(NodeRef top, const WideQuery& query, double u) const {
+WideSegment WideLightTree::localize(const Segment& query) const {
+  const Vec3d middle = nodes_.empty() ? Vec3d() : Vec3d(all_.box.min) * 0.5 + Vec3d(all_.box.max) * 0.5;
+  const double largest = std::max({std::abs(query.o.x), std::abs(query.o.y), std::abs(query.o.z), query.length});
+  return WideSegment::from_segment(query, to_unit(to_vec3({largest, 0, 0})), middle);
+}
+
+template <typename Query>
+std::optional<WideLightTree::Choice> WideLightTree::descend(NodeRef top, const Query& query, double u) const {
   if (nodes_.empty()) return std::nullopt;
   if (is_leaf(top)) return Choice{nodes_[top / 8].child[top % 8], 1};
   if (u < kByNumber) return select_by_number(top, query, u / kByNumber);
@@ -70,7 +76,8 @@ std::optional<WideLightTree::Choice> WideLightTree::select_below(NodeRef top, co
   return Choice{nodes_[ref / 8].child[ref % 8], mixed(chance, count_of(top))};
 }
 
-std::optional<WideLightTree::Choice> WideLightTree::select_by_number(NodeRef top, const WideQuery& query, double u) const {
+template <typename Query>
+std::optional<WideLightTree::Choice> WideLightTree::select_by_number(NodeRef top, const Query& query, double u) const {
   auto number = static_cast<std::uint32_t>(u * count_of(top));
   NodeRef ref = top;
   while (!is_leaf(ref)) {
@@ -79,12 +86,13 @@ std::optional<WideLightTree::Choice> WideLightTree::select_by_number(NodeRef top
     for (; number >= nodes_[index].count[child]; ++child) number -= nodes_[index].count[child];
     ref = 8 * index + child;
   }
-  const double pmf = pmf_below(top, ref, query);
+  const double pmf = ascend(top, ref, query);
   if (!(pmf > 0)) return std::nullopt;
   return Choice{nodes_[ref / 8].child[ref % 8], pmf};
 }
 
-double WideLightTree::pmf_below(NodeRef top, NodeRef leaf, const WideQuery& query) const {
+template <typename Query>
+double WideLightTree::ascend(NodeRef top, NodeRef leaf, const Query& query) const {
   if (leaf == top) return 1;
   double chance = 1;
   for (NodeRef ref = leaf; ref != top; ref = nodes_[ref / 8].parent) {
@@ -96,12 +104,25 @@ double WideLightTree::pmf_below(NodeRef top, NodeRef leaf, const WideQuery& quer
   return mixed(chance, count_of(top));
 }
 
+std::optional<WideLightTree::Choice> WideLightTree::select_below(NodeRef top, const WideQuery& query, double u) const {
+  return descend(top, query, u);
+}
+std::optional<WideLightTree::Choice> WideLightTree::select_below(NodeRef top, const WideSegment& query, double u) const {
+  return descend(top, query, u);
+}
+double WideLightTree::pmf_below(NodeRef top, NodeRef leaf, const WideQuery& query) const { return ascend(top, leaf, query); }
+double WideLightTree::pmf_below(NodeRef top, NodeRef leaf, const WideSegment& query) const { return ascend(top, leaf, query); }
+
 double WideLightTree::importance(const PointQuery& query) const {
   if (nodes_.empty()) return 0;
-  double sum = 0;
-  for (const float child : children(kAll, localize(query)).of) sum += child;
   const double per_length = to_unit(query.p);
-  return sum * nodes_[0].scale * intensity_ * per_length * per_length;
+  return total(children(kAll, localize(query))) * nodes_[0].scale * intensity_ * per_length * per_length;
+}
+
+double WideLightTree::importance(const Segment& query) const {
+  if (nodes_.empty()) return 0;
+  const WideSegment local = localize(query);
+  return total(children(kAll, local)) * nodes_[0].scale * intensity_ * local.to_world;
 }
 
 SplitMeasure split_measure(const Cluster& cluster, const WideQuery& query) {

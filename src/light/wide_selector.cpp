@@ -39,33 +39,54 @@ LightCut WideSelector::cut(const PointQuery& query, const CutSettings& settings)
   return cut;
 }
 
-std::optional<SelectedLight> WideSelector::select_in(const LightCluster& cluster, const PointQuery& query, double u) const {
-  if (cluster.ref == kEverything) return select(query, u);
-  if (cluster.ref == kFarCluster) {
-    const auto choice = far().select(query, u);
+LightCut WideSelector::cut(const SegmentQuery&, const CutSettings& settings) const {
+  LightCut cut;
+  cut.push_back({kEverything, static_cast<std::uint32_t>(std::max(settings.candidates, 1))});
+  return cut;
+}
+
+template <typename Query>
+std::optional<SelectedLight> WideSelector::draw(const LightCluster& cluster, const Query& query, double u) const {
+  const auto answer = [](const auto& choice) -> std::optional<SelectedLight> {
     if (!choice) return std::nullopt;
     return SelectedLight{choice->light, static_cast<float>(choice->pmf)};
-  }
-  const auto choice = tree().select_below(cluster.ref, tree().localize(query), u);
-  if (!choice) return std::nullopt;
-  return SelectedLight{choice->light, static_cast<float>(choice->pmf)};
+  };
+  if (cluster.ref == kFarCluster) return answer(far().select(query, u));
+  return answer(tree().select_below(cluster.ref, tree().localize(query), u));
 }
 
 /// Up from the leaf to the cluster of the cut that holds it.
-double WideSelector::pmf_in_cut(const LightCut& cut, const PointQuery& query, std::uint32_t leaf) const {
+template <typename Query>
+double WideSelector::expected_near(const LightCut& cut, const Query& query, std::uint32_t leaf) const {
   for (auto ref = leaf;; ref = tree().nodes()[ref / WideNode::kWidth].parent) {
     if (const LightCluster* c = find(cut, ref)) return c->candidates * tree().pmf_below(ref, leaf, tree().localize(query));
     if (ref == WideLightTree::kAll) return 0;
   }
 }
 
-float WideSelector::expected(const LightCut& cut, const PointQuery& query, LightId light) const {
-  if (find(cut, kEverything)) return pmf(query, light);
+template <typename Query>
+float WideSelector::tries(const LightCut& cut, const Query& query, LightId light) const {
   const std::uint32_t slot = slot_of(light);
   if (slot == kDark) return 0;
-  if (slot < kFar) return static_cast<float>(pmf_in_cut(cut, query, slot));
+  if (slot < kFar) return static_cast<float>(expected_near(cut, query, slot));
   const LightCluster* c = find(cut, kFarCluster);
   return c ? static_cast<float>(c->candidates * far().pmf(query, slot - kFar)) : 0.0f;
+}
+
+std::optional<SelectedLight> WideSelector::select_in(const LightCluster& cluster, const PointQuery& query, double u) const {
+  return cluster.ref == kEverything ? select(query, u) : draw(cluster, query, u);
+}
+std::optional<SelectedLight> WideSelector::select_in(const LightCluster& cluster, const SegmentQuery& query, double u) const {
+  return cluster.ref == kEverything ? select(query, u) : draw(cluster, Segment(query), u);
+}
+
+float WideSelector::expected(const LightCut& cut, const PointQuery& query, LightId light) const {
+  const LightCluster* all = find(cut, kEverything);
+  return all ? static_cast<float>(all->candidates) * pmf(query, light) : tries(cut, query, light);
+}
+float WideSelector::expected(const LightCut& cut, const SegmentQuery& query, LightId light) const {
+  const LightCluster* all = find(cut, kEverything);
+  return all ? static_cast<float>(all->candidates) * pmf(query, light) : tries(cut, Segment(query), light);
 }
 
 }  // namespace tyndall

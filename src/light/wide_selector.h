@@ -10,11 +10,19 @@ class WideSelector final : public TreeSelector<WideLightTree> {
   using TreeSelector::TreeSelector;
 
   LightCut cut(const PointQuery& query, const CutSettings& settings) const override;
+  LightCut cut(const SegmentQuery& query, const CutSettings& settings) const override;
   std::optional<SelectedLight> select_in(const LightCluster& cluster, const PointQuery& query, double u) const override;
+  std::optional<SelectedLight> select_in(const LightCluster& cluster, const SegmentQuery& query, double u) const override;
   float expected(const LightCut& cut, const PointQuery& query, LightId light) const override;
+  float expected(const LightCut& cut, const SegmentQuery& query, LightId light) const override;
 
  private:
-  double pmf_in_cut(const LightCut& cut, const PointQuery& query, std::uint32_t leaf) const;
+  template <typename Query>
+  std::optional<SelectedLight> draw(const LightCluster& cluster, const Query& query, double u) const;
+  template <typename Query>
+  double expected_near(const LightCut& cut, const Query& query, std::uint32_t leaf) const;
+  template <typename Query>
+  float tries(const LightCut& cut, const Query& query, LightId light) const;
 };
 
 }  // namespace tyndall

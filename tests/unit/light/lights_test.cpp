@@ -41,7 +41,7 @@ double irradiance(const Lights& lights, Vec3 p, Vec3 n, int samples, std::uint64
   Rng rng(seed);
   double sum = 0;
   for (int i = 0; i < samples; ++i) {
-    const auto s = selector_of(lights).select({p, n, false, false}, rng.uniform_wide());
+    const auto s = selector_of(lights).select(PointQuery{p, n, false, false}, rng.uniform_wide());
     const float x = rng.uniform(), y = rng.uniform();
     if (!s) continue;
     if (const auto l = lights.sample(s->light, p, {x, y}, false))
@@ -112,21 +112,23 @@ TEST_CASE("ids run through the scene's lights, then the primitives of the shapes
   CHECK(lights.power(4) == doctest::Approx(2 * kPi));
   CHECK(lights.power(6) == doctest::Approx(2 * 4 * kPi * kPi));
   // Black lights keep their ids, are never chosen and give nothing.
-  CHECK(selector_of(lights).pmf({{0, 0, 1}, {}}, 7) == 0);
+  CHECK(selector_of(lights).pmf(PointQuery{{0, 0, 1}, {}}, 7) == 0);
   CHECK(!lights.sample(7, {0, 0, 5}, {0.3f, 0.3f}, false));
   CHECK(is_black(lights.emitted(8, {{0, 0, 3}, {0, 0, 1}, {}, 1}, {0, 0, 1})));
   // Only surfaces have a density for hits.
   CHECK(lights.pdf(0, {0, 0, 1}, {{0, 0, 5}, {0, 0, 1}, {}, 4}) == 0);
   CHECK(lights.pdf(6, {0, 0, 0}, {{4, 0, 0}, {-1, 0, 0}, {}, 4}) > 0);
   CHECK(Lights().empty());
-  CHECK(!selector_of(lights_of({})).select({}, 0.5));
+  CHECK(!selector_of(lights_of({})).select(PointQuery{}, 0.5));
 }
 
 TEST_CASE("one-sided emitters shine on the side of their normal, two-sided ones on both") {
   std::vector<Shape> shapes{emissive(quad(1, 0), Rgb(1))};
   const Vec3 above{0.1f, 0.2f, 1}, below{0.1f, 0.2f, -1};
   const EmitterHit hit{{0, 0, 0}, {0, 0, 1}, {0.5f, 0.5f}, 1};
-  const auto shines = [&](const Lights& l, Vec3 p) { return l.sample(0, p, {0.4f, 0.4f}, false) && selector_of(l).pmf({p, {}}, 0) > 0; };
+  const auto shines = [&](const Lights& l, Vec3 p) {
+    return l.sample(0, p, {0.4f, 0.4f}, false) && selector_of(l).pmf(PointQuery{p, {}}, 0) > 0;
+  };
   const Lights one = lights_of(shapes);
   CHECK(shines(one, above));
   CHECK(!shines(one, below));
@@ -202,7 +204,7 @@ TEST_CASE("lights with infinite or missing strength are refused with their place
 TEST_CASE("exhaustive: every light has pmf 1") {
   const Lights lights = lights_of({emissive(quad(1, 0), Rgb(1))}, {{LightStrategy::exhaustive}});
   CHECK(selector_of(lights).exhaustive());
-  CHECK(selector_of(lights).pmf({}, 1) == 1);
+  CHECK(selector_of(lights).pmf(PointQuery{}, 1) == 1);
   CHECK_THROWS_AS(lights.selector(LightStrategy::power), Error);
 }
 
@@ -268,7 +270,8 @@ TEST_CASE("all kinds together: no light of probability 0 contributes, and none t
     }
     REQUIRE(sum < 1 + 1e-5);
     const double u = rng.uniform_wide();
-    if (const auto s = selector_of(lights).select(q, u)) REQUIRE(selector_of(lights).pmf(q, s->light) == doctest::Approx(s->pmf).epsilon(1e-6));
+    if (const auto s = selector_of(lights).select(q, u))
+      REQUIRE(selector_of(lights).pmf(q, s->light) == doctest::Approx(s->pmf).epsilon(1e-6));
   }
   CHECK(zero > 100'000);
 }
@@ -293,7 +296,8 @@ TEST_CASE("all kinds together: every strategy gives the same irradiance") {
       expected += first;
       expected_variance += (second - first * first) / samples;
     }
-    for (const LightStrategy s : {LightStrategy::uniform, LightStrategy::power, LightStrategy::tree, LightStrategy::tree_binary}) {
+    for (const LightStrategy s :
+         {LightStrategy::uniform, LightStrategy::power, LightStrategy::tree, LightStrategy::tree_binary}) {
       const Lights lights = zoo.build(s);
       double sum = 0, sum2 = 0;
       constexpr int kBatches = 20;

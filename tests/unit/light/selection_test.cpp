@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "light_cases.h"
+#include "segment_cases.h"
 #include "support/chi_squared.h"
 
 namespace tyndall {
@@ -41,7 +41,7 @@ SelectionInput mixed_input(std::size_t near, bool sky_partner) {
 }
 
 constexpr LightStrategy kStrategies[] = {LightStrategy::uniform, LightStrategy::power, LightStrategy::tree,
-                                       LightStrategy::tree_binary};
+                                         LightStrategy::tree_binary};
 
 std::vector<PointQuery> queries() {
   std::vector<LightBounds> box{test::point_bounds({-1, -1, -1}, 1), test::point_bounds({1, 1, 1}, 1)};
@@ -50,40 +50,95 @@ std::vector<PointQuery> queries() {
   return all;
 }
 
+std::vector<SegmentQuery> segments() {
+  std::vector<LightBounds> box{test::point_bounds({-1, -1, -1}, 1), test::point_bounds({1, 1, 1}, 1)};
+  auto all = test::segments_for(box, 27, 8);
+  for (std::size_t i = 0; i < all.size(); i += 2) all[i].mis_partner = false;
+  return all;
+}
+
+/// The probabilities of a selector's choices by pmf(), and how well draws follow them.
+template <typename Query>
+void check_draws(const LightSelector& selector, const Query& q, LightId n) {
+  double sum = 0;
+  std::vector<double> pmf(n + 1), counts(n + 1);
+  for (LightId i = 0; i < n; ++i) sum += pmf[i] = selector.pmf(q, i);
+  REQUIRE(sum < 1 + 1e-5);
+  pmf[n] = std::max(0.0, 1 - sum);
+  CHECK(pmf[3] == 0);
+  constexpr int kDraws = 10'000;
+  Rng rng(4);
+  for (int i = 0; i < kDraws; ++i) {
+    const auto s = selector.select(q, rng.uniform_wide());
+    if (s) REQUIRE(std::abs(s->pmf - selector.pmf(q, s->light)) <= 1e-6 * s->pmf);
+    counts[s ? s->light : n] += 1;
+  }
+  double statistic = 0, rest = 0, rest_expected = 0;
+  int bins = 0;
+  for (LightId i = 0; i <= n; ++i) {
+    const double e = pmf[i] * kDraws;
+    if (e >= 5) {
+      statistic += (counts[i] - e) * (counts[i] - e) / e;
+      ++bins;
+    } else {
+      rest += counts[i];
+      rest_expected += e;
+    }
+  }
+  if (rest_expected >= 5) statistic += (rest - rest_expected) * (rest - rest_expected) / rest_expected, ++bins;
+  if (bins > 1) CHECK(test::chi_squared_tail(statistic, bins - 1) > 1e-6);
+}
+
 TEST_CASE("every strategy: probabilities sum to at most 1, and draws follow them") {
   for (const LightStrategy strategy : kStrategies) {
     CAPTURE(name_of(strategy));
     const SelectionInput input = mixed_input(60, true);
     const auto n = static_cast<LightId>(input.power.size());
     const auto selector = make_selector(strategy, input);
-    for (const PointQuery& q : queries()) {
-      double sum = 0;
-      std::vector<double> pmf(n + 1), counts(n + 1);
-      for (LightId i = 0; i < n; ++i) sum += pmf[i] = selector->pmf(q, i);
-      REQUIRE(sum < 1 + 1e-5);
-      pmf[n] = std::max(0.0, 1 - sum);
-      CHECK(pmf[3] == 0);
-      constexpr int kDraws = 10'000;
-      Rng rng(4);
-      for (int i = 0; i < kDraws; ++i) {
-        const auto s = selector->select(q, rng.uniform_wide());
-        if (s) REQUIRE(std::abs(s->pmf - selector->pmf(q, s->light)) <= 1e-6 * s->pmf);
-        counts[s ? s->light : n] += 1;
-      }
-      double statistic = 0, rest = 0, rest_expected = 0;
-      int bins = 0;
-      for (LightId i = 0; i <= n; ++i) {
-        const double e = pmf[i] * kDraws;
-        if (e >= 5) {
-          statistic += (counts[i] - e) * (counts[i] - e) / e;
-          ++bins;
-        } else {
-          rest += counts[i];
-          rest_expected += e;
-        }
-      }
-      if (rest_expected >= 5) statistic += (rest - rest_expected) * (rest - rest_expected) / rest_expected, ++bins;
-      if (bins > 1) CHECK(test::chi_squared_tail(statistic, bins - 1) > 1e-6);
+    for (const PointQuery& q : queries()) check_draws(*selector, q, n);
+    for (const SegmentQuery& q : segments()) check_draws(*selector, q, n);
+  }
+}
+
+TEST_CASE("lights at infinity along a segment: by irradiance, length, and what the medium makes of it") {
+  const FarLight lights[] = {sun(0, {1, 0, 0}, 2), sun(1, {-1, 0, 0}, 1), upper_sky(2, 0.5f, true)};
+  const FarLights far(lights);
+  SegmentQuery q{.o = {}, .d = {1, 0, 0}, .t0 = 1, .t1 = 5, .importance = MediaStrategy::integral, .reach = 10};
+  const double sky = 0.5 * 2 * kPi;
+  CHECK(far.importance(q) == doctest::Approx(4 * (2 + 1 + sky)));
+  CHECK(far.pmf(q, 0) == doctest::Approx(2 / (3 + sky)));
+  q.reach = 3;  // the segment is longer
+  CHECK(far.importance(q) == doctest::Approx(3 * (2 + 1 + sky)));
+  q.t1 = kInfinity;
+  CHECK(far.importance(q) == doctest::Approx(3 * (2 + 1 + sky)));
+
+  // Half of the reach scatters, a third of that arrives; forward scattering favours the sun ahead.
+  q.importance = MediaStrategy::product;
+  q.profile.edge = {1, 2.5f, kInfinity, kInfinity, kInfinity, kInfinity, kInfinity, kInfinity, kInfinity};
+  q.profile.scattering[0] = 0.2f;
+  q.profile.sigma[0] = 1;
+  q.profile.escape[0] = std::log(3.0f);
+  CHECK(far.importance(q) == doctest::Approx(3 * 0.5 / 3 * (2 + 1 + sky)));
+  q.profile.g = 0.5f;
+  const double ahead = 0.75 / std::pow(0.5, 3), behind = 0.75 / std::pow(1.5, 3);
+  CHECK(far.pmf(q, 0) / far.pmf(q, 1) == doctest::Approx(2 * ahead / behind));
+  q.profile.escape[0] = kInfinity;  // nothing arrives, by the profile
+  CHECK(far.pmf(q, 0) / far.pmf(q, 1) == doctest::Approx(2));
+  CHECK(far.importance(q) > 0);
+}
+
+TEST_CASE("a sun and a near light of the same effect on a segment share the choice") {
+  SelectionInput input;
+  input.near.push_back({test::point_bounds({0, 0, 1000}, 1e6f), 0});  // 1 W/m^2 there
+  input.far.push_back(sun(1, {0, 0, 1}, 1));
+  input.power = {1, 1};
+  for (const LightStrategy strategy : {LightStrategy::tree, LightStrategy::tree_binary}) {
+    const auto selector = make_selector(strategy, input);
+    for (const MediaStrategy m : {MediaStrategy::closest, MediaStrategy::integral, MediaStrategy::product}) {
+      SegmentQuery q{.o = {}, .d = {1, 0, 0}, .t0 = 0, .t1 = 8, .importance = m, .reach = 100};
+      q.profile = test::homogeneous_profile(0, 8, 0.3f, 2, 0.6f);
+      CHECK(selector->pmf(q, 0) == doctest::Approx(0.5).epsilon(0.01));
+      CHECK(selector->pmf(q, 0) + selector->pmf(q, 1) == doctest::Approx(1));
     }
   }
 }
@@ -94,8 +149,8 @@ TEST_CASE("uniform gives every light with power the same, power gives each its s
   for (const double p : input.power) total += p;
   const auto uniform = make_selector(LightStrategy::uniform, input), power = make_selector(LightStrategy::power, input);
   for (LightId i = 0; i < input.power.size(); ++i) {
-    CHECK(uniform->pmf({}, i) == doctest::Approx(i == 3 ? 0 : 1.0 / (double(input.power.size()) - 1)));
-    CHECK(power->pmf({}, i) == doctest::Approx(input.power[i] / total));
+    CHECK(uniform->pmf(PointQuery{}, i) == doctest::Approx(i == 3 ? 0 : 1.0 / (double(input.power.size()) - 1)));
+    CHECK(power->pmf(PointQuery{}, i) == doctest::Approx(input.power[i] / total));
   }
 }
 
@@ -115,7 +170,7 @@ TEST_CASE("tree: neither near nor far lights starve, and a light below the horiz
   CHECK(selector->pmf(up, first_far + 1) == 0);                                  // this one is below
   CHECK(selector->pmf(down, first_far) == 0);
   CHECK(selector->pmf(down, first_far + 1) > 0);
-  CHECK(selector->pmf({down.p, down.n, true}, first_far) > 0);
+  CHECK(selector->pmf(PointQuery{down.p, down.n, true}, first_far) > 0);
 }
 
 TEST_CASE("tree: an environment that scattered rays look after takes no part, unless there are none") {
@@ -138,10 +193,10 @@ TEST_CASE("the importance of a sky is its irradiance where all of each cone is s
 
 TEST_CASE("nothing to choose from") {
   for (const LightStrategy strategy : kStrategies) {
-    CHECK(!make_selector(strategy, {})->select({}, 0.5));
+    CHECK(!make_selector(strategy, {})->select(PointQuery{}, 0.5));
     const auto dark = make_selector(strategy, {{0, 0}, {}, {}});
-    CHECK(!dark->select({}, 0.5));
-    CHECK(dark->pmf({}, 1) == 0);
+    CHECK(!dark->select(PointQuery{}, 0.5));
+    CHECK(dark->pmf(PointQuery{}, 1) == 0);
   }
 }
 

@@ -1,7 +1,7 @@
 /// The importance of the wide tree's clusters in plain double precision, one at a time.
 #pragma once
 
-#include "light/wide_node.h"
+#include "light/wide_segment.h"
 
 namespace tyndall::test {
 
@@ -47,6 +47,81 @@ inline OracleImportance oracle_importance(const Cluster& c, const WideQuery& q) 
     factor *= std::clamp(std::max(height, 0.3 * (height + reach)) / reckoned, 1e-3, 1.0);
   }
   result.value = factor * result.upper;
+  return result;
+}
+
+/// A segment as the oracle takes it: that of the wide tree, in doubles.
+struct OracleSegment {
+  Vec3d p, d;
+  double from, till;
+
+  explicit OracleSegment(const WideSegment& s) : p(s.p), d(s.d), from(s.from), till(s.till) {}
+};
+
+/// The wide tree's reckoning of the emission: the cosine at the lights' mean, with a share of the bound.
+inline double oracle_emission(const Cluster& c, double ahead, double bound) {
+  if (c.normals.full()) return 1;
+  if (c.two_sided) ahead = std::abs(ahead);
+  const double narrow = 0.5 * (1 + std::cos(double(c.normals.theta)));
+  return std::max(narrow * std::max(ahead, 0.0) + 0.5 * (1 - narrow) * bound, 0.15 * bound);
+}
+
+/// Largest cosine of emission toward any point of the segment; 0: none. `margin` as in OracleImportance.
+inline double oracle_bound(const Cluster& c, const WideSegment& w, double& margin) {
+  const OracleSegment s(w);
+  const Vec3d low(c.box.min), high(c.box.max), half = (high - low) * 0.5, to = (low + high) * 0.5 - s.p;
+  const double along = dot(to, s.d), from = s.from - along, till = s.till - along;
+  const Vec3d foot = s.d * along - to;
+  const double nearest = std::clamp(0.0, from, till), distance = std::sqrt(dot(foot, foot) + nearest * nearest);
+  const double reach1 = std::abs(to.x) + std::abs(to.y) + std::abs(to.z) + half.x + half.y + half.z;
+  const double seen = length(half) + w.rounding + 5e-7 * reach1;
+  margin = std::abs(distance / seen - 1);
+  if (distance <= seen || c.normals.full()) return 1;
+  const Vec3d axis = normalize(Vec3d(c.normals.axis));
+  double cosine = largest_cosine(axis, foot, s.d, from, till);
+  if (c.two_sided) cosine = std::max(cosine, largest_cosine(-axis, foot, s.d, from, till));
+  const double theta = std::acos(cosine), theta_u = std::asin(seen / distance);
+  const double bound = std::cos(std::max(theta - c.normals.theta - theta_u, 0.0));
+  margin = std::min(margin, std::abs(bound - std::cos(double(c.theta_e))));
+  return bound <= std::cos(double(c.theta_e)) ? 0 : std::max(bound, 1e-3);
+}
+
+/// `upper`: without emission, phase function and transmittance.
+inline OracleImportance oracle_importance(const Cluster& c, const WideSegment& w) {
+  OracleImportance result;
+  const double bound = oracle_bound(c, w, result.margin);
+  const OracleSegment s(w);
+  const Vec3d to = c.mean - s.p;
+  const double along = dot(to, s.d), from = s.from - along, till = s.till - along, spread = 2.0 / 3 * c.variance;
+  const Vec3d foot = s.d * along - to, axis = normalize(Vec3d(c.normals.axis));
+  const double foot2 = dot(foot, foot), h = std::sqrt(std::max(foot2 + spread, 1e-12 * (foot2 + from * from)));
+  if (foot2 < 1e-6 * dot(to, to)) result.margin = 0;  // which way the line passes is lost in rounding
+  const auto emission = [&](double place) {
+    return oracle_emission(c, (dot(axis, foot) + place * dot(axis, s.d)) / std::hypot(h, place), bound);
+  };
+  const double angle = subtended_angle(h, from, till);
+  double value = 0;
+  if (w.importance == MediaStrategy::closest) {
+    const double nearest = std::clamp(0.0, from, till);
+    result.upper = c.intensity / (h * h + nearest * nearest);
+    value = result.upper * emission(nearest);
+  } else if (w.bins == 0) {
+    result.upper = c.intensity * angle / h / w.length;
+    value = result.upper * emission(middle_of_angle(h, from, till));
+  } else {
+    result.upper = c.intensity * angle / h / w.length;
+    double sum = 0;
+    for (int i = 0; i < w.bins; ++i) {
+      const WideSegment::Bin& bin = w.bin[static_cast<std::size_t>(i)];
+      const double a = bin.begin - along, b = bin.end - along, part = subtended_angle(h, a, b);
+      const double place = middle_of_angle(h, a, b), r = std::hypot(h, place);
+      const double blur = (1 - spread / (r * r)) * (1 - part * part / 24);
+      const double T = std::exp(-std::min(double(bin.sigma) * r, double(bin.escape)));
+      sum += part * bin.scattering * T * phase_ratio(w.g * blur, -place / r) * emission(place);
+    }
+    value = c.intensity / h / w.length * std::max(sum, kLeastScattering * bound * angle);
+  }
+  result.value = bound > 0 ? value : 0;
   return result;
 }
 
