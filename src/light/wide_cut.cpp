@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "light/split_measure.h"
+
 namespace tyndall {
 namespace {
 
@@ -22,27 +24,15 @@ struct Open {
 };
 using Cut = SmallVector<Open, 16>;
 
-/// How much the lobe varies over a cluster: nothing where it does not reach, and else as the angle that the cluster is
-/// seen under, in widths of the lobe.
-double lobe_cv2(const QueryLobe& lobe, const Cluster& cluster, const SplitMeasure& m, const WideQuery& query) {
-  if (!(lobe.width > 0) || !(m.nearest > 0)) return 0;
-  const Vec3d center = (Vec3d(cluster.box.min) + Vec3d(cluster.box.max)) * 0.5 - Vec3d(query.p);
-  const double distance = 0.5 * (m.nearest + m.farthest), radius = 0.5 * (m.farthest - m.nearest);
-  const double seen = std::asin(std::min(radius / distance, 1.0));
-  const double off = std::acos(std::clamp(dot(center, Vec3d(lobe.axis)) / length(center), -1.0, 1.0));
-  constexpr double kReach = 2;  // widths: GGX has fallen to a hundredth
-  if (off - seen > kReach * lobe.width) return 0;
-  const double widths = seen / lobe.width;
-  return widths * widths;
-}
-
+/// Splits by what a question of kind `Local` says of children, and by cv2(Cluster).
+template <typename Local, typename Cv2>
 class CutBuilder {
  public:
-  CutBuilder(const WideLightTree& tree, const PointQuery& query, const CutSettings& settings)
-      : tree_(tree), query_(query), local_(tree.localize(query)), settings_(settings) {}
+  CutBuilder(const WideLightTree& tree, const Local& local, const Cv2& cv2, const CutSettings& settings)
+      : tree_(tree), local_(local), cv2_(cv2), settings_(settings) {}
 
   LightCut build() {
-    cut_.push_back({tree_.root(), tree_.is_leaf(tree_.root()), 1, cv2_of(tree_.root()), 1});
+    cut_.push_back({tree_.root(), tree_.is_leaf(tree_.root()), 1, cv2_(tree_.cluster(tree_.root())), 1});
     while (split_worst()) {
     }
     share_out();
@@ -52,14 +42,6 @@ class CutBuilder {
   }
 
  private:
-  double cv2_of(NodeRef ref) const {
-    const Cluster cluster = tree_.cluster(ref);
-    const SplitMeasure m = split_measure(cluster, local_);
-    double factor = 1 + m.cv2;
-    for (const QueryLobe& lobe : query_.lobes) factor *= 1 + lobe_cv2(lobe, cluster, m, local_);
-    return factor - 1;
-  }
-
   /// False: nothing is left to split, or no room.
   bool split_worst() {
     std::size_t worst = cut_.size();
@@ -74,7 +56,8 @@ class CutBuilder {
     const NodeRef parent = cut_[index].ref;
     const ChildImportance children = tree_.children(parent, local_);
     const std::uint32_t node = tree_.node_of(parent);
-    const auto used = static_cast<std::size_t>(std::count_if(children.of.begin(), children.of.end(), [](float i) { return i > 0; }));
+    const auto used =
+        static_cast<std::size_t>(std::count_if(children.of.begin(), children.of.end(), [](float i) { return i > 0; }));
     if (settings_.candidates > 0 && cut_.size() - 1 + used > static_cast<std::size_t>(settings_.candidates)) return false;
     cut_[index] = cut_.back();
     cut_.truncate(cut_.size() - 1);
@@ -82,7 +65,7 @@ class CutBuilder {
       if (!(children.of[i] > 0)) continue;
       const NodeRef ref = 8 * node + i;
       const bool leaf = tree_.is_leaf(ref);
-      cut_.push_back({ref, leaf, double(children.of[i]) * tree_.nodes()[node].scale, leaf ? 0 : cv2_of(ref), 1});
+      cut_.push_back({ref, leaf, double(children.of[i]) * tree_.nodes()[node].scale, leaf ? 0 : cv2_(tree_.cluster(ref)), 1});
     }
     return true;
   }
@@ -98,8 +81,8 @@ class CutBuilder {
   }
 
   const WideLightTree& tree_;
-  const PointQuery& query_;
-  WideQuery local_;
+  const Local& local_;
+  const Cv2& cv2_;
   const CutSettings& settings_;
   Cut cut_;
 };
@@ -108,7 +91,20 @@ class CutBuilder {
 
 LightCut wide_cut(const WideLightTree& tree, const PointQuery& query, const CutSettings& settings) {
   if (tree.empty()) return {};
-  return CutBuilder(tree, query, settings).build();
+  const WideQuery local = tree.localize(query);
+  const auto cv2 = [&](const Cluster& cluster) {
+    double factor = 1 + split_measure(cluster, local).cv2;
+    for (const QueryLobe& lobe : query.lobes) factor *= 1 + lobe_cv2(lobe, Vec3d(local.p), cluster);
+    return factor - 1;
+  };
+  return CutBuilder(tree, local, cv2, settings).build();
+}
+
+LightCut wide_cut(const WideLightTree& tree, const Segment& query, const CutSettings& settings) {
+  if (tree.empty()) return {};
+  const WideSegment local = tree.localize(query);
+  const auto cv2 = [&](const Cluster& cluster) { return split_measure(cluster, local).cv2; };
+  return CutBuilder(tree, local, cv2, settings).build();
 }
 
 }  // namespace tyndall

@@ -1,4 +1,4 @@
-/// Adaptive splitting: the cut through the light tree that a point draws its candidates from
+/// Adaptive splitting: the cut through the light tree that a point or a segment draws its candidates from
 /// [Conty Estevez and Kulla 2018, sec. 5.4; best first as in Walter et al. 2005].
 #pragma once
 
@@ -12,5 +12,6 @@ namespace tyndall {
 /// are split first, as long as one has a score below `settings.splitting` and its children fit into
 /// `settings.candidates`; what candidates are left then go to the clusters by importance.
 LightCut wide_cut(const WideLightTree& tree, const PointQuery& query, const CutSettings& settings);
+LightCut wide_cut(const WideLightTree& tree, const Segment& query, const CutSettings& settings);
 
 }  // namespace tyndall

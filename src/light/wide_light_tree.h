@@ -99,16 +99,6 @@ class WideLightTree {
   int depth_ = 0;
 };
 
-/// How much more a cluster may contribute than its importance says: what adaptive splitting goes by.
-struct SplitMeasure {
-  double nearest = 0, farthest = 0;  ///< distances of the sphere around the box, in the tree's unit; 0: it holds the point
-  /// Squared coefficient of variation of a light's contribution, distance and intensity taken as independent
-  /// [2018, sec. 5.4, made dimensionless]; infinite when the point is inside.
-  double cv2 = 0;
-  double score() const { return 1 / (1 + cv2); }  ///< in [0, 1]; low: split
-};
-SplitMeasure split_measure(const Cluster& cluster, const WideQuery& query);
-
 template <typename F>
 void WideLightTree::for_each_leaf(const F& f) const {
   for (std::size_t node = 0; node < nodes_.size(); ++node) {

@@ -125,21 +125,4 @@ double WideLightTree::importance(const Segment& query) const {
   return total(children(kAll, local)) * nodes_[0].scale * intensity_ * local.to_world;
 }
 
-SplitMeasure split_measure(const Cluster& cluster, const WideQuery& query) {
-  const Vec3d low(cluster.box.min), high(cluster.box.max);
-  const double radius = 0.5 * length(high - low), distance = length((low + high) * 0.5 - Vec3d(query.p));
-  SplitMeasure m;
-  m.nearest = std::max(distance - radius, 0.0);
-  m.farthest = distance + radius;
-  if (cluster.count <= 1 && radius == 0) return m;
-  if (!(m.nearest > 0)) {
-    m.cv2 = kInfinity;
-    return m;
-  }
-  // Squared distances uniform on [a, b]: E[g^2] / E[g]^2 - 1 = (b - a)^2 / (3 a b) for g = 1 / d^2.
-  const double distance_cv2 = (m.farthest - m.nearest) * (m.farthest - m.nearest) / (3 * m.nearest * m.farthest);
-  m.cv2 = (1 + cluster.intensity_cv2()) * (1 + distance_cv2) - 1;
-  return m;
-}
-
 }  // namespace tyndall

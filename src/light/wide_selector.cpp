@@ -17,14 +17,17 @@ const LightCluster* find(const LightCut& cut, std::uint32_t ref) {
   return it == cut.end() ? nullptr : it;
 }
 
+LightCut everything() {
+  LightCut cut;
+  cut.push_back({kEverything, 1});
+  return cut;
+}
+
 }  // namespace
 
-LightCut WideSelector::cut(const PointQuery& query, const CutSettings& settings) const {
+template <typename Query>
+LightCut WideSelector::split(const Query& query, const CutSettings& settings) const {
   LightCut cut;
-  if (settings.candidates == 1) {
-    cut.push_back({kEverything, 1});
-    return cut;
-  }
   const Shares share = shares(query);
   CutSettings near = settings;
   if (share.far > 0) {
@@ -39,10 +42,11 @@ LightCut WideSelector::cut(const PointQuery& query, const CutSettings& settings)
   return cut;
 }
 
-LightCut WideSelector::cut(const SegmentQuery&, const CutSettings& settings) const {
-  LightCut cut;
-  cut.push_back({kEverything, static_cast<std::uint32_t>(std::max(settings.candidates, 1))});
-  return cut;
+LightCut WideSelector::cut(const PointQuery& query, const CutSettings& settings) const {
+  return settings.candidates == 1 ? everything() : split(query, settings);
+}
+LightCut WideSelector::cut(const SegmentQuery& query, const CutSettings& settings) const {
+  return settings.candidates == 1 ? everything() : split(Segment(query), settings);
 }
 
 template <typename Query>
@@ -81,12 +85,10 @@ std::optional<SelectedLight> WideSelector::select_in(const LightCluster& cluster
 }
 
 float WideSelector::expected(const LightCut& cut, const PointQuery& query, LightId light) const {
-  const LightCluster* all = find(cut, kEverything);
-  return all ? static_cast<float>(all->candidates) * pmf(query, light) : tries(cut, query, light);
+  return find(cut, kEverything) ? pmf(query, light) : tries(cut, query, light);
 }
 float WideSelector::expected(const LightCut& cut, const SegmentQuery& query, LightId light) const {
-  const LightCluster* all = find(cut, kEverything);
-  return all ? static_cast<float>(all->candidates) * pmf(query, light) : tries(cut, Segment(query), light);
+  return find(cut, kEverything) ? pmf(query, light) : tries(cut, Segment(query), light);
 }
 
 }  // namespace tyndall

@@ -18,6 +18,8 @@ class WideSelector final : public TreeSelector<WideLightTree> {
 
  private:
   template <typename Query>
+  LightCut split(const Query& query, const CutSettings& settings) const;
+  template <typename Query>
   std::optional<SelectedLight> draw(const LightCluster& cluster, const Query& query, double u) const;
   template <typename Query>
   double expected_near(const LightCut& cut, const Query& query, std::uint32_t leaf) const;

@@ -4,6 +4,7 @@
 
 #include <cstring>
 
+#include "light/split_measure.h"
 #include "light_cases.h"
 #include "support/chi_squared.h"
 #include "wide_oracle.h"
