@@ -16,8 +16,10 @@ enum class LightStrategy { uniform, power, exhaustive, tree, tree_binary };
 /// What stands for a stretch of medium when its light is chosen: a tracked collision, the point of the ray closest to the
 /// lights, the integral of 1/r^2 along it, or that times transmittance, scattering and phase function.
 enum class MediaStrategy { vertex, closest, integral, product };
-/// How the distance of a scattering event along a ray is sampled.
-enum class DistanceStrategy { tracking };
+/// How the distance at which a ray's light is gathered is sampled: at tracked collisions, equi-angular toward the light
+/// [Kulla and Fajardo 2012], both with MIS, or equi-angular times a coarse profile of the medium. `automatic`: profile;
+/// tracking with MediaStrategy::vertex, which knows no other.
+enum class DistanceStrategy { automatic, tracking, equiangular, both, profile };
 /// Estimator of transmittance along shadow rays.
 enum class TransmittanceStrategy { residual, ratio, delta };
 
@@ -31,15 +33,15 @@ struct RenderSettings {
   std::uint64_t seed = 0;
   int threads = 0;               ///< 0: all cores
   LightStrategy lights = LightStrategy::tree;  ///< one that the World was built with
-  /// Lights chosen at a vertex, >= 0; 0: as many as splitting makes clusters, one without a tree. Exhaustive takes all
-  /// lights and traces all.
-  int candidates = 1;
+  /// Lights chosen at a vertex or along a stretch of medium, >= 0; 0: as many as splitting makes clusters, one without a
+  /// tree. Nothing: as many as pay. Exhaustive takes all lights and traces all.
+  std::optional<int> candidates{};
   int shadow_rays = 1;  ///< of the candidates, are traced, >= 0; 0: every one
   /// Clusters of the light tree that are predicted worse than this are split while candidates allow, in [0, 1]; 0: none,
   /// 1: down to single lights. No part in strategies without a tree.
   float splitting = 0;
-  MediaStrategy media = MediaStrategy::vertex;
-  DistanceStrategy distance = DistanceStrategy::tracking;
+  MediaStrategy media = MediaStrategy::product;
+  DistanceStrategy distance = DistanceStrategy::automatic;
   TransmittanceStrategy transmittance = TransmittanceStrategy::residual;
   std::vector<std::string> aovs{};  ///< names from aov_names()
   std::optional<PixelBounds> crop{};

@@ -83,7 +83,7 @@ void declare(CLI::App& command, MethodOptions& o) {
                        std::string(axis.about) + ": " + join(axis.names, ", ") + " [the Integrator's, else " +
                            std::string(axis.get({})) + "]; " + option + " " + std::string(axis.names.back()));
   }
-  command.add_option("--candidates", o.candidates, "lights chosen at a vertex and looked at without visibility; 0: one for each cluster that --splitting makes [the Integrator's, else 1]; --candidates 8")
+  command.add_option("--candidates", o.candidates, "lights chosen at a vertex or along a stretch of medium and looked at without visibility; 0: one for each cluster that --splitting makes [the Integrator's, else as many as pay]; --candidates 8")
       ->check(CLI::Range(0, 4096));
   command.add_option("--splitting", o.splitting, "clusters of the light tree predicted worse than this are split while --candidates allow, 0..1; 0: none, 1: down to single lights [the Integrator's, else 0]; --splitting 0.7")
       ->check(fraction());

@@ -21,6 +21,7 @@ class PointEmitter {
   std::optional<DeltaArrival> arrival(Vec3 p) const;
   Rgb power() const { return I_ * (4 * kPi); }
   Rgb intensity() const { return I_; }
+  Vec3 position() const { return position_; }
   LightBounds bounds() const;  ///< without intensity
 
  private:
@@ -35,6 +36,7 @@ class SpotEmitter {
   std::optional<DeltaArrival> arrival(Vec3 p) const;
   Rgb power() const;  ///< of the undistorted cone
   Rgb intensity() const { return I_; }
+  Vec3 position() const { return position_; }
   LightBounds bounds() const;  ///< without intensity
 
  private:

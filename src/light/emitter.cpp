@@ -37,6 +37,13 @@ double Emitter::power(std::uint32_t i) const {
   return kPi * area(i) * (emission_.two_sided ? 2 : 1) * strength(emission_.mean) * scale(i);
 }
 
+Bounds3 Emitter::box(std::uint32_t i) const {
+  return std::visit(Overloaded{[](const QuadricEmitter& q) { return q.extent().box; },
+                               [&](const TriangleEmitter& mesh) { return mesh.box(i); },
+                               [&](const PatchEmitter& mesh) { return mesh.extent(i).box; }},
+                    surface_);
+}
+
 LightBounds Emitter::bounds(std::uint32_t i) const {
   const EmitterExtent extent = std::visit(
       Overloaded{[](const QuadricEmitter& q) { return q.extent(); }, [&](const auto& mesh) { return mesh.extent(i); }},

@@ -41,6 +41,7 @@ class Emitter {
   std::uint32_t size() const;           ///< primitives
   double power(std::uint32_t i) const;  ///< W, mean of the channels
   LightBounds bounds(std::uint32_t i) const;
+  Bounds3 box(std::uint32_t i) const;
   bool delta() const { return emission_.invisible; }
 
   struct Sample {

@@ -80,6 +80,25 @@ std::optional<LightSample> Lights::sample(LightId light, Vec3 p, Vec2 u, bool mi
   return std::nullopt;
 }
 
+LightPlace Lights::place(LightId light) const {
+  const Parts::Reference r = parts_->lights[light];
+  switch (r.kind) {
+    case Kind::point:
+      return {parts_->points[r.index].position(), 0};
+    case Kind::spot:
+      return {parts_->spots[r.index].position(), 0};
+    case Kind::emitter: {
+      const Bounds3 box = parts_->emitters[r.index].box(r.primitive);
+      const Vec3 half = (box.max - box.min) * 0.5f;
+      return {box.min + half, length(half)};
+    }
+    case Kind::distant:
+    case Kind::environment:
+      break;
+  }
+  return {};
+}
+
 float Lights::pdf(LightId light, Vec3 p, const EmitterHit& hit) const {
   const Parts::Reference r = parts_->lights[light];
   if (r.kind != Kind::emitter || parts_->emitters[r.index].delta()) return 0;

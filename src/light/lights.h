@@ -49,6 +49,12 @@ struct LightBuildOptions {
   int threads = 0;                     ///< to build with; 0: one a core
 };
 
+/// Where a light is, roughly.
+struct LightPlace {
+  std::optional<Vec3> center;  ///< nothing: at infinity
+  float radius = 0;            ///< of a sphere around it
+};
+
 /// For the summary of a build.
 struct LightStats {
   std::size_t lights = 0, emitters = 0, infinite = 0;  ///< all; primitives of emissive shapes; environments
@@ -95,6 +101,7 @@ class Lights {
   /// The light that is primitive 0 of the emitter shape (in the order given to build_lights); primitive i follows at +i.
   LightId first_light(std::size_t emitter_shape) const;
   double power(LightId light) const;  ///< W, mean of the channels
+  LightPlace place(LightId light) const;
   const LightStats& stats() const;
   std::size_t memory_bytes() const;  ///< selectors included
 

@@ -52,12 +52,13 @@ double TriangleEmitter::area(std::uint32_t i) const {
   return 0.5 * length(cross(vertex(i, 1) - a, vertex(i, 2) - a));
 }
 
-EmitterExtent TriangleEmitter::extent(std::uint32_t i) const {
-  EmitterExtent extent;
-  for (std::size_t k = 0; k < 3; ++k) extent.box.expand(positions_[3 * std::size_t(i) + k]);
-  extent.normals = DirectionCone::around(normal(i));
-  return extent;
+Bounds3 TriangleEmitter::box(std::uint32_t i) const {
+  Bounds3 box;
+  for (std::size_t k = 0; k < 3; ++k) box.expand(positions_[3 * std::size_t(i) + k]);
+  return box;
 }
+
+EmitterExtent TriangleEmitter::extent(std::uint32_t i) const { return {box(i), DirectionCone::around(normal(i))}; }
 
 Vec2 TriangleEmitter::uv(std::uint32_t i, double b1, double b2) const {
   const auto x = static_cast<float>(b1), y = static_cast<float>(b2);

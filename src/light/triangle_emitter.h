@@ -17,6 +17,7 @@ class TriangleEmitter {
   std::uint32_t size() const { return static_cast<std::uint32_t>(positions_.size() / 3); }
   double area(std::uint32_t i) const;
   EmitterExtent extent(std::uint32_t i) const;
+  Bounds3 box(std::uint32_t i) const;
 
   /// Uniform in solid angle; uniform in area where the triangle is too small or too near its own plane for that.
   std::optional<EmitterSample> sample(std::uint32_t i, Vec3 p, Vec2 u) const;

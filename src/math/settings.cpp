@@ -24,7 +24,13 @@ constexpr Table<MediaStrategy, 4> kMedia{{
     {"integral", MediaStrategy::integral},
     {"product", MediaStrategy::product},
 }};
-constexpr Table<DistanceStrategy, 1> kDistances{{{"tracking", DistanceStrategy::tracking}}};
+constexpr Table<DistanceStrategy, 5> kDistances{{
+    {"auto", DistanceStrategy::automatic},
+    {"tracking", DistanceStrategy::tracking},
+    {"equiangular", DistanceStrategy::equiangular},
+    {"both", DistanceStrategy::both},
+    {"profile", DistanceStrategy::profile},
+}};
 constexpr Table<TransmittanceStrategy, 3> kTransmittances{{
     {"residual", TransmittanceStrategy::residual},
     {"ratio", TransmittanceStrategy::ratio},

@@ -111,9 +111,10 @@ Rgb visibility(const LightContext& context, const MediaState& media, Vec3 origin
 
 LightSearch light_search(const LightContext& context, const Vertex& vertex) {
   const RenderSettings& settings = context.settings;
-  LightSearch search{settings.candidates != 1 ? vertex.light_query_with_lobes() : vertex.light_query(), {}};
+  const int candidates = settings.candidates.value_or(1);
+  LightSearch search{candidates != 1 ? vertex.light_query_with_lobes() : vertex.light_query(), {}};
   if (context.world.lights.empty() || !vertex.has_smooth() || context.selector.exhaustive()) return search;
-  search.cut = context.selector.cut(search.query, {.candidates = settings.candidates, .splitting = settings.splitting});
+  search.cut = context.selector.cut(search.query, {.candidates = candidates, .splitting = settings.splitting});
   return search;
 }
 

@@ -1,6 +1,8 @@
 /// Next-event estimation at a vertex.
 #pragma once
 
+#include <cmath>
+
 #include "render/counters.h"
 #include "render/sampler.h"
 #include "render/vertex.h"
@@ -25,6 +27,12 @@ inline float mis_weight(float a, float b) {
   if (a == b) return 0.5f;  // infinite both, perhaps
   const float ratio = b / a;  // may round to 0 or infinity; both give the right limit
   return 1 / (1 + ratio * ratio);
+}
+/// The same for three.
+inline float mis_weight(float a, float b, float c) {
+  if (!(a > 0)) return b > 0 || c > 0 ? 0.0f : 1.0f;
+  const float first = b / a, second = c / a;
+  return std::isnan(first) || std::isnan(second) ? 0.0f : 1 / (1 + first * first + second * second);
 }
 
 /// Fraction of light that gets through media and past surfaces over `distance` from `origin` along `wi`.

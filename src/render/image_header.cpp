@@ -14,9 +14,10 @@ std::string options_text(const RenderSettings& settings) {
   for (const StrategyAxis& axis : strategy_axes()) {
     text += " --" + std::string(axis.option) + " " + std::string(axis.get(settings));
   }
-  char numbers[96];
-  std::snprintf(numbers, sizeof numbers, " --candidates %d --splitting %g --shadow-rays %d", settings.candidates,
-                static_cast<double>(settings.splitting), settings.shadow_rays);
+  if (settings.candidates) text += " --candidates " + std::to_string(*settings.candidates);
+  char numbers[64];
+  std::snprintf(numbers, sizeof numbers, " --splitting %g --shadow-rays %d", static_cast<double>(settings.splitting),
+                settings.shadow_rays);
   return text + numbers;
 }
 

@@ -34,6 +34,15 @@ ActiveMedia MediaState::active(const std::vector<BoundaryGroup>& groups,
   return result;
 }
 
+Bounds3 MediaState::bounds(const std::vector<BoundaryGroup>& groups) const {
+  if (unbounded_) return {Vec3(-kInfinity), Vec3(kInfinity)};
+  Bounds3 box;
+  for (const Membership& m : inside_) {
+    if (groups[m.group].inside) box.expand(groups[m.group].bounds);
+  }
+  return box;
+}
+
 bool MediaState::brings(MediumId medium, const std::vector<BoundaryGroup>& groups) const {
   for (const Membership& m : inside_) {
     if (groups[m.group].inside == medium) return true;

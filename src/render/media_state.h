@@ -29,6 +29,9 @@ class MediaState {
   /// Media here: each group's inside medium less its outside medium, never below zero.
   ActiveMedia active(const std::vector<BoundaryGroup>& groups, const std::vector<ParticipatingMedium>& media) const;
 
+  /// A box that holds all of the media that are here: infinite with an unbounded one.
+  Bounds3 bounds(const std::vector<BoundaryGroup>& groups) const;
+
   bool in_any_group() const { return !inside_.empty(); }
   std::optional<MediumId> unbounded() const { return unbounded_; }
   void set_unbounded(std::optional<MediumId> medium) { unbounded_ = medium; }

@@ -50,19 +50,30 @@ PathRecord Path::run() {
 
 /// Next-event estimation, then the direction of the next ray. False ends the path.
 bool Path::scatter(const Vertex& vertex) {
-  search_ = light_search(context_, vertex);
-  add(beta_ * direct_light(context_, vertex, search_, beta_), depth_);
+  add(beta_ * light_at(vertex), depth_);
 
   const float uc = context_.sampler.next_1d();
   const auto s = vertex.sample(beta_, uc, context_.sampler.next_2d());
   if (!s) return false;
   light_sampled_ = !s->specular && vertex.has_smooth();
-  pdf_ = s->pdf;
+  from_ = vertex.p();
+  pdf_ = span_event_ ? vertex.pdf(s->wi, Rgb(1.0f)) : s->pdf;
   media_ = vertex.media_toward(context_.world.geometry, s->wi);
   ray_ = {vertex.origin(context_.world.geometry, s->wi), s->wi};
   beta_ *= s->weight;
   eta_scale_ *= s->eta * s->eta;
   return !is_black(beta_) && survive_roulette();
+}
+
+/// Light from emitters that is scattered at the vertex. What the span's pairs stand for is not in it.
+Rgb Path::light_at(const Vertex& vertex) {
+  span_event_.reset();
+  if (vertex.on_surface() || !span_search_) {
+    search_ = light_search(context_, vertex);
+    return direct_light(context_, vertex, search_, beta_);
+  }
+  span_event_ = SpanEvent{*span_search_, collision_t_, collision_density_};
+  return tracks(context_.settings) ? collision_light(context_, vertex, *span_event_, beta_) : Rgb();
 }
 
 bool Path::survive_roulette() {
@@ -77,10 +88,9 @@ bool Path::survive_roulette() {
 std::optional<Vertex> Path::next_vertex() {
   ++context_.counters.rays;
   const Trace trace = context_.world.geometry.trace(ray_, 0, kInfinity);
-  const float t_end = trace.hit ? trace.hit->t : kInfinity;
-  if (depth_ == 0) record_camera_ray(trace, t_end);
+  if (depth_ == 0) record_camera_ray(trace);
   if (context_.world.has_media()) {
-    if (auto collision = fly(trace, t_end)) return collision;
+    if (auto collision = pass_media(trace)) return collision;
   }
   if (is_black(beta_)) return std::nullopt;
   if (!trace.hit) {
@@ -96,50 +106,56 @@ std::optional<Vertex> Path::next_vertex() {
   return vertex;
 }
 
-/// Go through the media before t_end. A vertex: the path collides there; else it arrives with its weight in beta_.
-std::optional<Vertex> Path::fly(const Trace& trace, float t_end) {
+/// Go through the media before the ray's end. A vertex: the path collides there; else it arrives with its weight in
+/// beta_.
+std::optional<Vertex> Path::pass_media(const Trace& trace) {
+  const Span span = make_span(context_.world.media_context(), media_, ray_, trace, context_.counters.parity_errors);
+  if (depth_ == 0 && limits_.want_transmittance) record_transmittance(span);
+  media_ = span.end;
+  span_search_.reset();
+  if (span.empty()) return std::nullopt;
   // After the last event only what the ray meets at its end counts: no collision need be drawn.
   if (depth_ >= limits_.max_depth) {
-    dim_through_media(trace, t_end);
+    dim(span);
     return std::nullopt;
   }
-  return fly_through_media(trace, t_end);
+  gather(span);
+  return fly(span);
 }
 
-std::optional<Vertex> Path::fly_through_media(const Trace& trace, float t_end) {
+/// Next-event estimation for the whole span.
+void Path::gather(const Span& span) {
+  span_search_ = span_search(context_, span, depth_);
+  if (!span_search_ || !pairs_along_spans(context_.settings)) return;
+  if (depth_ == 0) first_event_in_medium_ = true;  // of this light's path
+  add(beta_ * span_light(context_, span, *span_search_, beta_), depth_ + 1);
+}
+
+std::optional<Vertex> Path::fly(const Span& span) {
   Rng rng = context_.sampler.stream();
   float u = context_.sampler.next_1d();
-  SpanWalk walk(context_.world.media_context(), media_, trace.crossings, t_end);
-  while (const auto interval = walk.next()) {
-    const MediaView view(interval->media.data(), interval->media.size());
-    const Flight flight =
-        free_flight(view, ray_, interval->t0, interval->t1, beta_, u, rng, context_.counters.tracking);
+  for (const SpanPart& part : span.parts) {
+    const Flight flight = free_flight(part.view(), ray_, part.t0, part.t1, beta_, u, rng, context_.counters.tracking);
     add(beta_ * flight.emission, depth_);
     beta_ *= flight.weight;
     if (is_black(beta_)) return std::nullopt;
     if (flight.collided) {
-      const float t = away_from_ends(*interval, ray_, flight.t);
-      if (depth_ == 0) record_collision(t);
-      context_.counters.parity_errors += walk.parity_errors();
-      return Vertex(Vertex::InMedium{ray_.at(t), flight.phase}, -ray_.d, walk.state());
+      collision_t_ = away_from_ends(part, ray_, flight.t);
+      if (span_search_) collision_density_ = collision_density(span, *span_search_, collision_t_);
+      if (depth_ == 0) record_collision(collision_t_);
+      return Vertex(Vertex::InMedium{ray_.at(collision_t_), flight.phase}, -ray_.d, part.state);
     }
     u = rng.uniform();
   }
-  media_ = walk.state();
-  context_.counters.parity_errors += walk.parity_errors() + (t_end == kInfinity && media_.in_any_group() ? 1 : 0);
   return std::nullopt;
 }
 
-void Path::dim_through_media(const Trace& trace, float t_end) {
+void Path::dim(const Span& span) {
   Rng rng = context_.sampler.stream();
-  SpanWalk walk(context_.world.media_context(), media_, trace.crossings, t_end);
-  while (const auto interval = walk.next()) {
-    const MediaView view(interval->media.data(), interval->media.size());
-    beta_ *= transmittance(context_.settings.transmittance, view, ray_, interval->t0, interval->t1, rng,
-                           context_.counters.tracking);
+  for (const SpanPart& part : span.parts) {
+    beta_ *= transmittance(context_.settings.transmittance, part.view(), ray_, part.t0, part.t1, rng, context_.counters.tracking);
     if (is_black(beta_)) return;
   }
-  context_.counters.parity_errors += walk.parity_errors();
 }
 
 Vertex Path::surface_vertex(const SurfaceHit& hit) {
@@ -150,17 +166,23 @@ Vertex Path::surface_vertex(const SurfaceHit& hit) {
   return Vertex(Vertex::Surface{hit, bsdf}, wo, media_);
 }
 
+/// MIS weight of a scattered ray that found light `id`, which next-event estimation samples with `light_pdf`.
+float Path::scattering_share(LightId id, float light_pdf) const {
+  if (!light_sampled_) return 1;
+  if (span_event_) {
+    const SpanDensities others = span_densities(context_, *span_event_, id);
+    return mis_weight(span_event_->density * pdf_, others.pair * light_pdf, others.tracked * light_pdf);
+  }
+  return mis_weight(pdf_, context_.selector.expected(search_.cut, search_.query, id) * light_pdf);
+}
+
 void Path::add_environment() {
   const Lights& lights = context_.world.lights;
   for (const LightId id : lights.infinite()) {
     const Rgb L = lights.environment(id, ray_.d);
     if (is_black(L)) continue;
-    float weight = 1;
-    if (light_sampled_) {
-      const float tries = context_.selector.expected(search_.cut, search_.query, id);
-      weight = mis_weight(pdf_, tries * lights.environment_pdf(id, ray_.d, true));
-    }
-    add(beta_ * L * weight, depth_);
+    const float pdf = light_sampled_ ? lights.environment_pdf(id, ray_.d, true) : 0.0f;
+    add(beta_ * L * scattering_share(id, pdf), depth_);
   }
 }
 
@@ -171,12 +193,8 @@ void Path::add_surface_emission(const SurfaceHit& hit) {
   const EmitterHit emitter{.p = hit.p, .ng = hit.ng, .uv = hit.uv, .distance = hit.t};
   const Rgb L = lights.emitted(*id, emitter, -ray_.d);
   if (is_black(L)) return;
-  float weight = 1;
-  if (light_sampled_) {
-    const float tries = context_.selector.expected(search_.cut, search_.query, *id);
-    weight = mis_weight(pdf_, tries * lights.pdf(*id, search_.query.p, emitter));
-  }
-  add(beta_ * L * weight, depth_);
+  const float pdf = light_sampled_ ? lights.pdf(*id, from_, emitter) : 0.0f;
+  add(beta_ * L * scattering_share(*id, pdf), depth_);
 }
 
 /// Light that reached the camera after `events` scattering events.
@@ -190,14 +208,13 @@ void Path::add(Rgb contribution, int events) {
   }
 }
 
-void Path::record_camera_ray(const Trace& trace, float t_end) {
+void Path::record_camera_ray(const Trace& trace) {
   if (trace.hit) {
     record_.hit_surface = true;
     record_.p = trace.hit->p;
     record_.n = trace.hit->ns;
     record_.z = context_.world.camera.depth(trace.hit->p);
   }
-  if (limits_.want_transmittance && context_.world.has_media()) record_transmittance(trace, t_end);
 }
 
 /// The albedo AOV is what the camera sees of it: dimmed by the media before the event, as beta_ is.
@@ -207,13 +224,11 @@ void Path::record_collision(float t) {
   record_.z_volume = context_.world.camera.depth(ray_.at(t));
 }
 
-void Path::record_transmittance(const Trace& trace, float t_end) {
+void Path::record_transmittance(const Span& span) {
   Rng rng = context_.sampler.side_stream();
-  SpanWalk walk(context_.world.media_context(), media_, trace.crossings, t_end);
-  while (const auto interval = walk.next()) {
-    const MediaView view(interval->media.data(), interval->media.size());
-    record_.transmittance *= transmittance(context_.settings.transmittance, view, ray_, interval->t0, interval->t1, rng,
-                                           context_.counters.tracking);
+  for (const SpanPart& part : span.parts) {
+    record_.transmittance *=
+        transmittance(context_.settings.transmittance, part.view(), ray_, part.t0, part.t1, rng, context_.counters.tracking);
   }
 }
 

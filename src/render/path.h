@@ -1,8 +1,8 @@
 /// One path from the camera: the transport that makes the picture.
 #pragma once
 
-#include "render/direct_light.h"
 #include "render/path_record.h"
+#include "render/span_light.h"
 
 namespace tyndall {
 
@@ -23,16 +23,19 @@ class Path {
 
  private:
   std::optional<Vertex> next_vertex();
-  std::optional<Vertex> fly(const Trace& trace, float t_end);
-  std::optional<Vertex> fly_through_media(const Trace& trace, float t_end);
-  void dim_through_media(const Trace& trace, float t_end);
+  std::optional<Vertex> pass_media(const Trace& trace);
+  void gather(const Span& span);
+  std::optional<Vertex> fly(const Span& span);
+  void dim(const Span& span);
+  Rgb light_at(const Vertex& vertex);
+  float scattering_share(LightId id, float light_pdf) const;
   Vertex surface_vertex(const SurfaceHit& hit);
   void add_environment();
   void add_surface_emission(const SurfaceHit& hit);
   void add(Rgb contribution, int events);
-  void record_camera_ray(const Trace& trace, float t_end);
+  void record_camera_ray(const Trace& trace);
   void record_collision(float t);
-  void record_transmittance(const Trace& trace, float t_end);
+  void record_transmittance(const Span& span);
   bool scatter(const Vertex& vertex);
   bool survive_roulette();
 
@@ -48,8 +51,14 @@ class Path {
 
   // The last scattering event, for the MIS weight of emitters that its ray hits.
   bool light_sampled_ = false;  ///< next-event estimation could have found what this ray finds
-  float pdf_ = 0;
+  Vec3 from_;       ///< where it took place
+  float pdf_ = 0;   ///< of the direction it took, 1/sr
   LightSearch search_;
+  std::optional<SpanEvent> span_event_;  ///< in place of search_ when the event's lights are chosen along its span
+
+  // The span that the path is in.
+  std::optional<SpanSearch> span_search_;
+  float collision_t_ = 0, collision_density_ = 0;
 };
 
 }  // namespace tyndall

@@ -44,17 +44,26 @@ PixelBounds full_crop(const Scene& scene, const RenderSettings& settings) {
 
 void check(const RenderSettings& settings) {
   if (settings.spp < 1) throw Error(Failure::usage, "spp is " + std::to_string(settings.spp) + "; give 1 or more");
-  if (settings.candidates < 0) throw Error(Failure::usage, "candidates is negative; give 0 or more");
+  if (settings.candidates && *settings.candidates < 0) throw Error(Failure::usage, "candidates is negative; give 0 or more");
   if (!(settings.splitting >= 0 && settings.splitting <= 1)) throw Error(Failure::usage, "splitting must be from 0 to 1");
+  const bool along_spans = settings.distance != DistanceStrategy::automatic && settings.distance != DistanceStrategy::tracking;
+  if (settings.media == MediaStrategy::vertex && along_spans) {
+    throw Error(Failure::usage, "media vertex chooses a light at a collision that has been tracked, so its distance is tracking; "
+                                "leave distance out, or choose media closest, integral or product");
+  }
   if (settings.shadow_rays < 0) throw Error(Failure::usage, "shadow rays is negative; give 0 or more");
   if (settings.max_depth < 0) throw Error(Failure::usage, "max depth is negative; give 0 or more");
   if (settings.error && !(*settings.error > 0)) throw Error(Failure::usage, "error must be positive; give a relMSE");
   if (settings.time && !(*settings.time > 0)) throw Error(Failure::usage, "time must be positive; give seconds");
 }
 
-const RenderSettings& checked(const RenderSettings& settings, const World::Parts& world) {
+/// With the methods that "auto" stands for.
+RenderSettings resolved(RenderSettings settings, const World::Parts& world) {
   check(settings);
   world.lights.selector(settings.lights);  // throws when it was not built
+  const bool vertex = settings.media == MediaStrategy::vertex;
+  if (settings.distance == DistanceStrategy::automatic)
+    settings.distance = vertex ? DistanceStrategy::tracking : DistanceStrategy::profile;
   return settings;
 }
 
@@ -64,7 +73,7 @@ class RenderJob::Impl {
  public:
   Impl(const World::Parts& world, const RenderSettings& settings)
       : world_(world),
-        settings_(checked(settings, world)),
+        settings_(resolved(settings, world)),
         selector_(world.lights.selector(settings.lights)),
         film_(world.scene.film, full_crop(world.scene, settings), parse_aovs(settings.aovs)),
         pool_(settings.threads) {}

@@ -29,6 +29,7 @@ struct PlacedShape {
 /// A boundary group in the world: one Scene::boundaries entry outside instances, or within one instance.
 struct BoundaryGroup {
   std::optional<MediumId> inside, outside;
+  Bounds3 bounds{};  ///< of its shapes, world space
 };
 
 struct SurfaceHit {

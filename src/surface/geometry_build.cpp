@@ -94,6 +94,25 @@ GeometryImpl::GeometryImpl(const Scene& scene, const Textures* textures, int thr
   for (std::size_t i = 0; i < objects.size(); ++i) {
     if (!objects[i].set->bounds.empty()) bounds.expand(scene.instances[i].to_world.bounds(objects[i].set->bounds));
   }
+  bound_groups();
+}
+
+void GeometryImpl::bound_groups() {
+  const auto expand = [&](const PartSet& set, std::uint32_t first, const AffineMap* map) {
+    for (const Part& part : set.parts) {
+      const std::uint32_t group = placed[first + part.index].group;
+      if (group == kNone) continue;
+      for (std::uint32_t i = 0; i < part.primitive_count(); ++i) {
+        const Bounds3 box = part.primitive_bounds(i);
+        for (int corner = 0; corner < 8; ++corner) {
+          const Vec3 p = box.corner(corner);
+          groups[group].bounds.expand(map ? to_vec3(map->point(Vec3d(p))) : p);
+        }
+      }
+    }
+  };
+  expand(world(), 0, nullptr);
+  for (const PlacedObject& object : objects) expand(*object.set, object.first_placed, &object.map);
 }
 
 void GeometryImpl::create_device(int threads) {
@@ -120,7 +139,7 @@ void GeometryImpl::place_shapes(const Scene& scene) {
       const Boundary& boundary = scene.boundaries[*shape.boundary];
       const auto next = static_cast<std::uint32_t>(groups.size());
       const auto [entry, is_new] = group_of.try_emplace({*shape.boundary, instance}, next);
-      if (is_new) groups.push_back({boundary.inside, boundary.outside});
+      if (is_new) groups.push_back({boundary.inside, boundary.outside, {}});
       group = entry->second;
     }
     placed.push_back({&shape, to_world, instance, group});

@@ -15,7 +15,7 @@ constexpr double kErrors = 4;       // standard errors that a difference may hav
 constexpr double kResolution = 6.5;  // standard errors in d
 constexpr std::array<const char*, 3> kChannel{"R", "G", "B"};
 
-double budget(const Agreement& how) { return nightly() ? 10 * how.seconds : how.seconds; }
+double budget(const Agreement& how) { return nightly() ? 40 * how.seconds : how.seconds; }
 
 /// Factor by which the variance of a mean is above that of the wanted standard error.
 double excess(const Estimate& e, double wanted_error) {

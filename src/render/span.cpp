@@ -1,0 +1,37 @@
+#include "render/span.h"
+
+#include <algorithm>
+#include <cassert>
+
+namespace tyndall {
+
+float exit_distance(const Bounds3& box, const Ray& ray) {
+  float t = kInfinity;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (ray.d[axis] == 0) continue;
+    t = std::min(t, ((ray.d[axis] > 0 ? box.max[axis] : box.min[axis]) - ray.o[axis]) / ray.d[axis]);
+  }
+  return std::max(t, 0.0f);
+}
+
+const SpanPart& Span::part_at(float t) const {
+  assert(!parts.empty());
+  const SpanPart* found = &parts.front();
+  for (const SpanPart& part : parts) {
+    if (part.t0 <= t) found = &part;
+  }
+  return *found;
+}
+
+Span make_span(const SpanWalk::Context& context, const MediaState& start, const Ray& ray, const Trace& trace,
+               std::uint64_t& parity_errors) {
+  Span span{.ray = ray, .t_end = trace.hit ? trace.hit->t : kInfinity, .parts = {}, .end = {}};
+  SpanWalk walk(context, start, trace.crossings, span.t_end);
+  while (const auto interval = walk.next()) span.parts.push_back({*interval, walk.state(), walk.state().bounds(context.groups)});
+  span.end = walk.state();
+  parity_errors += walk.parity_errors();
+  if (span.t_end == kInfinity && span.end.in_any_group()) ++parity_errors;
+  return span;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,35 @@
+/// The media along one ray, up to where it ends.
+#pragma once
+
+#include <vector>
+
+#include "render/span_walk.h"
+
+namespace tyndall {
+
+/// How far `ray` goes until it has left `box` for good: infinite where the box is.
+float exit_distance(const Bounds3& box, const Ray& ray);
+
+/// A stretch with an unchanging set of media, and the membership there.
+struct SpanPart : Interval {
+  MediaState state;
+  Bounds3 box;  ///< around these media
+  MediaView view() const { return {media.data(), media.size()}; }
+};
+
+struct Span {
+  Ray ray;
+  float t_end = 0;              ///< of the ray; infinite where nothing stops it
+  std::vector<SpanPart> parts;  ///< in order, those without a medium left out
+  MediaState end;               ///< membership at t_end
+
+  bool empty() const { return parts.empty(); }
+  /// The part that holds `t`; the nearest one where rounding has left all.
+  const SpanPart& part_at(float t) const;
+};
+
+/// Walks the ray once, from where `start` is the membership. Adds what does not pair up to `parity_errors`.
+Span make_span(const SpanWalk::Context& context, const MediaState& start, const Ray& ray, const Trace& trace,
+               std::uint64_t& parity_errors);
+
+}  // namespace tyndall

@@ -1,0 +1,83 @@
+#include <algorithm>
+
+#include "render/resampling.h"
+#include "render/span_light.h"
+
+namespace tyndall {
+namespace {
+
+constexpr double kBelowOne = 0x1.fffffffffffffp-1;
+
+/// A light looked at from a collision without visibility.
+struct Candidate {
+  LightSample light;
+  Rgb contribution;  ///< were it visible: phase x radiance x MIS weight / density, of all candidates together
+  float weight;
+};
+
+struct Event {
+  const Vertex& vertex;
+  const SpanEvent& span;
+  Rgb beta;
+};
+
+std::optional<Candidate> look_at(const LightContext& context, const Event& event, SelectedLight tried, Vec2 u) {
+  const auto light = context.world.lights.sample(tried.light, event.vertex.p(), u, true);
+  if (!light || is_black(light->L)) return std::nullopt;
+  const Rgb f = event.vertex.eval(light->wi);
+  const float density = tried.pmf * light->pdf;
+  if (is_black(f) || !(density > 0)) return std::nullopt;
+  const SpanDensities others = span_densities(context, event.span, tried.light);
+  const float phase = light->delta ? 0.0f : event.vertex.pdf(light->wi, Rgb(1.0f));
+  const float collide = event.span.density;
+  const float mis = mis_weight(collide * density, others.pair * light->pdf, collide * phase);
+  const Rgb contribution = f * light->L * (mis / density);
+  const float weight = mean(event.beta * contribution);
+  if (weight == 0) return std::nullopt;
+  return Candidate{*light, contribution, weight};
+}
+
+using Candidates = SmallVector<Candidate, 8>;
+
+void add_candidates(const LightContext& context, const Event& event, const LightCluster& cluster, Sampler& sampler, Candidates& found) {
+  const auto n = cluster.candidates;
+  const double u = sampler.next_wide();
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const Vec2 on_light = sampler.next_2d();
+    const auto selected = context.selector.select_in(cluster, event.span.search.query, std::min((i + u) / n, kBelowOne));
+    if (!selected) continue;
+    const auto c = look_at(context, event, {selected->light, selected->pmf * static_cast<float>(n)}, on_light);
+    if (c) found.push_back(*c);
+  }
+}
+
+Candidates find_candidates(const LightContext& context, const Event& event, Sampler& sampler) {
+  Candidates found;
+  if (!context.selector.exhaustive()) {
+    for (const LightCluster& cluster : event.span.search.cut) add_candidates(context, event, cluster, sampler, found);
+    return found;
+  }
+  for (LightId id = 0; id < context.world.lights.size(); ++id) {
+    if (const auto c = look_at(context, event, {id, 1}, sampler.next_2d())) found.push_back(*c);
+  }
+  return found;
+}
+
+}  // namespace
+
+Rgb collision_light(const LightContext& context, const Vertex& vertex, const SpanEvent& event, Rgb beta) {
+  Sampler sampler = context.sampler.fork();
+  const float u = sampler.next_1d();
+  const Candidates candidates = find_candidates(context, {vertex, event, beta}, sampler);
+  const Survivors survivors = resample(candidates, context.selector.exhaustive() ? 0 : context.settings.shadow_rays, u);
+  Rgb sum;
+  for (const Survivor& s : survivors) {
+    const LightSample& light = candidates[s.index].light;
+    const MediaState media = vertex.media_toward(context.world.geometry, light.wi);
+    sum += candidates[s.index].contribution * s.scale *
+           visibility(context, media, vertex.p(), light.wi, light.distance, sampler);
+  }
+  return sum;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,170 @@
+#include "render/span_distance.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/simd.h"
+
+namespace tyndall {
+namespace {
+
+/// Share of the distances that go by the angle alone.
+constexpr float kByAngle = 0.1f;
+/// A light is taken to be this far off the ray at least, relative to its distance: angles keep their digits.
+constexpr float kLeastOffset = 1e-4f;
+
+struct Bins8 {
+  Float8 begin, end;      ///< distances from the ray's closest point to the light
+  Float8 scattering, sigma;
+};
+
+/// The angle that each bin is seen under from the light. From sine and cosine; the arc tangent is right to 0.5 %.
+Float8 angles(const Bins8& b, Float8 distance) {
+  const Float8 d2 = distance * distance;
+  const Float8 ra = sqrt(b.begin * b.begin + d2), rb = sqrt(b.end * b.end + d2);
+  const Float8 sine = distance * (b.end - b.begin), cosine = d2 + b.begin * b.end;  // both times ra rb
+  const Float8 tangent = sine / (ra * rb + cosine + 1e-37f);                        // of half the angle
+  const Mask8 steep = tangent > 1.0f;
+  const Float8 x = choose(steep, 1 / tangent, tangent);
+  const Float8 arc = x / (1 + 0.28f * x * x);
+  return 2 * choose(steep, 0.5f * kPi - arc, arc);
+}
+
+/// Something like exp(-x): heavier, so that nothing is thought darker than it is.
+Float8 dimming(Float8 x) {
+  Float8 y = 1 / (1 + 0.125f * x);
+  y *= y;
+  y *= y;
+  return y * y;
+}
+
+/// Henyey-Greenstein, light from the point at distance `at` along the ray seen from behind, relative to isotropic.
+Float8 phase(Float8 at, Float8 distance, float g) {
+  const Float8 cosine = -at / sqrt(at * at + distance * distance);
+  const Float8 base = max(1 + g * g - 2 * g * cosine, Float8(1e-4f));
+  return (1 - g * g) / (base * sqrt(base));
+}
+
+}  // namespace
+
+DistanceSampler::DistanceSampler(const SpanProfile& profile, const Ray& ray, const LightPlace& light,
+                                 std::optional<Weights> weights)
+    : profile_(&profile), far_(!light.center) {
+  mass_[0] = 1;
+  if (far_) {
+    weigh_far();
+    return;
+  }
+  const Vec3 to_light = *light.center - ray.o;
+  closest_ = dot(to_light, ray.d);
+  const float reach = std::max(std::abs(closest_ - profile.begin()), 0x1p-100f);
+  distance_ = std::max({length(to_light - ray.d * closest_), 0.5f * light.radius, kLeastOffset * reach});
+  if (weights) weigh(*weights);
+}
+
+void DistanceSampler::weigh(Weights weights) {
+  bins_ = kBins;
+  alignas(32) std::array<float, kBins> by_profile, by_angle;
+  const auto& edges = profile_->edges();
+  std::array<float, kBins + 1> finite = edges;
+  if (finite.back() == kInfinity) finite.back() = finite.front() + 2 * profile_->reach();
+  for (std::size_t i = 0; i < kBins; i += 8) {
+    const Bins8 bins{load8(&finite[i]) - closest_, load8(&finite[i + 1]) - closest_, load8(&profile_->scatterings()[i]),
+                     load8(&profile_->sigmas()[i])};
+    const Float8 middle = 0.5f * (bins.begin + bins.end);
+    const Float8 way = sqrt(middle * middle + distance_ * distance_);
+    const Float8 angle = angles(bins, distance_);
+    store8(&by_angle[i], angle);
+    store8(&by_profile[i], angle * bins.scattering * dimming(min(bins.sigma * way, Float8(profile_->optical_depth()))) *
+                               phase(middle, distance_, weights.g));
+  }
+  mix(by_profile, by_angle);
+}
+
+/// Light from infinity arrives the same everywhere: by what is scattered, and evenly.
+void DistanceSampler::weigh_far() {
+  bins_ = kBins;
+  std::array<float, kBins> by_profile, by_length;
+  const auto& edges = profile_->edges();
+  for (std::size_t i = 0; i < kBins; ++i) {
+    const float end = edges[i + 1] < kInfinity ? edges[i + 1] : edges.front() + 2 * profile_->reach();
+    by_length[i] = end - edges[i];
+    by_profile[i] = profile_->scatterings()[i] * by_length[i];
+  }
+  mix(by_profile, by_length);
+}
+
+void DistanceSampler::mix(const std::array<float, kBins>& by_profile, const std::array<float, kBins>& by_angle) {
+  float sum_profile = 0, sum_angle = 0;
+  for (std::size_t i = 0; i < kBins; ++i) {
+    sum_profile += by_profile[i];
+    sum_angle += by_angle[i];
+  }
+  const float share = sum_profile > 0 ? kByAngle : 1.0f;
+  const float a = sum_profile > 0 ? (1 - share) / sum_profile : 0.0f, b = sum_angle > 0 ? share / sum_angle : 0.0f;
+  for (std::size_t i = 0; i < kBins; ++i) mass_[i] = a * by_profile[i] + b * by_angle[i];
+}
+
+/// That the stretch is seen under from the light. As one arc tangent: a difference of two loses narrow bins far away.
+float DistanceSampler::angle(float begin, float end) const {
+  const float a = begin - closest_;
+  if (end == kInfinity) return std::atan2(distance_, a);
+  return std::atan2(distance_ * (end - begin), distance_ * distance_ + a * (end - closest_));
+}
+
+DistanceSample DistanceSampler::sample(float u) const {
+  std::size_t bin = 0;
+  if (bins_ > 1) {
+    // The last bin with mass takes what rounding leaves.
+    std::size_t last = 0;
+    for (; bin < kBins; ++bin) {
+      if (!(mass_[bin] > 0)) continue;
+      last = bin;
+      if (u < mass_[bin]) break;
+      u -= mass_[bin];
+    }
+    bin = bin < kBins ? bin : last;
+    u = std::min(u / mass_[bin], 0x1.fffffep-1f);
+  }
+  const float t = sample_in(bin, u);
+  return {t, mass_[bin] * pdf_in(bin, t)};
+}
+
+float DistanceSampler::pdf(float t) const {
+  const auto& edges = profile_->edges();
+  if (!(t >= edges.front()) || t > edges.back()) return 0;
+  if (bins_ == 1) return pdf_in(0, t);
+  const auto next = std::upper_bound(edges.begin() + 1, edges.end() - 1, t);
+  const auto bin = static_cast<std::size_t>(next - edges.begin()) - 1;
+  return mass_[bin] * pdf_in(bin, t);
+}
+
+float DistanceSampler::sample_in(std::size_t bin, float u) const {
+  const auto& edges = profile_->edges();
+  const float begin = edges[bin], end = edges[bins_ == 1 ? kBins : bin + 1];
+  float t;
+  if (!far_) {
+    // closest + D tan(angle of begin + part), by the addition theorem.
+    const float a = begin - closest_, tangent = std::tan(u * angle(begin, end));
+    t = begin + tangent * (distance_ * distance_ + a * a) / (distance_ - a * tangent);
+  } else if (end < kInfinity) {
+    t = begin + u * (end - begin);
+  } else {
+    t = begin - std::log1p(-u) / profile_->sigmas()[bin];
+  }
+  return std::clamp(t, begin, std::min(end, std::numeric_limits<float>::max()));
+}
+
+float DistanceSampler::pdf_in(std::size_t bin, float t) const {
+  const auto& edges = profile_->edges();
+  const float begin = edges[bin], end = edges[bins_ == 1 ? kBins : bin + 1];
+  if (!far_) {
+    const float off = t - closest_;
+    return distance_ / (angle(begin, end) * (distance_ * distance_ + off * off));
+  }
+  if (end < kInfinity) return 1 / (end - begin);
+  const float sigma = profile_->sigmas()[bin];
+  return sigma * std::exp(-sigma * (t - begin));
+}
+
+}  // namespace tyndall

@@ -1,0 +1,248 @@
+#include "render/span_light.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/small_vector.h"
+#include "render/resampling.h"
+#include "volume/coarse.h"
+
+namespace tyndall {
+namespace {
+
+/// Spans that scatter less than this share of the light take one candidate.
+constexpr float kThin = 1e-3f;
+/// Camera spans are looked at by every sample of a pixel, and later ones are many: they take fewer candidates.
+constexpr int kCandidates = 8, kLaterCandidates = 4;
+/// Transmittances below this do not count as less in choices: the medium may be thinner than it looks.
+constexpr float kLeastTransmittance = 1e-3f;
+constexpr int kShadowReads = 4;
+constexpr double kBelowOne = 0x1.fffffffffffffp-1;
+
+/// What the media do at a point of a span.
+struct Scattering {
+  Rgb sigma_s;
+  float sigma_t = 0;  ///< mean of the channels
+  PhaseMix phase;
+
+  static Scattering at(const SpanPart& part, Vec3 p) {
+    Scattering s;
+    for (const ParticipatingMedium* medium : part.media) {
+      const Coefficients c = medium->at(p);
+      s.sigma_s += c.sigma_s;
+      s.sigma_t += mean(c.sigma_t());
+      s.phase.add(c.sigma_s, c.g);
+    }
+    return s;
+  }
+  /// 1/sr, without regard to the path: both sides of MIS know it.
+  float pdf(Vec3 wo, Vec3 wi) const { return phase.pdf(wo, wi, Rgb(1.0f)); }
+};
+
+/// A pair of a light and a distance, looked at without visibility.
+struct Pair {
+  float t;
+  const SpanPart* part;
+  LightSample light;
+  Rgb contribution;  ///< were everything clear: scattering x radiance x MIS weight / density, of all pairs together
+  float weight;      ///< in resampling: the contribution's size, dimmed by what the profile says
+};
+
+DistanceSampler distances_to(const LightContext& context, const SpanSearch& search, LightId id) {
+  const DistanceStrategy distance = context.settings.distance;
+  const bool plain = distance == DistanceStrategy::equiangular || distance == DistanceStrategy::both;
+  const auto weights = plain ? std::nullopt : std::optional(DistanceSampler::Weights{search.g});
+  return DistanceSampler(search.profile, {search.query.o, search.query.d}, context.world.lights.place(id), weights);
+}
+
+/// Finds the pairs of one span.
+class PairFinder {
+ public:
+  PairFinder(const LightContext& context, const Span& span, const SpanSearch& search, Rgb beta)
+      : context_(context), span_(span), search_(search), beta_(beta) {}
+
+  /// `tries`: how many times that light is tried, on average.
+  std::optional<Pair> look_at(LightId id, float tries, float u, Vec2 on_light) const {
+    const Lights& lights = context_.world.lights;
+    const DistanceSample distance = distances_to(context_, search_, id).sample(u);
+    if (!(distance.pdf > 0) || !std::isfinite(distance.t)) return std::nullopt;
+    const SpanPart& part = span_.part_at(distance.t);
+    if (distance.t < part.t0 || distance.t > part.t1) return std::nullopt;  // between media
+    const Vec3 p = span_.ray.at(distance.t);
+    const Scattering scattering = Scattering::at(part, p);
+    if (is_black(scattering.sigma_s)) return std::nullopt;
+    const auto light = lights.sample(id, p, on_light, true);
+    // What is not a number goes on, so that the film sees it and counts it.
+    if (!light || is_black(light->L)) return std::nullopt;
+
+    const Vec3 wo = -span_.ray.d;
+    const Rgb f = scattering.sigma_s * scattering.phase.eval(wo, light->wi);
+    const float density = tries * distance.pdf * light->pdf;
+    if (is_black(f) || !(density > 0)) return std::nullopt;
+    const float collide = scattering.sigma_t * search_.profile.transmittance(distance.t);
+    const float tracked = tracks(context_.settings) ? collide * tries * light->pdf : 0.0f;
+    const float by_phase = light->delta ? 0.0f : collide * scattering.pdf(wo, light->wi);
+    const Rgb contribution = f * light->L * (mis_weight(density, tracked, by_phase) / density);
+    const float weight = mean(beta_ * contribution) * dimming(part, distance.t, p, *light);
+    if (weight == 0) return std::nullopt;
+    return Pair{distance.t, &part, *light, contribution, weight};
+  }
+
+ private:
+  float dimming(const SpanPart& part, float t, Vec3 p, const LightSample& light) const {
+    const Ray ray{p, light.wi};
+    const float end = std::min(light.distance, exit_distance(part.box, ray));
+    const float depth = coarse_optical_depth(part.view(), ray, 0, end, kShadowReads);
+    return std::max(search_.profile.transmittance(t) * std::exp(-depth), kLeastTransmittance);
+  }
+
+  const LightContext& context_;
+  const Span& span_;
+  const SpanSearch& search_;
+  Rgb beta_;
+};
+
+using Pairs = SmallVector<Pair, 8>;
+
+Pairs all_lights(const LightContext& context, const PairFinder& finder, Sampler& sampler) {
+  Pairs pairs;
+  for (LightId id = 0; id < context.world.lights.size(); ++id) {
+    const float u = sampler.next_1d();
+    if (const auto pair = finder.look_at(id, 1, u, sampler.next_2d())) pairs.push_back(*pair);
+  }
+  return pairs;
+}
+
+/// One number gives all selections in a cluster: the i-th of n lies in the i-th n-th of [0, 1), so that they spread.
+Pairs chosen_lights(const LightContext& context, const SpanSearch& search, const PairFinder& finder, Sampler& sampler) {
+  Pairs pairs;
+  for (const LightCluster& cluster : search.cut) {
+    const double u = sampler.next_wide();
+    const auto n = cluster.candidates;
+    for (std::uint32_t i = 0; i < n; ++i) {
+      const float along = sampler.next_1d();
+      const Vec2 on_light = sampler.next_2d();
+      const auto selected = context.selector.select_in(cluster, search.query, std::min((i + u) / n, kBelowOne));
+      if (!selected) continue;
+      const auto pair = finder.look_at(selected->light, selected->pmf * static_cast<float>(n), along, on_light);
+      if (pair) pairs.push_back(*pair);
+    }
+  }
+  return pairs;
+}
+
+/// Transmittance from the span's origin to distances that are asked for in increasing order, in one pass.
+class TransmittanceWalk {
+ public:
+  TransmittanceWalk(const LightContext& context, const Span& span, Sampler& sampler)
+      : context_(context), span_(span), rng_(sampler.stream()) {}
+
+  Rgb to(float t) {
+    for (const SpanPart& part : span_.parts) {
+      const float t0 = std::max(part.t0, passed_), t1 = std::min(part.t1, t);
+      if (!(t0 < t1) || is_black(T_)) continue;
+      T_ *= transmittance(context_.settings.transmittance, part.view(), span_.ray, t0, t1, rng_, context_.counters.tracking);
+    }
+    passed_ = t;
+    return T_;
+  }
+
+ private:
+  const LightContext& context_;
+  const Span& span_;
+  Rng rng_;
+  Rgb T_{1.0f};
+  float passed_ = 0;
+};
+
+Rgb evaluate(const LightContext& context, const Span& span, const Pairs& pairs, double u, Sampler& sampler) {
+  Survivors survivors = resample(pairs, context.selector.exhaustive() ? 0 : context.settings.shadow_rays, u);
+  std::sort(survivors.begin(), survivors.end(), [&](const Survivor& a, const Survivor& b) { return pairs[a.index].t < pairs[b.index].t; });
+  TransmittanceWalk walk(context, span, sampler);
+  Rgb sum;
+  for (const Survivor& s : survivors) {
+    const Pair& pair = pairs[s.index];
+    const Rgb T = walk.to(pair.t);
+    if (is_black(T)) continue;
+    const Vec3 p = span.ray.at(pair.t);
+    sum += pair.contribution * T * s.scale *
+           visibility(context, pair.part->state, p, pair.light.wi, pair.light.distance, sampler);
+  }
+  return sum;
+}
+
+SegmentQuery query_of(const RenderSettings& settings, const Span& span, const SpanProfile& profile, float g) {
+  SegmentQuery query{};
+  query.o = span.ray.o;
+  query.d = span.ray.d;
+  query.t0 = profile.begin();
+  query.t1 = profile.end();
+  query.importance = settings.media;
+  query.reach = std::max(profile.reach(), std::numeric_limits<float>::min());
+  if (settings.media == MediaStrategy::product) query.profile = profile.coarse(g);
+  return query;
+}
+
+/// Of all media along the span.
+float mean_cosine(const Span& span) {
+  float sum = 0, weight = 0;
+  for (const SpanPart& part : span.parts) {
+    for (const ParticipatingMedium* medium : part.media) {
+      if (!medium->scatters()) continue;
+      sum += medium->g();
+      weight += 1;
+    }
+  }
+  return weight > 0 ? sum / weight : 0.0f;
+}
+
+int candidates(const RenderSettings& settings, const SpanProfile& profile, int depth) {
+  if (settings.candidates) return *settings.candidates;
+  if (profile.scattered() < kThin) return 1;
+  return depth == 0 ? kCandidates : kLaterCandidates;
+}
+
+}  // namespace
+
+bool pairs_along_spans(const RenderSettings& settings) {
+  return settings.media != MediaStrategy::vertex && settings.distance != DistanceStrategy::tracking;
+}
+
+bool tracks(const RenderSettings& settings) {
+  return settings.distance == DistanceStrategy::tracking || settings.distance == DistanceStrategy::both;
+}
+
+std::optional<SpanSearch> span_search(const LightContext& context, const Span& span, int depth) {
+  const RenderSettings& settings = context.settings;
+  if (settings.media == MediaStrategy::vertex || context.world.lights.empty() || span.empty()) return std::nullopt;
+  const auto profile = SpanProfile::of(span);
+  if (!profile) return std::nullopt;
+  SpanSearch search{.query = {}, .cut = {}, .profile = *profile, .g = mean_cosine(span)};
+  search.query = query_of(settings, span, *profile, search.g);
+  if (!context.selector.exhaustive()) {
+    search.cut = context.selector.cut(search.query, {.candidates = candidates(settings, *profile, depth), .splitting = settings.splitting});
+  }
+  return search;
+}
+
+Rgb span_light(const LightContext& context, const Span& span, const SpanSearch& search, Rgb beta) {
+  Sampler sampler = context.sampler.fork();
+  const float u = sampler.next_1d();
+  const PairFinder finder(context, span, search, beta);
+  const bool all = context.selector.exhaustive();
+  const Pairs pairs = all ? all_lights(context, finder, sampler) : chosen_lights(context, search, finder, sampler);
+  return evaluate(context, span, pairs, u, sampler);
+}
+
+float collision_density(const Span& span, const SpanSearch& search, float t) {
+  return Scattering::at(span.part_at(t), span.ray.at(t)).sigma_t * search.profile.transmittance(t);
+}
+
+SpanDensities span_densities(const LightContext& context, const SpanEvent& event, LightId id) {
+  const float tries = context.selector.expected(event.search.cut, event.search.query, id);
+  const RenderSettings& settings = context.settings;
+  return {.pair = pairs_along_spans(settings) ? tries * distances_to(context, event.search, id).pdf(event.t) : 0.0f,
+          .tracked = tracks(settings) ? tries * event.density : 0.0f};
+}
+
+}  // namespace tyndall
