@@ -92,7 +92,7 @@ inline OracleImportance oracle_importance(const Cluster& c, const WideSegment& w
   const double bound = oracle_bound(c, w, result.margin);
   const OracleSegment s(w);
   const Vec3d to = c.mean - s.p;
-  const double along = dot(to, s.d), from = s.from - along, till = s.till - along, spread = 2.0 / 3 * c.variance;
+  const double along = dot(to, s.d), from = s.from - along, till = s.till - along, spread = c.variance / 3;
   const Vec3d foot = s.d * along - to, axis = normalize(Vec3d(c.normals.axis));
   const double foot2 = dot(foot, foot), h = std::sqrt(std::max(foot2 + spread, 1e-12 * (foot2 + from * from)));
   if (foot2 < 1e-6 * dot(to, to)) result.margin = 0;  // which way the line passes is lost in rounding
@@ -115,8 +115,9 @@ inline OracleImportance oracle_importance(const Cluster& c, const WideSegment& w
       const WideSegment::Bin& bin = w.bin[static_cast<std::size_t>(i)];
       const double a = bin.begin - along, b = bin.end - along, part = subtended_angle(h, a, b);
       const double place = middle_of_angle(h, a, b), r = std::hypot(h, place);
-      const double blur = (1 - spread / (r * r)) * (1 - part * part / 24);
-      const double T = std::exp(-std::min(double(bin.sigma) * r, double(bin.escape)));
+      const double blur = std::max(1 - 3 * spread / (r * r), 0.0) * (1 - part * part / 24);
+      const double way = std::max(r - std::min(3 * bin.sigma * spread, 2 * std::sqrt(spread)), 0.0);
+      const double T = std::exp(-std::min(bin.sigma * way, double(bin.escape)));
       sum += part * bin.scattering * T * phase_ratio(w.g * blur, -place / r) * emission(place);
     }
     value = c.intensity / h / w.length * std::max(sum, kLeastScattering * bound * angle);
