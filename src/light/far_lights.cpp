@@ -36,14 +36,21 @@ double FarLights::cone_importance(const Cone& cone, const PointQuery& query) {
   return fluence * std::max({fold(dot(n, Vec3d(cone.mean))), kShareOfBound * bound, kSlack});
 }
 
-/// Lobes add up their mean cosines' logarithms: the cone's spread blurs the phase function.
-double FarLights::cone_importance(const Cone& cone, const Segment& segment) {
+/// A segment with what all cones ask of it.
+struct FarLights::LitSegment {
+  const Segment& segment;
+  double lit_length = segment.lit_length();
+};
+
+/// The cone's spread blurs the phase function: of a convolution the mean cosine is the product of both.
+double FarLights::cone_importance(const Cone& cone, const LitSegment& query) {
+  const Segment& segment = query.segment;
   const double fluence = segment.mis_partner ? cone.fluence_partner : cone.fluence;
   const double bundled = length(Vec3d(cone.mean));
   const double cosine = bundled > 0 ? dot(segment.d, Vec3d(cone.mean)) / bundled : 0;
   const bool weighted = segment.importance == MediaStrategy::product;
   const double phase = weighted ? phase_ratio(segment.g * std::min(bundled, 1.0), cosine) : 1;
-  return fluence * std::max(phase * segment.lit_length, kLeastScattering * segment.length);
+  return fluence * std::max(phase * query.lit_length, kLeastScattering * segment.length);
 }
 
 template <typename Query>
@@ -85,8 +92,10 @@ std::optional<FarLights::Choice> FarLights::select(const PointQuery& query, doub
 double FarLights::pmf(const PointQuery& query, std::uint32_t index) const { return share(query, index); }
 double FarLights::importance(const PointQuery& query) const { return sum(query); }
 
-std::optional<FarLights::Choice> FarLights::select(const Segment& query, double u) const { return choose(query, u); }
-double FarLights::pmf(const Segment& query, std::uint32_t index) const { return share(query, index); }
-double FarLights::importance(const Segment& query) const { return sum(query); }
+std::optional<FarLights::Choice> FarLights::select(const Segment& query, double u) const {
+  return choose(LitSegment{query}, u);
+}
+double FarLights::pmf(const Segment& query, std::uint32_t index) const { return share(LitSegment{query}, index); }
+double FarLights::importance(const Segment& query) const { return sum(LitSegment{query}); }
 
 }  // namespace tyndall

@@ -58,7 +58,8 @@ class FarLights {
     std::uint32_t begin, end;  ///< its cones
   };
   static double cone_importance(const Cone& cone, const PointQuery& query);
-  static double cone_importance(const Cone& cone, const Segment& query);
+  struct LitSegment;
+  static double cone_importance(const Cone& cone, const LitSegment& query);
   template <typename Query>
   double light_importance(std::uint32_t index, const Query& query) const;
   template <typename Query>

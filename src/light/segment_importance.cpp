@@ -55,27 +55,30 @@ double scattering_angle(const Segment& s, const View& view, double h, double var
 
 Segment::Segment(const SegmentQuery& q)
     : o(q.o),
-      d(normalize(Vec3d(q.d))),
+      d(Vec3d(q.d) / tyndall::length(Vec3d(q.d))),
       t0(q.t0 * tyndall::length(Vec3d(q.d))),
       t1(q.t1 * tyndall::length(Vec3d(q.d))),
       length(std::min(t1 - t0, double(q.reach))),
-      lit_length(length),
       g(std::clamp(double(q.profile.g), -kLargestG, kLargestG)),
       importance(q.importance),
       mis_partner(q.mis_partner) {
   if (importance != MediaStrategy::product) return;
   const SegmentProfile& p = q.profile;
-  const double most = *std::max_element(p.scattering.begin(), p.scattering.end());
+  const double most = *std::max_element(p.scattering.begin(), p.scattering.end()), per_most = most > 0 ? 1 / most : 0;
   for (std::size_t i = 0; i < SegmentProfile::kBins; ++i) {
     if (!(p.scattering[i] > 0) || !(p.edge[i] < p.edge[i + 1])) continue;
-    bins.push_back({p.edge[i], p.edge[i + 1], p.scattering[i] / most, p.sigma[i], p.escape[i]});
+    bins.push_back({p.edge[i], p.edge[i + 1], p.scattering[i] * per_most, p.sigma[i], p.escape[i]});
   }
-  if (bins.empty()) return;
-  lit_length = 0;
+}
+
+double Segment::lit_length() const {
+  if (bins.empty()) return length;
+  double lit = 0;
   for (const Bin& bin : bins) {
     const double within = std::min(bin.end, t0 + length) - bin.begin;
-    lit_length += std::max(within, 0.0) * bin.scattering * bin.transmittance(kInfinity);
+    lit += std::max(within, 0.0) * bin.scattering * bin.transmittance(kInfinity);
   }
+  return lit;
 }
 
 double subtended_angle(double h, double from, double till) {

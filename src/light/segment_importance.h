@@ -27,12 +27,14 @@ struct Segment {
   Vec3d o, d;     ///< d is unit
   double t0, t1;  ///< t1 may be infinite
   double length;  ///< t1 - t0, or what stands for it
-  /// The part of it that scatters light from infinity toward the origin: length x mean of scattering x transmittance.
-  double lit_length;
-  double g;  ///< mean cosine of the phase function, kept off -1 and 1
+  double g;       ///< mean cosine of the phase function, kept off -1 and 1
   MediaStrategy importance;
   bool mis_partner;
   SmallVector<Bin, SegmentProfile::kBins> bins;  ///< those that scatter; none: the profile is not read or says nothing
+
+  /// The part of `length` that scatters light from infinity toward the origin: times the mean of scattering x
+  /// transmittance.
+  double lit_length() const;
 };
 
 /// What is scattered toward the origin counts at least this much, relative to isotropic scattering of the bin that

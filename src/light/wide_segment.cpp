@@ -33,9 +33,9 @@ Float8 angle_per_length(Float8 h, Float8 x, float part, float length) {
   const Float8 y = h * part, ax = abs(x);
   const Mask8 steep = y > ax, behind = x < 0.0f;
   const Float8 q = choose(steep, ax, h) / choose(steep, y, ax);
-  const Float8 r = choose(steep, q, q * part);
-  const Float8 angle = choose(steep, q / length, q * (part / length)) * fast_atan_ratio(r * r);
-  const Float8 base = choose(steep, kHalfPi8 / length, choose(behind, 2 * kHalfPi8 / length, 0.0f));
+  const Float8 r = q * choose(steep, 1.0f, part), per_length = 1 / length;
+  const Float8 angle = q * choose(steep, per_length, part / length) * fast_atan_ratio(r * r);
+  const Float8 base = choose(steep, kHalfPi8, choose(behind, 2 * kHalfPi8, 0.0f)) * per_length;
   return choose(steep != behind, base - angle, base + angle);
 }
 
@@ -59,10 +59,12 @@ Float8 largest_cosine(const Emission8& emission, const Passage8& pass, const Vec
 /// What is reckoned of the emission toward the place `s` of the line.
 struct Toward8 {
   const Emission8& emission;
+  bool any;              ///< is directed
   Float8 across, along;  ///< components along the axis of the foot and of the line's direction
   Float8 bound;
 
   Float8 operator()(Float8 s, Float8 per_distance) const {
+    if (!any) return 1;
     return emission.likely(emission.folded(across + s * along) * per_distance, bound);
   }
 };
@@ -99,22 +101,44 @@ Float8 phase_ratio(Float8 g, Float8 cosine) {
   return (1 - g2) * per_d * per_d * per_d;
 }
 
-/// Integral over the angle, per length, of scattering x transmittance x phase function x emission, as
-/// scattering_angle() in segment_importance.cpp.
-Float8 scattered_per_length(const WideSegment& segment, const Line8& line, const Toward8& toward) {
-  Float8 sum = 0, to_begin = 0;
+/// A bin as eight places see it.
+struct Part8 {
+  Float8 angle;         ///< that it is seen under, per length of the segment
+  Float8 place, per_r;  ///< in the middle of it, and 1 / the distance there
+};
+using Parts8 = std::array<Part8, SegmentProfile::kBins>;
+
+/// In a pass of its own: each of the two has enough independent work to hide its latencies behind.
+void see_parts(const WideSegment& segment, const Line8& line, Parts8& parts) {
+  Float8 to_begin = 0;
   float last = kInfinity;
   for (int i = 0; i < segment.bins; ++i) {
     const WideSegment::Bin& bin = segment.bin[static_cast<std::size_t>(i)];
+    Part8& part = parts[static_cast<std::size_t>(i)];
     const Float8 from = bin.begin - line.along, till = bin.end - line.along;
     if (bin.begin != last) to_begin = line.distance(from);
     const Float8 to_end = line.distance(till);
-    const Float8 angle = angle_per_length(line.h, line.h2 + from * till, bin.length, segment.length);
-    const Float8 place = middle_of_angle(line.h2, from, to_begin, till, to_end);
-    const Float8 r2 = line.h2 + place * place, per_r = fast_rsqrt(r2);
+    part.angle = angle_per_length(line.h, line.h2 + from * till, bin.length, segment.length);
+    part.place = middle_of_angle(line.h2, from, to_begin, till, to_end);
+    part.per_r = fast_rsqrt(line.h2 + part.place * part.place);
+    to_begin = to_end;
+    last = bin.end;
+  }
+}
+
+/// Integral over the angle, per length, of scattering x transmittance x phase function x emission, as
+/// scattering_angle() in segment_importance.cpp.
+Float8 scattered_per_length(const WideSegment& segment, const Line8& line, const Toward8& toward) {
+  Parts8 parts;
+  see_parts(segment, line, parts);
+  Float8 sum = 0;
+  for (int i = 0; i < segment.bins; ++i) {
+    const WideSegment::Bin& bin = segment.bin[static_cast<std::size_t>(i)];
+    const auto& [angle, place, per_r] = parts[static_cast<std::size_t>(i)];
     Float8 weight = bin.scattering * toward(place, per_r);
     if (bin.sigma > 0) {
-      const Float8 r = max(r2 * per_r - min(kNearer * bin.sigma * line.spread2, kNearerAtMost * line.spread), Float8(0.0f));
+      const Float8 nearer = min(kNearer * bin.sigma * line.spread2, kNearerAtMost * line.spread);
+      const Float8 r = max((line.h2 + place * place) * per_r - nearer, Float8(0.0f));
       weight *= fast_exp_minus(min(r * bin.sigma, Float8(bin.escape)));
     }
     if (segment.g != 0) {
@@ -122,8 +146,6 @@ Float8 scattered_per_length(const WideSegment& segment, const Line8& line, const
       weight *= phase_ratio(segment.g * narrow * (1 - turn * turn * (1.0f / 24)), -place * per_r);
     }
     sum += weight * angle;
-    to_begin = to_end;
-    last = bin.end;
   }
   return sum;
 }
@@ -132,7 +154,8 @@ Float8 scattered_per_length(const WideSegment& segment, const Line8& line, const
 Float8 received(const WideSegment& segment, const Places8& at, const Emission8& emission, Float8 bound) {
   const Passage8 mean(at.mean, splat8(segment.d));
   const Line8 line(mean, at.deviation, segment.from);
-  const Toward8 toward{emission, emission.along(mean.foot), emission.along(splat8(segment.d)), bound};
+  const Toward8 toward{emission, any_of(emission.directed), emission.along(mean.foot), emission.along(splat8(segment.d)),
+                       bound};
   const Float8 from = segment.from - line.along, till = segment.till - line.along;
   if (segment.importance == MediaStrategy::closest) {
     const Float8 nearest = min(max(Float8(0.0f), from), till), per_r = fast_rsqrt(line.h2 + nearest * nearest);
@@ -151,7 +174,8 @@ WideSegment WideSegment::from_segment(const Segment& s, double to_unit, Vec3d mi
   const Vec3d o = s.o * to_unit;
   const double near = std::clamp(dot(middle - o, s.d), s.t0 * to_unit, s.t1 * to_unit);
   const Vec3d p = o + s.d * near;
-  const double shrink = std::min(1.0, WideQuery::kFar / std::max(largest(p), 1e-300)), scale = to_unit * shrink;
+  const double shrink = std::min(1.0, WideQuery::kFar / std::max(largest(p), 1e-300)), scale = to_unit * shrink,
+               per_scale = 1 / scale;
   const auto place = [&](double t) {
     return static_cast<float>(std::clamp((t * to_unit - near) * shrink, -double(kFar), double(kFar)));
   };
@@ -172,7 +196,7 @@ WideSegment WideSegment::from_segment(const Segment& s, double to_unit, Vec3d mi
            place(b.end),
            0,
            static_cast<float>(b.scattering),
-           static_cast<float>(std::min(b.sigma / scale, 1e30)),
+           static_cast<float>(std::min(b.sigma * per_scale, 1e30)),
            static_cast<float>(std::min(b.escape, double(kLargestDepth)))};
     bin.length = bin.end - bin.begin;
     if (bin.length >= kShort) ++w.bins;
