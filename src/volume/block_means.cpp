@@ -17,23 +17,33 @@ double mean_of(const float* corner) {
   return sum / (kCells * kCells * kCells);
 }
 
-std::uint8_t step_of(double mean, const ValueRange& range) {
-  const double width = double{range.max} - range.min;
-  if (!(width > 0)) return 0;
-  const double step = std::round((mean - range.min) / width * 255);
-  return static_cast<std::uint8_t>(std::clamp(step, mean == 0 ? 0.0 : 1.0, 255.0));
+std::uint8_t step_of(double mean, double low, double step) {
+  const double steps = step > 0 ? std::round((mean - low) / step) : 0;
+  return static_cast<std::uint8_t>(std::clamp(steps, mean == 0 ? 0.0 : 1.0, 255.0));
 }
 
 }  // namespace
 
-void BlockMeans::add(const float* voxels, const ChannelRanges& ranges) {
+/// Slot 0 stands for all bricks of one value; nobody asks for its means.
+BlockMeans::BlockMeans(int channels)
+    : channels_(static_cast<std::size_t>(channels)), steps_(channels_ * kBlocks), scales_(channels_) {}
+
+void BlockMeans::shrink_to_fit() {
+  steps_.shrink_to_fit();
+  scales_.shrink_to_fit();
+}
+
+void BlockMeans::add(const float* voxels) {
   constexpr int kY = BrickStore::kVoxelSide, kZ = kY * kY;
   for (std::size_t c = 0; c < channels_; ++c) {
     const float* channel = voxels + c * BrickStore::kVoxels;
+    const auto [low, high] = std::minmax_element(channel, channel + BrickStore::kVoxels);
+    const auto step = static_cast<float>((double{*high} - *low) / 255);
+    scales_.push_back({*low, step});
     for (int z = 0; z < BrickStore::kSide; z += kCells)
       for (int y = 0; y < BrickStore::kSide; y += kCells)
         for (int x = 0; x < BrickStore::kSide; x += kCells)
-          steps_.push_back(step_of(mean_of(channel + z * kZ + y * kY + x), ranges[c]));
+          steps_.push_back(step_of(mean_of(channel + z * kZ + y * kY + x), *low, step));
   }
 }
 

@@ -76,6 +76,44 @@ class BrickGridBuilder {
       grid_.support_.lo[i] = static_cast<double>(non_zero_.lo[axis] - 1 - grid_.origin_[axis]);
       grid_.support_.hi[i] = static_cast<double>(non_zero_.hi[axis] + 1 - grid_.origin_[axis]);
     }
+    fill_directory();
+  }
+
+  void fill_directory() {
+    BrickDirectory::Size size;
+    for (std::size_t i = 0; i < 3; ++i) size[i] = ((non_zero_.hi[i] - grid_.origin_[i]) >> BrickGrid::kBrickLog2) + 1;
+    grid_.directory_ = BrickDirectory(size, grid_.bricks_.size(), entry(BrickStore::kNothing));
+    if (grid_.directory_.empty()) return;
+    for (std::size_t i = 0; i < 3; ++i) {
+      grid_.bounds_.lo[i] = grid_.support_.lo.v[i];
+      grid_.bounds_.hi[i] = grid_.support_.hi.v[i];
+      grid_.bounds_.last[i] = static_cast<std::int32_t>(grid_.support_.hi.v[i]) - 1;
+    }
+    enter_node(grid_.root(), grid_.root_level_, {0, 0, 0});
+  }
+
+  BrickDirectory::Entry entry(std::uint32_t brick) const { return {brick, grid_.bricks_.plane(brick, 0)}; }
+
+  /// `corner` in bricks.
+  void enter_node(std::uint32_t number, int level, const BrickDirectory::Size& corner) {
+    const BrickGrid::Node node = grid_.nodes_[number];
+    const std::int64_t side = std::int64_t{1} << (2 * level);
+    if (node.is_leaf()) {
+      std::uint32_t end[3];
+      for (std::size_t i = 0; i < 3; ++i)
+        end[i] = static_cast<std::uint32_t>(std::min<std::int64_t>(corner[i] + side, grid_.directory_.size(i)));
+      for (auto z = static_cast<std::uint32_t>(corner[2]); z < end[2]; ++z)
+        for (auto y = static_cast<std::uint32_t>(corner[1]); y < end[1]; ++y)
+          for (auto x = static_cast<std::uint32_t>(corner[0]); x < end[0]; ++x) grid_.directory_.set(x, y, z, entry(node.first));
+      return;
+    }
+    std::uint32_t child = node.first;
+    for (std::int64_t slot = 0; slot < 64; ++slot) {
+      if (!(node.mask >> slot & 1)) continue;
+      const BrickDirectory::Size at{corner[0] + (slot & 3) * side / 4, corner[1] + (slot >> 2 & 3) * side / 4,
+                                    corner[2] + (slot >> 4) * side / 4};
+      enter_node(child++, level - 1, at);
+    }
   }
 
   /// `blocks` reach into the node's voxels, the layer shared with the next node included.
@@ -185,7 +223,7 @@ class BrickGridBuilder {
     if (!non_zero_.contains(box)) note_non_zero(box.lo);
     Built built;
     built.node.first = grid_.bricks_.add(voxels_.data(), built.ranges);
-    grid_.block_means_.add(voxels_.data(), built.ranges);
+    grid_.block_means_.add(voxels_.data());
     return built;
   }
 

@@ -14,6 +14,7 @@
 
 #include "volume/affine.h"
 #include "volume/block_means.h"
+#include "volume/brick_directory.h"
 #include "volume/brick_store.h"
 #include "volume/voxel_source.h"
 
@@ -66,27 +67,38 @@ class BrickGrid {
     return node;
   }
 
-  /// Trilinear values of all channels at local point `p` into `out`; 0 outside.
-  void lookup(const Vec3d& p, float* out) const;
-  float lookup(const Vec3d& p) const {
-    float out[kMaxChannels];
-    lookup(p, out);
-    return out[0];
+  /// Number of the brick that holds the cell, BrickStore::kNothing where it is empty. The cell must lie in support().
+  std::uint32_t brick_at(const Index3& cell) const;
+  /// Trilinear value of the first channel at t of a line in local coordinates; 0 outside.
+  float lookup(const Line& line, double t) const {
+    if (directory_.empty()) return lookup_by_tree(line, t);
+    std::uint32_t cell[3];
+    bool inside;
+    const BrickPoint point(line, t, bounds_, cell, inside);
+    if (!inside) return 0;
+    return bricks_.read(directory_.at(cell[0] >> kBrickLog2, cell[1] >> kBrickLog2, cell[2] >> kBrickLog2).plane, point);
   }
-
+  /// At local point `p`.
+  float lookup(const Vec3d& p) const { return lookup(Line{{p[0], p[1], p[2], 0}, {}}, 0); }
+  /// Of all channels, into `out`.
+  void lookup(const Vec3d& p, float* out) const;
   /// Means of all channels over the block of cells that holds local point `p` in support(), rounded as BlockMeans says.
   void block_mean(const Vec3d& p, float* out) const;
 
  private:
   friend class BrickGridBuilder;
+  Index3 cell_of(const Vec3d& p) const;
+  float lookup_by_tree(const Line& line, double t) const;
 
   int root_level_ = 0;
   Index3 origin_{};
   Box3d support_{{{0, 0, 0}}, {{-1, -1, -1}}};
+  CellBounds bounds_;  // support_ once more, with a directory only
   std::vector<Node> nodes_;
   std::vector<ValueRange> ranges_;  // channels() a node
   BrickStore bricks_;
   BlockMeans block_means_;
+  BrickDirectory directory_;
 };
 
 }  // namespace tyndall

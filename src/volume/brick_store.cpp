@@ -28,44 +28,45 @@ ValueRange range_of(const float* voxels) {
 
 }  // namespace
 
-BrickStore::BrickStore(int channels, bool floats) : channels_(channels), floats_only_(floats) { add_slot(); }
+BrickStore::BrickStore(int channels, bool floats) : channels_(channels), floats_only_(floats) {
+  add_slot();
+  const float zeros[kMaxChannels] = {};
+  ChannelRanges ranges;
+  add_constant(zeros, ranges);
+}
 
 std::size_t BrickStore::memory_bytes() const {
-  return slots_.capacity() * sizeof(std::uint32_t) + decodes_.capacity() * sizeof(Decode) +
-         steps_.capacity() * sizeof(std::uint16_t) + floats_.capacity() * sizeof(float);
+  return planes_.capacity() * sizeof(Plane) + steps_.capacity() * sizeof(std::uint16_t) + floats_.capacity() * sizeof(float);
 }
 
 void BrickStore::shrink_to_fit() {
-  slots_.shrink_to_fit();
-  decodes_.shrink_to_fit();
+  planes_.shrink_to_fit();
   steps_.shrink_to_fit();
   floats_.shrink_to_fit();
 }
 
 std::uint32_t BrickStore::add_constant(const float* values, ChannelRanges& ranges) {
-  slots_.push_back(0);
   for (int c = 0; c < channels_; ++c) {
-    decodes_.push_back({values[c], 0});
+    planes_.push_back({static_cast<std::uint32_t>(c), {values[c], 0}});
     ranges[static_cast<std::size_t>(c)] = {values[c], values[c], values[c]};
   }
-  return static_cast<std::uint32_t>(slots_.size() - 1);
+  return static_cast<std::uint32_t>(size() - 1);
 }
 
 std::uint32_t BrickStore::add(float* voxels, ChannelRanges& ranges) {
-  const std::uint32_t slot = add_slot();
-  slots_.push_back(slot);
-  for (int c = 0; c < channels_; ++c) {
+  std::uint32_t plane = add_slot() * static_cast<std::uint32_t>(channels_);
+  for (int c = 0; c < channels_; ++c, ++plane) {
     float* channel = voxels + c * kVoxels;
-    const std::size_t to = (std::size_t{slot} * static_cast<std::size_t>(channels_) + static_cast<std::size_t>(c)) * kVoxels;
+    const std::size_t to = std::size_t{plane} * kVoxels;
     if (floats_only_) {
       std::copy_n(channel, kVoxels, floats_.data() + to);
-      decodes_.push_back({0, 1});
+      planes_.push_back({plane, {0, 1}});
     } else {
-      quantise(channel, steps_.data() + to);
+      planes_.push_back({plane, quantise(channel, steps_.data() + to)});
     }
     ranges[static_cast<std::size_t>(c)] = range_of(channel);
   }
-  return static_cast<std::uint32_t>(slots_.size() - 1);
+  return static_cast<std::uint32_t>(size() - 1);
 }
 
 std::uint32_t BrickStore::add_slot() {
@@ -87,7 +88,7 @@ BrickStore::Decode BrickStore::quantiser(float low, float high) {
   return {-(below * step), step};
 }
 
-void BrickStore::quantise(float* voxels, std::uint16_t* steps) {
+BrickStore::Decode BrickStore::quantise(float* voxels, std::uint16_t* steps) {
   const auto [low, high] = std::minmax_element(voxels, voxels + kVoxels);
   const Decode d = quantiser(*low, *high);
   const double inverse = d.step > 0 ? 1 / double{d.step} : 0;
@@ -96,7 +97,7 @@ void BrickStore::quantise(float* voxels, std::uint16_t* steps) {
     steps[i] = static_cast<std::uint16_t>(std::min(q, 65535.0));
     voxels[i] = d.low + d.step * static_cast<float>(steps[i]);
   }
-  decodes_.push_back(d);
+  return d;
 }
 
 }  // namespace tyndall

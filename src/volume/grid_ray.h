@@ -30,6 +30,8 @@ class GridRay {
     }
   }
 
+  /// For reading the grid along the ray.
+  Line line() const { return {{o_[0], o_[1], o_[2], 0}, {d_[0], d_[1], d_[2], 0}}; }
   Vec3d at(double t) const { return {{o_[0] + t * d_[0], o_[1] + t * d_[1], o_[2] + t * d_[2]}}; }
 
   /// Cells a unit of t.

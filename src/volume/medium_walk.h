@@ -6,7 +6,7 @@
 #include <limits>
 #include <tuple>
 
-#include "volume/grid_ray.h"
+#include "volume/brick_reader.h"
 #include "volume/medium_data.h"
 #include "volume/phase_mix.h"
 
@@ -52,6 +52,7 @@ class MediumWalk {
     t_ = t_end_;
     if (t_ >= limit_) return false;
     ++steps_;
+    reading_ = false;
     if (t_ >= inside_end_ || steps_ > max_steps_) return pass(limit_);
     if (t_ < inside_begin_) return pass(inside_begin_);
     switch (medium_->kind) {
@@ -196,27 +197,32 @@ class MediumWalk {
   }
 
   void read_grid(double t, LocalOptics& result) {
-    const BrickGrid& grid = medium_->density.grid;
-    const Vec3d p = local_.at(t);
-    Index3 corner = node_corner_;
-    std::uint32_t leaf = node_;
-    if (!grid.node(node_).is_leaf()) {
-      const std::int64_t size = BrickGrid::extent(node_level_);
-      Index3 cell;
-      for (std::size_t i = 0; i < 3; ++i) {
-        cell[i] = std::clamp(static_cast<std::int64_t>(p.v[i]), corner[i], corner[i] + size - 1);
-        corner[i] = cell[i] & ~std::int64_t{7};
-      }
-      leaf = grid.leaf(node_, node_level_, cell);
-      if (leaf == BrickGrid::kNone) return;
-    }
-    const auto offset = [&](std::size_t i) { return static_cast<float>(p.v[i] - static_cast<double>(corner[i])); };
-    const BrickStore& bricks = grid.bricks();
-    const std::uint32_t brick = grid.node(leaf).first;
-    if (bricks.channels() == 1) return scale_by(bricks.lookup(brick, offset(0), offset(1), offset(2)), result);
+    if (!reading_ && !start_reading(t)) return;
+    if (medium_->density.grid.channels() == 1) return scale_by(reader_.value(t), result);
     float values[kMaxChannels];
-    bricks.lookup_all(brick, offset(0), offset(1), offset(2), values);
+    reader_.values(t, values);
     medium_->scale_by(values, result.sigma_a, result.sigma_s);
+  }
+
+  /// Bring the reader to the leaf at t; false where it is empty.
+  bool start_reading(double t) {
+    const BrickGrid& grid = medium_->density.grid;
+    if (grid.node(node_).is_leaf()) {
+      reader_.enter(grid, local_, node_, node_corner_);
+      reading_ = true;
+      return true;
+    }
+    const std::int64_t size = BrickGrid::extent(node_level_);
+    const Vec3d p = local_.at(t);
+    Index3 cell, corner;
+    for (std::size_t i = 0; i < 3; ++i) {
+      cell[i] = std::clamp(static_cast<std::int64_t>(p.v[i]), node_corner_[i], node_corner_[i] + size - 1);
+      corner[i] = cell[i] & ~std::int64_t{7};
+    }
+    const std::uint32_t leaf = grid.leaf(node_, node_level_, cell);
+    if (leaf == BrickGrid::kNone) return false;
+    reader_.enter(grid, local_, leaf, corner);
+    return true;
   }
 
   const MediumData* medium_;
@@ -231,6 +237,8 @@ class MediumWalk {
   Index3 node_corner_{};  // of the current piece's node
   std::uint32_t node_ = BrickGrid::kNone;
   int node_level_ = 0;
+  bool reading_ = false;  // the piece is one brick, and the reader is there
+  BrickReader reader_;
 };
 
 }  // namespace tyndall

@@ -55,6 +55,47 @@ TEST_CASE("look-ups agree with the dense oracle, anywhere in index space, for on
     }
 }
 
+TEST_CASE("bricks far apart are found through the tree, without memory for what lies between them") {
+  for (const int channels : {1, 3}) {
+    OracleSource source(channels);
+    Rng rng(8);
+    for (const Index3& corner : {Index3{0, 0, 0}, Index3{80000, -160000, 8}, Index3{-800, 240, 1 << 20}})
+      source.add_leaf(corner, [&](std::int64_t, std::int64_t, std::int64_t) { return rng.uniform(); });
+    const BrickGrid grid = build_brick_grid(source, {});
+    CHECK(grid.memory_bytes() < 1u << 20);
+    double worst = 0;
+    for (int i = 0; i < 3000; ++i) {
+      Vec3d index{{10 * rng.uniform_wide() - 1, 10 * rng.uniform_wide() - 1, 10 * rng.uniform_wide() - 1}};
+      const double corner[3][3] = {{0, 0, 0}, {80000, -160000, 8}, {-800, 240, 1 << 20}};
+      Vec3d local;
+      for (int axis = 0; axis < 3; ++axis) {
+        index[axis] += corner[i % 3][axis];
+        local[axis] = index[axis] - static_cast<double>(grid.origin()[static_cast<std::size_t>(axis)]);
+      }
+      float values[kMaxChannels];
+      grid.lookup(local, values);
+      CHECK(values[0] == grid.lookup(local));
+      for (int c = 0; c < channels; ++c) worst = std::max(worst, std::abs(values[c] - source.lookup(index, c)) / bound(c + 1.0));
+    }
+    CHECK(worst < 1);
+  }
+}
+
+TEST_CASE("a look-up of one channel, of all and along a line are the same") {
+  const OracleSource source = test::random_voxels(12, {0, -8, 16});
+  const BrickGrid grid = build_brick_grid(source, {});
+  Rng rng(13);
+  for (int i = 0; i < 5000; ++i) {
+    const Vec3d p = random_local(grid, rng), d = random_local(grid, rng);
+    const Line line{{p[0], p[1], p[2], 0}, {d[0] - p[0], d[1] - p[1], d[2] - p[2], 0}};
+    float value;
+    grid.lookup(p, &value);
+    CHECK(std::abs(value - grid.lookup(p)) < 1e-5f);
+    CHECK(grid.lookup(line, 0) == grid.lookup(p));
+    CHECK(std::abs(grid.lookup(line, 1) - grid.lookup(d)) < 1e-4f);
+  }
+}
+
 TEST_CASE("float bricks hold voxels exactly") {
   const OracleSource source = test::random_voxels(3, {-16, 8, 64});
   const BrickGrid grid = build_brick_grid(source, {.rules = {}, .float_bricks = true});

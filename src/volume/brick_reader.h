@@ -1,0 +1,37 @@
+/// Reads a grid along one ray, again and again in the same brick.
+#pragma once
+
+#include "volume/brick_grid.h"
+#include "volume/grid_ray.h"
+
+namespace tyndall {
+
+/// Where the ray lies on the axes of the brick that is read, and that brick's voxels: what many look-ups there share.
+class BrickReader {
+ public:
+  BrickReader() = default;
+  /// To the leaf `node` of `grid`, whose lower corner is `corner`; `ray` in the grid's local coordinates.
+  void enter(const BrickGrid& grid, const GridRay& ray, std::uint32_t node, const Index3& corner) {
+    bricks_ = &grid.bricks();
+    brick_ = grid.node(node).first;
+    plane_ = bricks_->plane(brick_, 0);
+    line_ = ray.line();
+    for (std::size_t i = 0; i < 3; ++i) line_.o[i] -= static_cast<double>(corner[i]);
+  }
+
+  /// First channel at t of the ray, clamped to the brick, so that no rounding leaves the range of its majorant.
+  float value(double t) const { return bricks_->read(plane_, BrickPoint(line_, t)); }
+  /// All channels.
+  void values(double t, float* out) const {
+    const BrickPoint point(line_, t);
+    for (int c = 0; c < bricks_->channels(); ++c) out[c] = bricks_->read(bricks_->plane(brick_, c), point);
+  }
+
+ private:
+  Line line_;
+  BrickStore::Plane plane_;  // of the first channel
+  const BrickStore* bricks_ = nullptr;
+  std::uint32_t brick_ = 0;
+};
+
+}  // namespace tyndall
