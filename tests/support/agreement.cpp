@@ -56,6 +56,51 @@ void check_difference(const std::string& name, int channel, double value, const 
                 " s and ", m.spp, " samples a pixel");
 }
 
+/// Until the image means have at most `share` of the variance that a comparison at d allows.
+Measured measure_share(const std::string& name, const Contender& c, double share, const Agreement& how) {
+  const double d = how.d.value_or(required_precision());
+  Subject subject(c.scene, c.variant);
+  const auto too_much = [&](const MeanImage& image) {
+    double worst = 0;
+    for (int k = 0; k < 3; ++k) {
+      const Estimate e = image_mean(image, k);
+      worst = std::max(worst, excess(e, d / kResolution * e.mean) / share);
+    }
+    return worst;
+  };
+  Measured measured = measure(subject, {.excess = too_much, .seconds = budget(how), .stream = stream_of(name + c.name)});
+  check_faults(name + ", " + c.name, subject);
+  return measured;
+}
+
+/// The mean of independent estimates, equally weighted; its degrees of freedom by Welch and Satterthwaite.
+Estimate mean_of(const std::vector<Estimate>& estimates) {
+  const auto n = static_cast<double>(estimates.size());
+  Estimate mean{0, 0, 0};
+  double fourth = 0;
+  for (const Estimate& e : estimates) {
+    mean.mean += e.mean / n;
+    mean.variance += e.variance / (n * n);
+    if (e.dof > 0) fourth += e.variance * e.variance / e.dof / (n * n * n * n);
+  }
+  mean.dof = fourth > 0 ? mean.variance * mean.variance / fourth : 1e9;
+  return mean;
+}
+
+MeanImage mean_of_others(const std::vector<MeanImage>& images, std::size_t one) {
+  MeanImage result = images[one];
+  for (int k = 0; k < 3; ++k) {
+    for (std::size_t pixel = 0; pixel < result.channels[k].size(); ++pixel) {
+      std::vector<Estimate> others;
+      for (std::size_t i = 0; i < images.size(); ++i) {
+        if (i != one) others.push_back(images[i].channels[k][pixel]);
+      }
+      result.channels[k][pixel] = mean_of(others);
+    }
+  }
+  return result;
+}
+
 }  // namespace
 
 double required_precision() { return nightly() ? 0.003 : 0.01; }
@@ -99,21 +144,7 @@ void check_vanishes(const std::string& name, const std::string& scene, double bo
 void check_same(const std::string& name, const std::vector<Contender>& contenders, const Agreement& how) {
   const double d = how.d.value_or(required_precision());
   std::vector<Measured> measured;
-  for (const Contender& c : contenders) {
-    Subject subject(c.scene, c.variant);
-    measured.push_back(measure(subject, {.excess = [&](const MeanImage& image) {
-                                           double worst = 0;
-                                           for (int k = 0; k < 3; ++k) {
-                                             const Estimate e = image_mean(image, k);
-                                             // Each side may hold half of the variance.
-                                             worst = std::max(worst, 2 * excess(e, d / kResolution * e.mean));
-                                           }
-                                           return worst;
-                                         },
-                                         .seconds = budget(how),
-                                         .stream = stream_of(name + c.name)}));
-    check_faults(name + ", " + c.name, subject);
-  }
+  for (const Contender& c : contenders) measured.push_back(measure_share(name, c, 0.5, how));
 
   const std::size_t n = contenders.size();
   const auto pairs = static_cast<double>(n * (n - 1) / 2);
@@ -129,6 +160,31 @@ void check_same(const std::string& name, const std::vector<Contender>& contender
       CHECK_MESSAGE(w.welch.p >= sidak(1e-3, pairs * double(blocks.size())), title, ": block ", w.x, ",", w.y,
                     " differs by ", w.welch.t, " standard errors");
     }
+  }
+}
+
+void check_all_agree(const std::string& name, const std::string& scene,
+                     const std::vector<std::pair<std::string, Variant>>& variants, const Agreement& how) {
+  const double d = how.d.value_or(required_precision());
+  const auto n = static_cast<double>(variants.size());
+  std::vector<Measured> measured;
+  std::vector<MeanImage> images, blocks;
+  for (const auto& [title, variant] : variants) {
+    measured.push_back(measure_share(name, {title, scene, variant}, (n - 1) / n, how));
+    images.push_back(measured.back().image);
+    blocks.push_back(block_means(images.back(), 8));
+  }
+  for (std::size_t i = 0; i < variants.size(); ++i) {
+    const std::string title = name + ": " + variants[i].first;
+    const MeanImage others = mean_of_others(images, i);
+    for (int k = 0; k < 3; ++k) {
+      const Estimate a = image_mean(images[i], k), b = image_mean(others, k);
+      check_difference(title, k, b.mean, welch_test(a, b), measured[i], {1.05 * d, 0});  // both errors are estimates
+    }
+    const auto tests = block_test(blocks[i], mean_of_others(blocks, i));
+    const BlockDifference& w = worst(tests);
+    CHECK_MESSAGE(w.welch.p >= sidak(1e-3, n * double(tests.size())), title, ": block ", w.x, ",", w.y, " differs by ",
+                  w.welch.t, " standard errors");
   }
 }
 

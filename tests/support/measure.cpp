@@ -25,6 +25,8 @@ RenderSettings settings_of(const Scene& scene, const Variant& variant) {
   settings.candidates = variant.candidates;
   settings.shadow_rays = variant.shadow_rays;
   settings.splitting = variant.splitting;
+  settings.media = variant.media;
+  settings.distance = variant.distance;
   settings.reproducible = true;
   return settings;
 }

@@ -16,8 +16,11 @@ struct Variant {
   LightStrategy lights = LightStrategy::tree;
   TransmittanceStrategy transmittance = TransmittanceStrategy::residual;
   int threads = 0;
-  int candidates = 1, shadow_rays = 1;
+  std::optional<int> candidates{};
+  int shadow_rays = 1;
   float splitting = 0;
+  MediaStrategy media = MediaStrategy::product;
+  DistanceStrategy distance = DistanceStrategy::automatic;
 };
 
 /// Builds a world and renders it as often as asked.

@@ -1,0 +1,120 @@
+/// One picture of a medium among lights, made by every way of choosing lights, distances and transmittances that there
+/// is: a covering set of combinations per commit, all of them nightly.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "support/agreement.h"
+#include "support/covering.h"
+#include "support/scene_text.h"
+
+using namespace tyndall;
+using namespace tyndall::test;
+
+namespace {
+
+constexpr Bounds3 kBox{{-1, -1, -1}, {1, 1, 1}};
+
+std::string look(int max_depth) {
+  return view({.eye = {1.4f, 0.9f, -3.4f}, .look = {0, -0.1f, 0}, .fov_degrees = 38, .resolution = 16, .max_depth = max_depth});
+}
+
+/// Point and area lights in the box and around it, a sun and a sky.
+std::string lights() {
+  std::string text = environment(0.08f) + distant_light({1, -1, 2}, 0.2f);
+  for (int i = 0; i < 12; ++i) {
+    const float a = 0.9f * i;
+    text += point_light({(0.4f + 0.1f * i) * std::cos(a), -0.9f + 0.15f * i, (0.4f + 0.1f * i) * std::sin(a)}, 0.03f * (1 + i % 4));
+  }
+  for (int i = 0; i < 4; ++i) text += emitting_square({-0.9f + 0.6f * i, 0.3f * i - 0.4f, 0.5f}, 0.06f, 3.0f + i);
+  text += emitting_square({0, 1.4f, 1.6f}, 0.4f, 1.5f);
+  return text + block("Translate 0.5 -0.5 -0.6\nAreaLightSource \"diffuse\" \"rgb L\" [4 2 1]\nShape \"sphere\" \"float radius\" 0.12\n");
+}
+
+Grid holes() {
+  Grid grid{kBox, 7, 6, 8, {}};
+  for (int i = 0; i < 7 * 6 * 8; ++i) {
+    const int x = i % 7, y = i / 7 % 6, z = i / 42;
+    const float r2 = float((x - 3) * (x - 3) + (y - 2) * (y - 2) + (z - 4) * (z - 4));
+    grid.density.push_back((x * 5 + y * 3 + z * 7) % 5 == 0 ? 0.0f : std::max(0.05f, 1 - r2 / 16));
+  }
+  return grid;
+}
+
+struct Factors {
+  std::vector<MediaStrategy> media{MediaStrategy::vertex, MediaStrategy::closest, MediaStrategy::integral, MediaStrategy::product};
+  std::vector<DistanceStrategy> distance{DistanceStrategy::tracking, DistanceStrategy::equiangular, DistanceStrategy::both,
+                                         DistanceStrategy::profile};
+  std::vector<float> splitting{0, 0.6f};
+  std::vector<std::pair<std::optional<int>, int>> candidates{{std::nullopt, 1}, {1, 1}, {5, 2}, {0, 0}};  ///< and shadow rays
+  std::vector<LightStrategy> lights{LightStrategy::tree, LightStrategy::tree_binary, LightStrategy::power};
+  std::vector<TransmittanceStrategy> transmittance{TransmittanceStrategy::residual, TransmittanceStrategy::ratio,
+                                                   TransmittanceStrategy::delta};
+
+  std::vector<std::size_t> sizes() const {
+    return {media.size(), distance.size(), splitting.size(), candidates.size(), lights.size(), transmittance.size()};
+  }
+  Variant variant(const Combination& c) const {
+    Variant v;
+    v.media = media[c[0]];
+    v.distance = distance[c[1]];
+    v.splitting = splitting[c[2]];
+    v.candidates = candidates[c[3]].first;
+    v.shadow_rays = candidates[c[3]].second;
+    v.lights = lights[c[4]];
+    v.transmittance = transmittance[c[5]];
+    return v;
+  }
+};
+
+bool allowed(const Combination& c) { return c[0] != 0 || c[1] == 0; }  // a collision's light has no distance of its own
+
+void check_media(const std::string& name, const std::string& scene) {
+  const Factors factors;
+  std::vector<std::pair<std::string, Variant>> variants;
+  for (const Combination& c : nightly() ? all_combinations(factors.sizes(), allowed) : covering_combinations(factors.sizes(), allowed)) {
+    std::string title;
+    for (const std::size_t i : c) title += std::to_string(i);
+    variants.emplace_back(title, factors.variant(c));
+  }
+  check_all_agree(name, scene, variants);
+}
+
+}  // namespace
+
+TEST_CASE("covering combinations hold every allowed pair") {
+  const Factors factors;
+  const auto chosen = covering_combinations(factors.sizes(), allowed);
+  CHECK(chosen.size() <= 24);
+  for (const Combination& c : all_combinations(factors.sizes(), allowed)) {
+    for (std::size_t j = 1; j < c.size(); ++j) {
+      for (std::size_t i = 0; i < j; ++i) {
+        CHECK(std::any_of(chosen.begin(), chosen.end(), [&](const Combination& x) { return x[i] == c[i] && x[j] == c[j]; }));
+      }
+    }
+  }
+}
+
+TEST_CASE("thin medium") {
+  check_media("thin", look(2) + lights() + homogeneous("m", {.sigma_a = {0.02f, 0.05f, 0.1f}, .sigma_s = {0.3f, 0.2f, 0.1f}, .g = 0.2f}) +
+                          medium_box("m", "", kBox));
+}
+
+TEST_CASE("dense medium") {
+  check_media("dense", look(3) + lights() + homogeneous("m", {.sigma_a = {0.5f, 0.2f, 1}, .sigma_s = {5, 6, 3}}) + medium_box("m", "", kBox));
+}
+
+TEST_CASE("forward scattering, g = 0.9") {
+  check_media("forward", look(3) + lights() + homogeneous("m", {.sigma_a = {0.1f, 0.1f, 0.2f}, .sigma_s = {1.2f, 1, 0.8f}, .g = 0.9f}) +
+                             medium_box("m", "", kBox));
+}
+
+TEST_CASE("a grid with holes and a homogeneous medium that overlap, camera in unbounded fog") {
+  const View fog{.eye = {1.4f, 0.9f, -3.4f}, .look = {0, -0.1f, 0}, .fov_degrees = 38, .resolution = 16, .max_depth = 3,
+                 .before_camera = homogeneous("fog", {.sigma_a = Rgb(0.02f), .sigma_s = Rgb(0.08f)}), .medium = "fog"};
+  check_media("overlapping", view(fog) + lights() + diffuse_plane(1.8f, 3, 0.5f) +
+                                 uniform_grid("smoke", {.sigma_a = {0.3f, 0.2f, 0.2f}, .sigma_s = {2, 3, 2.5f}, .g = 0.5f}, holes()) +
+                                 homogeneous("haze", {.sigma_a = Rgb(0.1f), .sigma_s = {0.5f, 0.4f, 0.3f}, .g = -0.3f}) +
+                                 medium_box("smoke", "", kBox) + medium_box("haze", "", {{-0.5f, -1.2f, -0.6f}, {1.3f, 0.4f, 0.7f}}));
+}
