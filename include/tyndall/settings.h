@@ -21,7 +21,7 @@ enum class MediaStrategy { vertex, closest, integral, product };
 /// tracking with MediaStrategy::vertex, which knows no other.
 enum class DistanceStrategy { automatic, tracking, equiangular, both, profile };
 /// Estimator of transmittance along shadow rays.
-enum class TransmittanceStrategy { residual, ratio, delta };
+enum class TransmittanceStrategy { residual, ratio, delta, raymarch };
 
 struct RenderSettings {
   int spp = 64;                  ///< samples a pixel, >= 1

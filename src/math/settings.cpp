@@ -31,10 +31,11 @@ constexpr Table<DistanceStrategy, 5> kDistances{{
     {"both", DistanceStrategy::both},
     {"profile", DistanceStrategy::profile},
 }};
-constexpr Table<TransmittanceStrategy, 3> kTransmittances{{
+constexpr Table<TransmittanceStrategy, 4> kTransmittances{{
     {"residual", TransmittanceStrategy::residual},
     {"ratio", TransmittanceStrategy::ratio},
     {"delta", TransmittanceStrategy::delta},
+    {"raymarch", TransmittanceStrategy::raymarch},
 }};
 constexpr std::array<std::string_view, 13> kAovs{
     "Albedo",        "N",               "P",            "Z",              "Zvol",     "Variance", "SampleCount",

@@ -3,7 +3,7 @@
 
 #include "volume/homogeneous.h"
 #include "volume/merged_walk.h"
-#include "volume/tracking_kernel.h"
+#include "volume/ray_march.h"
 
 namespace tyndall {
 namespace {
@@ -104,9 +104,10 @@ Rgb transmittance(TransmittanceStrategy strategy, MediaView media, const Ray& ra
     ++stats.segments;
     return sum_of(media).transmittance(double{t1} - t0);
   }
-  if (strategy == TransmittanceStrategy::residual) {
+  if (strategy == TransmittanceStrategy::residual || strategy == TransmittanceStrategy::raymarch) {
     return with_walk<WalkMode::residual>(media, ray, t0, t1, [&](auto& walk) {
-      const Rgb T = residual_ratio_tracking(walk, rng, stats);
+      const Rgb T = strategy == TransmittanceStrategy::residual ? residual_ratio_tracking(walk, rng, stats)
+                                                                : ray_marching(walk, rng, stats);
       finish(walk, stats);
       return T;
     });

@@ -2,9 +2,13 @@
 #include <doctest/doctest.h>
 
 #include <array>
+#include <bit>
 #include <string>
+#include <utility>
 
+#include "math/hash.h"
 #include "support/test_media.h"
+#include "volume/ray_march.h"
 
 using namespace tyndall;
 using test::Moments;
@@ -19,7 +23,7 @@ struct Line {
 };
 
 constexpr TransmittanceStrategy kStrategies[] = {TransmittanceStrategy::residual, TransmittanceStrategy::ratio,
-                                                 TransmittanceStrategy::delta};
+                                                 TransmittanceStrategy::delta, TransmittanceStrategy::raymarch};
 
 /// Largest deviation over channels in standard errors; events rarer than `slack` are beyond the sample.
 double deviation(TransmittanceStrategy strategy, const Line& line, const test::LineIntegrals& exact, int count,
@@ -49,11 +53,23 @@ void check_all(const Line& line, int count) {
   CHECK(stats.caps_hit == 0);
 }
 
+/// One piece of rate 4 in which sigma is 4 or 0, too fast for any comb to follow, and 1 in the mean.
+struct Stripes {
+  double length;
+  bool fresh = true;
+  bool next() { return std::exchange(fresh, false); }
+  double t() const { return 0; }
+  double t_end() const { return length; }
+  float rate() const { return 4; }
+  Rgb control() const { return {}; }
+  Rgb excess_at(double t) const { return Rgb(hash(std::bit_cast<std::uint64_t>(t), 1) % 4 == 0 ? 4.0f : 0.0f); }
+};
+
 const Ray kDiagonal{{-1.3f, -0.9f, -1.1f}, normalize({1.1f, 0.8f, 0.9f})};
 
 }  // namespace
 
-TEST_CASE("residual, ratio and delta tracking agree with the integral for optical depths from 1e-6 to 50") {
+TEST_CASE("residual, ratio, delta tracking and ray marching agree with the integral for optical depths from 1e-6 to 50") {
   for (const float depth : {1e-6f, 1e-3f, 0.1f, 1.0f, 4.0f, 10.0f, 50.0f}) {
     const auto clumpy = test::clumpy({Rgb{0.3f * depth}, Rgb{0.4f * depth}, 0}, 3);
     const auto fog = test::homogeneous({Rgb{0.05f * depth}, Rgb{0.1f * depth}, 0});
@@ -102,17 +118,34 @@ TEST_CASE("a constant grid is as exact as a homogeneous medium under residual tr
   CHECK(stats.lookups == 0);
 }
 
-TEST_CASE("residual tracking spends less and varies less than ratio, and ratio less than delta tracking") {
+TEST_CASE("ray marching corrects what its optical depths scatter by, however much") {
+  for (const double length : {0.25, 1.0, 2.0}) {
+    Moments moments;
+    Rng rng(3);
+    TrackingStats stats;
+    for (int i = 0; i < 1'000'000; ++i) {
+      Stripes walk{length};
+      moments.add(kernel::ray_marching(walk, rng, stats).r);
+    }
+    const double worst = moments.deviation(std::exp(-length));
+    CHECK_MESSAGE(worst < 4, length << ": " << worst << " standard errors");
+    CHECK(moments.standard_error() < 0.01 * std::exp(-length));
+    CHECK(stats.majorant_violations == 0);
+  }
+}
+
+TEST_CASE("ray marching varies least, then residual, ratio and delta tracking") {
   const auto clumpy = test::clumpy({Rgb{0.6f}, Rgb{0.8f}, 0}, 3);
   const ParticipatingMedium* media[] = {&clumpy};
-  double errors[3];
-  for (int s = 0; s < 3; ++s) {
+  double errors[4];
+  for (int s = 0; s < 4; ++s) {
     Moments moments;
     Rng rng(4);
     TrackingStats stats;
     for (int i = 0; i < 20000; ++i) moments.add(transmittance(kStrategies[s], media, kDiagonal, 0, 4, rng, stats).g);
     errors[s] = moments.standard_error();
   }
+  CHECK(errors[3] < 0.5 * errors[0]);
   CHECK(errors[0] < errors[1]);
   CHECK(errors[1] < errors[2]);
 }

@@ -1,0 +1,129 @@
+/// Unbiased ray marching: transmittance from optical depths that are marched, corrected now and then.
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "math/small_vector.h"
+#include "volume/tracking_kernel.h"
+
+namespace tyndall::kernel {
+
+/// T = exp(-control) exp(-x), x = E[X_i] for independent estimates X_0 .. X_N of the optical depth that the walk's controls
+/// leave. With each X_i as the pivot in turn [Kettunen et al. 2021, eq. 10]:
+///   exp(-x) = E[ 1/(N+1) sum_i exp(-X_i) sum_{k<=N} w_k / k! m_k({X_i - X_j}, j != i) ],  w_k = 1 / P(N >= k),
+/// m_k the mean of all products of k of the N differences. N is 0 most of the time: that is plain ray marching.
+/// Departures from the paper: the comb of an X_i has teeth evenly spaced in depth of the walk's rate instead of length, so
+/// that they stand where the medium varies and nothing about the ray needs to be known beforehand; and N has a geometric
+/// tail, whose weights keep the variance finite however far the X_i lie apart.
+class RayMarch {
+ public:
+  RayMarch(Rng& rng, TrackingStats& stats) : orders_(draw_orders(rng, stats)) {
+    for (int i = 0; i <= orders_; ++i) combs_.push_back({kSpacing * double{rng.uniform()}, {}});
+  }
+
+  /// A piece of the walk. False: little enough is left to be given up; the estimate is 0.
+  template <typename Walk>
+  bool add(Walk& walk, Rng& rng, TrackingStats& stats) {
+    const double length = walk.t_end() - walk.t();
+    const Rgb c = walk.control();
+    control_ += Rgb{depth_of(c.r, length), depth_of(c.g, length), depth_of(c.b, length)};
+    const float rate = walk.rate();
+    if (rate > 0) {
+      const double end = marched_ + rate * length;
+      for (Comb& comb : combs_) read_teeth(comb, walk, end, stats);
+      marched_ = end;
+    }
+    return survives_roulette(rng);
+  }
+
+  Rgb transmittance() const { return {transmittance(0), transmittance(1), transmittance(2)}; }
+
+ private:
+  static constexpr double kSpacing = 0.5;    // of the teeth; residual tracking makes a look-up every 1
+  static constexpr float kMore = 0.1f;       // P(N >= 1)
+  static constexpr float kEvenMore = 0.5f;   // P(N >= k + 1 | N >= k)
+  static constexpr int kMostOrders = 63;     // 2^-62 of the corrections would need more
+
+  struct Comb {
+    double tooth;  // next, in depth of the rate
+    Rgb x;
+  };
+  static std::size_t index(int i) { return static_cast<std::size_t>(i); }
+  /// An empty piece may be infinitely long.
+  static float depth_of(float sigma, double length) { return sigma > 0 ? static_cast<float>(sigma * length) : 0.0f; }
+
+  static int draw_orders(Rng& rng, TrackingStats& stats) {
+    if (rng.uniform() >= kMore) return 0;
+    int orders = 1;
+    while (orders < kMostOrders && rng.uniform() < kEvenMore) ++orders;
+    if (orders == kMostOrders) ++stats.caps_hit;
+    return orders;
+  }
+
+  template <typename Walk>
+  void read_teeth(Comb& comb, Walk& walk, double end, TrackingStats& stats) {
+    const float rate = walk.rate();
+    for (; comb.tooth < end; comb.tooth += kSpacing) {
+      const Rgb excess = walk.excess_at(walk.t() + (comb.tooth - marched_) / rate);
+      count_lookup(max_abs(excess), rate, stats);
+      comb.x += excess * static_cast<float>(kSpacing / rate);
+    }
+  }
+
+  /// On exp of what is known so far: any function of the past will do.
+  bool survives_roulette(Rng& rng) {
+    constexpr float kThick = 4.6f;  // -ln kRouletteBelow
+    float least = kInfinity;
+    for (int channel = 0; channel < 3; ++channel) least = std::min(least, control_[channel] + combs_[0].x[channel]);
+    const float left = least - relief_;
+    if (!(left > kThick)) return true;
+    const float chance = std::exp(kThick - left);
+    if (rng.uniform() >= chance) return false;
+    relief_ += left - kThick;
+    return true;
+  }
+
+  float transmittance(int channel) const {
+    double sum = 0;
+    for (int pivot = 0; pivot <= orders_; ++pivot)
+      sum += std::exp(double{relief_} - control_[channel] - combs_[index(pivot)].x[channel]) * series(pivot, channel);
+    return static_cast<float>(sum / (orders_ + 1));
+  }
+
+  /// sum_k w_k / k! m_k around one pivot, with the elementary symmetric sums e_k of the differences: m_k = e_k / (N over k).
+  double series(int pivot, int channel) const {
+    if (orders_ == 0) return 1;
+    std::array<double, kMostOrders + 1> e{1};
+    int count = 0;
+    for (int i = 0; i <= orders_; ++i) {
+      if (i == pivot) continue;
+      const double difference = double{combs_[index(pivot)].x[channel]} - combs_[index(i)].x[channel];
+      ++count;
+      for (int k = count; k > 0; --k) e[index(k)] += difference * e[index(k - 1)];
+    }
+    double sum = 1, factor = 1 / double{kMore};
+    for (int k = 1; k <= orders_; ++k) {
+      factor /= orders_ - k + 1;  // w_k / k! / (N over k) = w_k (N - k)! / N!
+      sum += factor * e[index(k)];
+      factor /= kEvenMore;
+    }
+    return sum;
+  }
+
+  int orders_;
+  double marched_ = 0;  // depth of the rate before the current piece
+  Rgb control_;
+  float relief_ = 0;    // log of the weight that roulette gave
+  SmallVector<Comb, 4> combs_;  // orders_ + 1
+};
+
+template <typename Walk>
+Rgb ray_marching(Walk& walk, Rng& rng, TrackingStats& stats) {
+  RayMarch march(rng, stats);
+  while (walk.next())
+    if (!march.add(walk, rng, stats)) return {};
+  return march.transmittance();
+}
+
+}  // namespace tyndall::kernel
