@@ -28,6 +28,12 @@ inline Angle reduced(Angle a, Angle b) {
   return {a.cos * b.cos + a.sin * b.sin, a.sin * b.cos - a.cos * b.sin};
 }
 
+/// min(a + b, pi).
+inline Angle increased(Angle a, Angle b) {
+  if (a.cos <= -b.cos) return {-1, 0};
+  return {a.cos * b.cos - a.sin * b.sin, a.sin * b.cos + a.cos * b.sin};
+}
+
 /// The largest cosine at which light leaves a cluster for a receiver in a direction that makes an angle of at least
 /// `theta` with the axis, the cluster being seen under `theta_u`. 0: none does.
 inline double emission_factor(const ClusterBounds& cluster, Angle theta, Angle theta_u) {

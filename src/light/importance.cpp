@@ -60,4 +60,20 @@ double importance(const ClusterBounds& cluster, bool two_sided, const PointQuery
   return result > 0 ? result : 0;
 }
 
+double least_importance(const ClusterBounds& cluster, bool two_sided, const PointQuery& query) {
+  const Vec3d low(cluster.box.min), high(cluster.box.max), p(query.p), n(query.n);
+  const Vec3d to_center = (low - p) * 0.5 + (high - p) * 0.5;
+  const double radius = length((high - low) * 0.5), distance = length(to_center);
+  if (!(dot(n, n) > 0) || distance <= radius) return 0;
+
+  // theta + theta_o + theta_u is as far off a normal as the light may have to leave; so with the receiver's normal.
+  const Angle theta_u = Angle::from_sine(radius / distance);
+  const double out = -dot(Vec3d(cluster.axis), to_center) / distance, in = dot(n, to_center) / distance;
+  const Angle theta =
+      increased(increased(Angle::from_cosine(two_sided ? std::abs(out) : out), Angle::from_cosine(cluster.cos_o)), theta_u);
+  const Angle theta_i = increased(Angle::from_cosine(query.transmissive ? std::abs(in) : in), theta_u);
+  if (theta.cos <= std::max<double>(cluster.cos_e, 0) || theta_i.cos <= 0) return 0;
+  return theta.cos * theta_i.cos * cluster.intensity / ((distance + radius) * (distance + radius));
+}
+
 }  // namespace tyndall

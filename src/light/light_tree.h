@@ -22,6 +22,14 @@ struct TreeLight {
   LightId light;
 };
 
+/// How a node's children share its probability.
+enum class ChildRule {
+  proportional,  ///< to their importance, an upper bound [2018, sec. 5.2]
+  /// The mean of the shares by the upper and by the lower bound, the latter halves where both are 0: Cycles' rule
+  /// [Blender, intern/cycles/kernel/light/tree.h], to compare with. It is that method in our code, not that renderer.
+  averaged
+};
+
 class LightTree {
  public:
   static constexpr std::uint32_t kNoParent = 0x7fffffff;
@@ -37,7 +45,7 @@ class LightTree {
 
   LightTree() = default;
   /// `lights` is reordered on the way and empty afterwards. Equal input gives an equal tree.
-  explicit LightTree(std::vector<TreeLight> lights);
+  explicit LightTree(std::vector<TreeLight> lights, ChildRule rule = ChildRule::proportional);
 
   struct Choice {
     LightId light;
@@ -77,6 +85,8 @@ class LightTree {
   template <typename Query>
   std::optional<double> first_probability(std::uint32_t node, const Query& query) const;
   template <typename Query>
+  double averaged(double share, std::uint32_t node, const Query& query) const;
+  template <typename Query>
   std::optional<Choice> descend(const Query& query, double u) const;
   template <typename Query>
   double ascend(const Query& query, std::uint32_t leaf) const;
@@ -84,6 +94,7 @@ class LightTree {
   std::vector<Node> nodes_;
   double intensity_ = 0;  ///< of all lights, W/sr
   int depth_ = 0;
+  ChildRule rule_ = ChildRule::proportional;
 };
 
 static_assert(sizeof(LightTree::Node) == 56);

@@ -65,4 +65,7 @@ double largest_cosine(Vec3d axis, Vec3d aside, Vec3d d, double from, double till
 /// the cluster's radius.
 double importance(const ClusterBounds& cluster, bool two_sided, const Segment& segment);
 
+/// The rule that asks for it takes none in media.
+inline double least_importance(const ClusterBounds&, bool, const Segment&) { return 0; }
+
 }  // namespace tyndall

@@ -23,7 +23,9 @@ LightCut all_as_one(const CutSettings& settings) {
 
 }  // namespace
 
-bool uses_bounds(LightStrategy strategy) { return strategy == LightStrategy::tree || strategy == LightStrategy::tree_binary; }
+bool uses_bounds(LightStrategy strategy) {
+  return strategy == LightStrategy::tree || strategy == LightStrategy::tree_binary || strategy == LightStrategy::cycles_rule;
+}
 
 LightCut LightSelector::cut(const PointQuery&, const CutSettings& settings) const { return all_as_one(settings); }
 LightCut LightSelector::cut(const SegmentQuery&, const CutSettings& settings) const { return all_as_one(settings); }
@@ -54,6 +56,8 @@ std::unique_ptr<const LightSelector> make_selector(LightStrategy strategy, Selec
       return std::make_unique<WideSelector>(WideLightTree(std::move(input.near), input.threads), input);
     case LightStrategy::tree_binary:
       return std::make_unique<TreeSelector<LightTree>>(LightTree(std::move(input.near)), input);
+    case LightStrategy::cycles_rule:
+      return std::make_unique<TreeSelector<LightTree>>(LightTree(std::move(input.near), ChildRule::averaged), input);
   }
   return nullptr;
 }

@@ -139,7 +139,7 @@ void fill_bounds(std::vector<LightTree::Node>& nodes, std::vector<TreeLight>& li
 
 }  // namespace
 
-LightTree::LightTree(std::vector<TreeLight> lights) {
+LightTree::LightTree(std::vector<TreeLight> lights, ChildRule rule) : rule_(rule) {
   assert(lights.size() < kNoParent / 2);
   if (lights.empty()) return;
 

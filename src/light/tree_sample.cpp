@@ -16,7 +16,17 @@ std::optional<double> LightTree::first_probability(std::uint32_t node, const Que
   const double second = node_importance(nodes_[node].second_or_light, query);
   if (!(first + second > 0)) return std::nullopt;
   if (first == 0 || second == 0) return first > 0 ? 1.0 : 0.0;
-  return std::clamp(first / (first + second), kLeastChance, 1 - kLeastChance);
+  const double share = first / (first + second);
+  return std::clamp(rule_ == ChildRule::averaged ? averaged(share, node, query) : share, kLeastChance, 1 - kLeastChance);
+}
+
+template <typename Query>
+double LightTree::averaged(double share, std::uint32_t node, const Query& query) const {
+  const auto least = [&](std::uint32_t child) {
+    return least_importance(nodes_[child].bounds, nodes_[child].two_sided, query);
+  };
+  const double first = least(node + 1), second = least(nodes_[node].second_or_light);
+  return 0.5 * (share + (first + second > 0 ? first / (first + second) : 0.5));
 }
 
 template <typename Query>

@@ -11,12 +11,13 @@ namespace {
 template <typename Strategy, std::size_t N>
 using Table = std::array<std::pair<std::string_view, Strategy>, N>;
 
-constexpr Table<LightStrategy, 5> kLights{{
+constexpr Table<LightStrategy, 6> kLights{{
     {"uniform", LightStrategy::uniform},
     {"power", LightStrategy::power},
     {"exhaustive", LightStrategy::exhaustive},
     {"tree", LightStrategy::tree},
     {"tree-binary", LightStrategy::tree_binary},
+    {"cycles-rule", LightStrategy::cycles_rule},
 }};
 constexpr Table<MediaStrategy, 4> kMedia{{
     {"vertex", MediaStrategy::vertex},

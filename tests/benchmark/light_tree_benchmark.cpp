@@ -164,6 +164,7 @@ void variance(benchmark::State& state, LightScene (*make)(std::size_t, std::size
     const double tree = of(LightStrategy::tree), binary = of(LightStrategy::tree_binary);
     state.counters["tree"] = tree;
     state.counters["binary"] = binary;
+    state.counters["cycles_rule"] = of(LightStrategy::cycles_rule);
     state.counters["power"] = of(LightStrategy::power);
     state.counters["ratio"] = binary / tree;
   }

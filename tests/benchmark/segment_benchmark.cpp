@@ -133,7 +133,7 @@ void SegmentVariance(benchmark::State& state, Smoke (*make)(std::size_t, float, 
   for (const LightBounds& light : smoke.lights) input.power.push_back(light.intensity);
   input.near = test::numbered(smoke.lights);
   const auto power = make_selector(LightStrategy::power, input), tree = make_selector(LightStrategy::tree, input),
-             binary = make_selector(LightStrategy::tree_binary, input);
+             binary = make_selector(LightStrategy::tree_binary, input), rule = make_selector(LightStrategy::cycles_rule, input);
   for (auto _ : state) {
     for (const MediaStrategy importance : kImportances) {
       const auto queries = segments(smoke, n > 5000 ? 12 : 24, importance);
@@ -142,7 +142,8 @@ void SegmentVariance(benchmark::State& state, Smoke (*make)(std::size_t, float, 
                                                                      : "product");
       state.counters["tree_" + name] = relative_variance(*tree, smoke, queries);
       state.counters["binary_" + name] = relative_variance(*binary, smoke, queries);
-      state.counters["power"] = relative_variance(*power, smoke, queries);
+      if (importance == MediaStrategy::integral) state.counters["cycles_rule"] = relative_variance(*rule, smoke, queries);
+      if (importance == MediaStrategy::closest) state.counters["power"] = relative_variance(*power, smoke, queries);
     }
   }
 }

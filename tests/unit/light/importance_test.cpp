@@ -39,6 +39,40 @@ TEST_CASE("importance is 0 only where nothing can contribute: a million clusters
   CHECK(culled > 100'000);  // the test must mean something
 }
 
+TEST_CASE("the least importance is no more than what any point of any light gives") {
+  Rng rng(11);
+  int positive = 0;
+  for (int i = 0; i < 200'000; ++i) {
+    std::array<test::ContributionOracle, 2> lights;
+    LightBounds cluster;
+    Vec3 facing = test::random_direction(rng);
+    for (auto& l : lights) {
+      const float size = 0.3f * rng.uniform();
+      l = {.kind = test::ContributionOracle::Kind::triangle, .a = test::random_in_cube(rng, 0.3f), .b = {}, .c = {}};
+      l.b = l.a + test::random_in_cube(rng, size);
+      l.c = l.a + test::random_in_cube(rng, size);
+      if (dot(cross(l.b - l.a, l.c - l.a), facing) < 0) std::swap(l.b, l.c);
+      cluster = bounds_union(cluster, l.bounds());
+    }
+    if (!(cluster.intensity > 0)) continue;
+    const PointQuery q{facing * (1 + 3 * rng.uniform()) + test::random_in_cube(rng),
+                       normalize(test::random_in_cube(rng, 0.5f) - facing)};
+    const ClusterBounds bounds = ClusterBounds::from(cluster);
+    const double least = least_importance(bounds, cluster.two_sided, q);
+    REQUIRE(least <= importance(bounds, cluster.two_sided, q) * (1 + 1e-9));
+    if (least == 0) continue;
+    ++positive;
+    for (const auto& l : lights) {
+      const float u = rng.uniform(), v = rng.uniform() * (1 - u);
+      const Vec3d x = Vec3d(l.a) + (Vec3d(l.b) - Vec3d(l.a)) * u + (Vec3d(l.c) - Vec3d(l.a)) * v, to = x - Vec3d(q.p);
+      const Vec3d n = normalize(cross(Vec3d(l.b) - Vec3d(l.a), Vec3d(l.c) - Vec3d(l.a)));
+      const double d2 = dot(to, to), given = -dot(n, to) * dot(Vec3d(q.n), to) / (d2 * d2);
+      REQUIRE(least / cluster.intensity <= given * (1 + 1e-5));
+    }
+  }
+  CHECK(positive > 20'000);
+}
+
 TEST_CASE("importance of a small far light is its irradiance") {
   const LightBounds light = test::triangle_bounds({0, 0, 0}, {0.001f, 0, 0}, {0, 0.001f, 0}, false, 2);
   const ClusterBounds b = ClusterBounds::from(light);

@@ -44,34 +44,40 @@ Masses walk(const LightTree& tree, const PointQuery& query, std::size_t lights) 
   return m;
 }
 
+constexpr ChildRule kRules[] = {ChildRule::proportional, ChildRule::averaged};
+
+void check_tree(const test::LightCase& c, ChildRule rule) {
+  const LightTree tree(test::numbered(c.lights), rule);
+  const std::size_t n = c.lights.size();
+  REQUIRE(tree.nodes().size() == 2 * n - 1);
+  const auto leaves = leaves_of(tree, n);
+  for (std::uint32_t i = 0; i < tree.nodes().size(); ++i) {
+    const auto& node = tree.nodes()[i];
+    REQUIRE((node.parent == LightTree::kNoParent) == (i == 0));
+    if (node.leaf) continue;
+    REQUIRE(tree.nodes()[i + 1].parent == i);
+    REQUIRE(tree.nodes()[node.second_or_light].parent == i);
+  }
+  for (const std::uint32_t leaf : leaves) REQUIRE(leaf != LightTree::kNoParent);
+
+  for (const PointQuery& q : test::queries_for(c.lights, n > 1000 ? 12 : 60, 5)) {
+    const Masses walked = walk(tree, q, n);
+    double sum = 0, worst = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double pmf = tree.pmf(q, leaves[i]);
+      REQUIRE((pmf >= 0 && pmf <= 1));
+      worst = std::max(worst, std::abs(pmf - walked.pmf[i]) / std::max(walked.pmf[i], 1e-30));
+      sum += pmf;
+    }
+    REQUIRE(std::abs(sum - (1 - walked.dead)) < 1e-5);
+    REQUIRE(worst < 1e-6);
+  }
+}
+
 TEST_CASE("every case: the tree is sound, the pmf sums to 1 less the dead mass") {
   for (const auto& c : test::light_cases()) {
     CAPTURE(c.name);
-    const LightTree tree(test::numbered(c.lights));
-    const std::size_t n = c.lights.size();
-    REQUIRE(tree.nodes().size() == 2 * n - 1);
-    const auto leaves = leaves_of(tree, n);
-    for (std::uint32_t i = 0; i < tree.nodes().size(); ++i) {
-      const auto& node = tree.nodes()[i];
-      REQUIRE((node.parent == LightTree::kNoParent) == (i == 0));
-      if (node.leaf) continue;
-      REQUIRE(tree.nodes()[i + 1].parent == i);
-      REQUIRE(tree.nodes()[node.second_or_light].parent == i);
-    }
-    for (const std::uint32_t leaf : leaves) REQUIRE(leaf != LightTree::kNoParent);
-
-    for (const PointQuery& q : test::queries_for(c.lights, n > 1000 ? 12 : 60, 5)) {
-      const Masses walked = walk(tree, q, n);
-      double sum = 0, worst = 0;
-      for (std::size_t i = 0; i < n; ++i) {
-        const double pmf = tree.pmf(q, leaves[i]);
-        REQUIRE((pmf >= 0 && pmf <= 1));
-        worst = std::max(worst, std::abs(pmf - walked.pmf[i]) / std::max(walked.pmf[i], 1e-30));
-        sum += pmf;
-      }
-      REQUIRE(std::abs(sum - (1 - walked.dead)) < 1e-5);
-      REQUIRE(worst < 1e-6);
-    }
+    for (const ChildRule rule : kRules) check_tree(c, rule);
   }
 }
 
@@ -82,10 +88,11 @@ TEST_CASE("every case: what select() returns is what pmf() says, a million times
   const std::size_t each = 1'000'000 / cases.size();
   for (const auto& c : cases) {
     CAPTURE(c.name);
-    const LightTree tree(test::numbered(c.lights));
-    const auto leaves = leaves_of(tree, c.lights.size());
+    const LightTree trees[] = {LightTree(test::numbered(c.lights), kRules[0]), LightTree(test::numbered(c.lights), kRules[1])};
+    const auto leaves = leaves_of(trees[0], c.lights.size());
     const auto queries = test::queries_for(c.lights, 1000, 6);
     for (std::size_t i = 0; i < each; ++i) {
+      const LightTree& tree = trees[i % 2];
       const PointQuery& q = queries[i % queries.size()];
       const auto s = tree.select(q, rng.uniform_wide());
       if (!s) continue;
@@ -100,9 +107,11 @@ TEST_CASE("every case: what select() returns is what pmf() says, a million times
 TEST_CASE("lights are chosen with their probability") {
   for (const std::size_t n : {2u, 5u, 40u, 500u}) {
     const auto lights = test::mixed_lights(n, 77 + n);
-    const LightTree tree(test::numbered(lights));
-    const auto queries = test::queries_for(lights, 6, 9);
-    for (const PointQuery& q : queries) {
+    const LightTree trees[] = {LightTree(test::numbered(lights), kRules[0]), LightTree(test::numbered(lights), kRules[1])};
+    const auto queries = test::queries_for(lights, 12, 9);
+    for (std::size_t k = 0; k < queries.size(); ++k) {
+      const PointQuery& q = queries[k];
+      const LightTree& tree = trees[k / 6];
       const Masses m = walk(tree, q, n);
       constexpr int kDraws = 40'000;
       std::vector<double> counts(n + 1);
@@ -177,6 +186,27 @@ TEST_CASE("a light that can contribute is always reachable") {
     if (pmf < 0x1p-52) unreachable += pmf;
   }
   CHECK(unreachable < 1e-13);
+}
+
+TEST_CASE("the averaged rule: half of each share where the lower bounds say nothing, and no share without importance") {
+  std::vector<LightBounds> points{test::point_bounds({-1, 0, 0}, 1), test::point_bounds({1, 0, 0}, 3)};
+  const LightTree tree(test::numbered(points)), averaged(test::numbered(points), ChildRule::averaged);
+  for (const PointQuery& q : test::queries_for(points, 60, 2)) {
+    const auto p = tree.child_probability(0, q), other = averaged.child_probability(0, q);
+    REQUIRE(p.has_value() == other.has_value());
+    if (!p) continue;
+    CHECK(*other == doctest::Approx(*p == 0 || *p == 1 ? *p : 0.5 * *p + 0.25));
+  }
+  SegmentQuery along{.o = {-3, 0.5f, 0}, .d = {1, 0, 0}, .t0 = 0, .t1 = 3, .importance = MediaStrategy::integral};
+  CHECK(*averaged.child_probability(0, along) == doctest::Approx(0.5 * *tree.child_probability(0, along) + 0.25));
+
+  // Small triangles that face a surface: their bounds nearly meet, and the shares are those of both.
+  std::vector<LightBounds> faces;
+  for (const float x : {-1.0f, 1.0f})
+    faces.push_back(test::triangle_bounds({x, 0, 5}, {x, 1e-3f, 5}, {x + 1e-3f, 0, 5}, false, x > 0 ? 3 : 1));
+  const LightTree tight(test::numbered(faces)), both(test::numbered(faces), ChildRule::averaged);
+  const PointQuery floor{{0.3f, 0, 0}, {0, 0, 1}};
+  CHECK(*both.child_probability(0, floor) == doctest::Approx(*tight.child_probability(0, floor)).epsilon(1e-3));
 }
 
 TEST_CASE("far away the choice follows power") {

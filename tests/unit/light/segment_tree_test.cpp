@@ -67,13 +67,17 @@ Masses walk(const WideLightTree& tree, const Segment& query, std::size_t lights)
   return m;
 }
 
+struct AveragedTree : LightTree {
+  explicit AveragedTree(std::vector<TreeLight> lights) : LightTree(std::move(lights), ChildRule::averaged) {}
+};
+
 std::vector<test::LightCase> all_cases() {
   auto cases = test::light_cases();
   for (auto& c : test::degenerate_cases(60)) cases.push_back(std::move(c));
   return cases;
 }
 
-TEST_CASE_TEMPLATE("segments: the pmf sums to 1 less the dead mass", Tree, LightTree, WideLightTree) {
+TEST_CASE_TEMPLATE("segments: the pmf sums to 1 less the dead mass", Tree, LightTree, AveragedTree, WideLightTree) {
   for (const auto& c : all_cases()) {
     CAPTURE(c.name);
     const std::size_t n = c.lights.size();
@@ -94,7 +98,7 @@ TEST_CASE_TEMPLATE("segments: the pmf sums to 1 less the dead mass", Tree, Light
   }
 }
 
-TEST_CASE_TEMPLATE("segments: what select() returns is what pmf() says", Tree, LightTree, WideLightTree) {
+TEST_CASE_TEMPLATE("segments: what select() returns is what pmf() says", Tree, LightTree, AveragedTree, WideLightTree) {
   const auto cases = all_cases();
   Rng rng(8);
   std::size_t selected = 0;
@@ -137,7 +141,7 @@ double chi_squared_of(const std::vector<double>& counts, const Masses& m, int dr
   return bins > 1 ? test::chi_squared_tail(statistic, bins - 1) : 1;
 }
 
-TEST_CASE_TEMPLATE("segments: lights are chosen with their probability", Tree, LightTree, WideLightTree) {
+TEST_CASE_TEMPLATE("segments: lights are chosen with their probability", Tree, LightTree, AveragedTree, WideLightTree) {
   for (const std::size_t n : {1u, 2u, 5u, 40u, 500u, 100'000u}) {
     const auto lights = test::mixed_lights(n, 77 + n);
     const Tree tree(test::numbered(lights));
@@ -233,7 +237,7 @@ TEST_CASE_TEMPLATE("segments: one that shrinks to a point asks what the point as
   }
 }
 
-TEST_CASE_TEMPLATE("segments: a light that can contribute is within reach of u", Tree, LightTree, WideLightTree) {
+TEST_CASE_TEMPLATE("segments: a light that can contribute is within reach of u", Tree, LightTree, AveragedTree, WideLightTree) {
   const auto lights = test::mixed_lights(20'000, 21);
   const Tree tree(test::numbered(lights));
   const auto leaves = leaves_of(tree, lights.size());

@@ -41,7 +41,7 @@ SelectionInput mixed_input(std::size_t near, bool sky_partner) {
 }
 
 constexpr LightStrategy kStrategies[] = {LightStrategy::uniform, LightStrategy::power, LightStrategy::tree,
-                                         LightStrategy::tree_binary};
+                                         LightStrategy::tree_binary, LightStrategy::cycles_rule};
 
 std::vector<PointQuery> queries() {
   std::vector<LightBounds> box{test::point_bounds({-1, -1, -1}, 1), test::point_bounds({1, 1, 1}, 1)};
