@@ -21,6 +21,14 @@ LightCut all_as_one(const CutSettings& settings) {
   return whole;
 }
 
+template <typename Query>
+void one_by_one(const LightSelector& selector, const LightCut& cut, const Query& query, std::span<const double> u,
+                std::span<std::optional<SelectedLight>> selected) {
+  std::size_t i = 0;
+  for (const LightCluster& cluster : cut)
+    for (std::uint32_t k = 0; k < cluster.candidates; ++k, ++i) selected[i] = selector.select_in(cluster, query, u[i]);
+}
+
 }  // namespace
 
 bool uses_bounds(LightStrategy strategy) {
@@ -35,6 +43,15 @@ std::optional<SelectedLight> LightSelector::select_in(const LightCluster&, const
 }
 std::optional<SelectedLight> LightSelector::select_in(const LightCluster&, const SegmentQuery& query, double u) const {
   return select(query, u);
+}
+
+void LightSelector::select_all(const LightCut& cut, const PointQuery& query, std::span<const double> u,
+                               std::span<std::optional<SelectedLight>> selected) const {
+  one_by_one(*this, cut, query, u, selected);
+}
+void LightSelector::select_all(const LightCut& cut, const SegmentQuery& query, std::span<const double> u,
+                               std::span<std::optional<SelectedLight>> selected) const {
+  one_by_one(*this, cut, query, u, selected);
 }
 
 float LightSelector::expected(const LightCut& cut, const PointQuery& query, LightId light) const {

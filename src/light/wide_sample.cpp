@@ -12,6 +12,9 @@ constexpr double kByNumber = 0x1p-20;
 
 double mixed(double by_importance, std::uint32_t lights) { return (1 - kByNumber) * by_importance + kByNumber / lights; }
 
+/// What is left of u when the choice by number has taken its part.
+double rest(double u) { return std::min((u - kByNumber) / (1 - kByNumber), kBelowOne); }
+
 /// Ends of the children's parts of [0, sum], the first at [1].
 struct Ends {
   std::array<double, WideNode::kWidth + 1> at{};
@@ -53,27 +56,61 @@ WideSegment WideLightTree::localize(const Segment& query) const {
   return WideSegment::from_segment(query, to_unit(to_vec3({largest, 0, 0})), middle);
 }
 
+/// One decision. False: nothing here has importance.
+template <typename Query>
+bool WideLightTree::step(Descent& d, const Query& query) const {
+  const std::uint32_t index = node_of(d.ref);
+  const Ends ends(child_importance(nodes_[index], query));
+  const double place = d.u * ends.sum();
+  if (!(ends.sum() > 0)) return false;
+  std::size_t child = 0;  // counted without branches: which it is cannot be guessed
+  for (std::size_t i = 1; i < WideNode::kWidth; ++i) child += ends.at[i] <= place;
+  d.u = std::min((place - ends.at[child]) / ends.width(child), kBelowOne);
+  d.chance *= ends.width(child) / ends.sum();
+  d.ref = 8 * index + static_cast<NodeRef>(child);
+  if (!is_leaf(d.ref)) nodes_[node_of(d.ref)].prefetch();
+  return true;
+}
+
 template <typename Query>
 std::optional<WideLightTree::Choice> WideLightTree::descend(NodeRef top, const Query& query, double u) const {
   if (nodes_.empty()) return std::nullopt;
   if (is_leaf(top)) return Choice{nodes_[top / 8].child[top % 8], 1};
   if (u < kByNumber) return select_by_number(top, query, u / kByNumber);
-  u = std::min((u - kByNumber) / (1 - kByNumber), kBelowOne);
-  double chance = 1;
-  NodeRef ref = top;
+  Descent d{top, top, rest(u), 1, 0};
   do {
-    const std::uint32_t index = node_of(ref);
-    const Ends ends(child_importance(nodes_[index], query));
-    const double place = u * ends.sum();
-    if (!(ends.sum() > 0)) return std::nullopt;
-    std::size_t child = 0;  // counted without branches: which it is cannot be guessed
-    for (std::size_t i = 1; i < WideNode::kWidth; ++i) child += ends.at[i] <= place;
-    u = std::min((place - ends.at[child]) / ends.width(child), kBelowOne);
-    chance *= ends.width(child) / ends.sum();
-    ref = 8 * index + static_cast<NodeRef>(child);
-    if (!is_leaf(ref)) nodes_[node_of(ref)].prefetch();
-  } while (!is_leaf(ref));
-  return Choice{nodes_[ref / 8].child[ref % 8], mixed(chance, count_of(top))};
+    if (!step(d, query)) return std::nullopt;
+  } while (!is_leaf(d.ref));
+  return choice(d);
+}
+
+// In turns: while one waits for its next node, the others go on.
+template <typename Query>
+void WideLightTree::descend_all(std::span<const Draw> draws, const Query& query,
+                                std::span<std::optional<Choice>> choices) const {
+  SmallVector<Descent, 16> under_way;
+  for (std::uint32_t i = 0; i < draws.size(); ++i) {
+    const auto [top, u] = draws[i];
+    if (nodes_.empty() || is_leaf(top) || u < kByNumber) {
+      choices[i] = descend(top, query, u);
+    } else {
+      under_way.push_back({top, top, rest(u), 1, i});
+    }
+  }
+  while (!under_way.empty()) {
+    for (std::size_t i = under_way.size(); i-- > 0;) {
+      Descent& d = under_way[i];
+      const bool alive = step(d, query);
+      if (alive && !is_leaf(d.ref)) continue;
+      choices[d.draw] = alive ? std::optional(choice(d)) : std::nullopt;
+      d = under_way.back();
+      under_way.truncate(under_way.size() - 1);
+    }
+  }
+}
+
+WideLightTree::Choice WideLightTree::choice(const Descent& d) const {
+  return {nodes_[d.ref / 8].child[d.ref % 8], mixed(d.chance, count_of(d.top))};
 }
 
 template <typename Query>
@@ -109,6 +146,14 @@ std::optional<WideLightTree::Choice> WideLightTree::select_below(NodeRef top, co
 }
 std::optional<WideLightTree::Choice> WideLightTree::select_below(NodeRef top, const WideSegment& query, double u) const {
   return descend(top, query, u);
+}
+void WideLightTree::select_below(std::span<const Draw> draws, const WideQuery& query,
+                                 std::span<std::optional<Choice>> choices) const {
+  descend_all(draws, query, choices);
+}
+void WideLightTree::select_below(std::span<const Draw> draws, const WideSegment& query,
+                                 std::span<std::optional<Choice>> choices) const {
+  descend_all(draws, query, choices);
 }
 double WideLightTree::pmf_below(NodeRef top, NodeRef leaf, const WideQuery& query) const { return ascend(top, leaf, query); }
 double WideLightTree::pmf_below(NodeRef top, NodeRef leaf, const WideSegment& query) const { return ascend(top, leaf, query); }

@@ -17,6 +17,12 @@ const LightCluster* find(const LightCut& cut, std::uint32_t ref) {
   return it == cut.end() ? nullptr : it;
 }
 
+template <typename Choice>
+std::optional<SelectedLight> answer(const std::optional<Choice>& choice) {
+  if (!choice) return std::nullopt;
+  return SelectedLight{choice->light, static_cast<float>(choice->pmf)};
+}
+
 LightCut everything() {
   LightCut cut;
   cut.push_back({kEverything, 1});
@@ -51,12 +57,31 @@ LightCut WideSelector::cut(const SegmentQuery& query, const CutSettings& setting
 
 template <typename Query>
 std::optional<SelectedLight> WideSelector::draw(const LightCluster& cluster, const Query& query, double u) const {
-  const auto answer = [](const auto& choice) -> std::optional<SelectedLight> {
-    if (!choice) return std::nullopt;
-    return SelectedLight{choice->light, static_cast<float>(choice->pmf)};
-  };
   if (cluster.ref == kFarCluster) return answer(far().select(query, u));
   return answer(tree().select_below(cluster.ref, tree().localize(query), u));
+}
+
+template <typename Query>
+void WideSelector::draw_all(const LightCut& cut, const Query& query, std::span<const double> u,
+                            std::span<std::optional<SelectedLight>> selected) const {
+  SmallVector<WideLightTree::Draw, 16> draws;
+  SmallVector<std::uint32_t, 16> places;
+  std::uint32_t i = 0;
+  for (const LightCluster& cluster : cut) {
+    for (std::uint32_t k = 0; k < cluster.candidates; ++k, ++i) {
+      if (cluster.ref == kFarCluster) {
+        selected[i] = answer(far().select(query, u[i]));
+      } else {
+        draws.push_back({cluster.ref, u[i]});
+        places.push_back(i);
+      }
+    }
+  }
+  SmallVector<std::optional<WideLightTree::Choice>, 16> choices;
+  for (std::size_t k = 0; k < draws.size(); ++k) choices.push_back({});
+  tree().select_below(std::span<const WideLightTree::Draw>(draws.data(), draws.size()), tree().localize(query),
+                      std::span(choices.data(), choices.size()));
+  for (std::size_t k = 0; k < draws.size(); ++k) selected[places[k]] = answer(choices[k]);
 }
 
 /// Up from the leaf to the cluster of the cut that holds it.
@@ -82,6 +107,17 @@ std::optional<SelectedLight> WideSelector::select_in(const LightCluster& cluster
 }
 std::optional<SelectedLight> WideSelector::select_in(const LightCluster& cluster, const SegmentQuery& query, double u) const {
   return cluster.ref == kEverything ? select(query, u) : draw(cluster, Segment(query), u);
+}
+
+void WideSelector::select_all(const LightCut& cut, const PointQuery& query, std::span<const double> u,
+                              std::span<std::optional<SelectedLight>> selected) const {
+  if (find(cut, kEverything)) return LightSelector::select_all(cut, query, u, selected);
+  draw_all(cut, query, u, selected);
+}
+void WideSelector::select_all(const LightCut& cut, const SegmentQuery& query, std::span<const double> u,
+                              std::span<std::optional<SelectedLight>> selected) const {
+  if (find(cut, kEverything)) return LightSelector::select_all(cut, query, u, selected);
+  draw_all(cut, Segment(query), u, selected);
 }
 
 float WideSelector::expected(const LightCut& cut, const PointQuery& query, LightId light) const {

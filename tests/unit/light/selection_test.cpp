@@ -119,6 +119,9 @@ TEST_CASE("lights at infinity along a segment: by irradiance, length, and what t
   q.profile.sigma[0] = 1;
   q.profile.escape[0] = std::log(3.0f);
   CHECK(far.importance(q) == doctest::Approx(3 * 0.5 / 3 * (2 + 1 + sky)));
+  q.profile.edge[1] = kInfinity;  // only 3 of it are within reach
+  CHECK(far.importance(q) == doctest::Approx(3.0 / 3 * (2 + 1 + sky)));
+  q.profile.edge[1] = 2.5f;
   q.profile.g = 0.5f;
   const double ahead = 0.75 / std::pow(0.5, 3), behind = 0.75 / std::pow(1.5, 3);
   CHECK(far.pmf(q, 0) / far.pmf(q, 1) == doctest::Approx(2 * ahead / behind));

@@ -114,6 +114,8 @@ TEST_CASE("what a segment crosses is split at any threshold, what lies aside by 
   CHECK(1 + measure({-9, 0, 10}, {1, 0, 0}, 50, 0, 0.7f).cv2 ==
         doctest::Approx((1 + aside.cv2) * 0.5 * x / std::tanh(0.5 * x)).epsilon(0.02));
   // So does a forward peak that the lights are in, and one that they are not in does not.
+  // By where the segment begins, to which light is scattered forward: from its end the lights are off the peak.
+  CHECK(measure({-30, 0, 4}, {1, 0, 0}, 24, 0.9f, 1e-6f).cv2 > 1.5 * measure({-30, 0, 4}, {1, 0, 0}, 24, 0, 1e-6f).cv2);
   CHECK(measure({-20, 0, 2}, {1, 0, 0}, 4, 0.9f, 1e-6f).cv2 > 2 * measure({-20, 0, 2}, {1, 0, 0}, 4, 0, 1e-6f).cv2);
   CHECK(measure({-20, 0, 2}, {1, 0, 0}, 4, -0.9f, 1e-6f).cv2 ==
         doctest::Approx(measure({-20, 0, 2}, {1, 0, 0}, 4, 0, 1e-6f).cv2));
@@ -175,6 +177,36 @@ void check_draws(const LightSelector& selector, const Query& q, const CutSetting
     // Strata make the count no more random than independent draws: over 5 deviations of a Poisson count, and room
     // for the few that fall where hardly any are expected.
     CHECK(std::abs(count[i] - expected) <= 5 * std::sqrt(expected) + 5);
+  }
+}
+
+template <typename Query>
+void check_all_at_once(const LightSelector& selector, const Query& q, const CutSettings& settings, Rng& rng) {
+  const LightCut cut = selector.cut(q, settings);
+  std::vector<double> u;
+  for (std::uint32_t i = 0; i < total(cut); ++i) u.push_back(i % 9 == 8 ? rng.uniform_wide() * 0x1p-20 : rng.uniform_wide());
+  std::vector<std::optional<SelectedLight>> selected(u.size(), SelectedLight{7, -1});
+  selector.select_all(cut, q, u, selected);
+  std::size_t i = 0;
+  for (const LightCluster& c : cut) {
+    for (std::uint32_t k = 0; k < c.candidates; ++k, ++i) {
+      const auto one = selector.select_in(c, q, u[i]);
+      REQUIRE(one.has_value() == selected[i].has_value());
+      if (!one) continue;
+      REQUIRE(one->light == selected[i]->light);
+      REQUIRE(one->pmf == selected[i]->pmf);
+    }
+  }
+}
+
+TEST_CASE("all candidates at once are those drawn one by one") {
+  for (const LightStrategy strategy : {LightStrategy::tree, LightStrategy::tree_binary, LightStrategy::power}) {
+    const auto selector = make_selector(strategy, lights_of(300, true));
+    Rng rng(4);
+    for (const CutSettings settings : {CutSettings{1, 0.9f}, {5, 0.9f}, {40, 0.9f}, {12, 0}, {0, 1}}) {
+      for (const PointQuery& q : queries()) check_all_at_once(*selector, q, settings, rng);
+      for (const SegmentQuery& q : segments()) check_all_at_once(*selector, q, settings, rng);
+    }
   }
 }
 

@@ -128,5 +128,26 @@ TEST_CASE("wide segments: lights on the line, huge offsets and unbounded spans g
   }
 }
 
+TEST_CASE("wide segments: an unbounded span is the limit of long ones") {
+  Rng rng(13);
+  for (int i = 0; i < 5000; ++i) {
+    Scene scene(rng);
+    scene.segment.t0 = i % 2 ? 0 : 100;
+    const auto weights = [&](float t1) {
+      scene.segment.t1 = t1;
+      scene.segment.profile.edge = {scene.segment.t0, 200, 300, t1, t1, t1, t1, t1, t1};
+      const WideSegment local = scene.local();
+      ChildImportance importance = child_importance(scene.node, local);
+      for (float& w : importance.of) w *= static_cast<float>(local.to_world);
+      return importance;
+    };
+    const ChildImportance longer = weights(1e7f), unbounded = weights(kInfinity);
+    for (std::size_t k = 0; k < 8; ++k) {
+      if (!(longer.of[k] > 1e-20f)) continue;
+      REQUIRE(unbounded.of[k] / longer.of[k] == doctest::Approx(1).epsilon(0.01));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace tyndall
