@@ -40,6 +40,12 @@ SceneCheck check_scene(const std::string& path);
 /// 8-bit values are made linear by `encoding` ("": sRGB for 8-bit colour). Throws Error (scene).
 Image read_image(const std::string& path, const std::string& encoding = "");
 
+/// What the header of an image file declares; no pixel is read. Throws Error (scene).
+struct ImageSize {
+  int width = 0, height = 0;
+};
+ImageSize read_image_size(const std::string& path);
+
 /// The header of an .exr that read_image reads: windows, attributes, and channels without values. Throws Error (scene).
 Image read_exr_header(const std::string& path);
 
@@ -54,6 +60,11 @@ void write_png(const Image& image, const std::string& path, float exposure = 0);
 std::string encode_ply(const TriangleMesh& mesh);
 /// Write bytes as they are, in the same safe way as an image. Throws Error (output).
 void write_file(std::string_view bytes, const std::string& path);
+/// The bytes of a file, gzip undone. Throws Error (scene) when it is missing or cannot be read.
+std::string read_file(const std::string& path);
+/// Bytes that a new file at `path` could take: by the free space of its disk and the limit on the size of files. The
+/// largest number when neither is known.
+std::uint64_t room_for_file(const std::string& path);
 
 /// What a .vdb, .nvdb, .exr (or other image) or .pbrt holds: rows of (subject, property, value).
 struct Property {

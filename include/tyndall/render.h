@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -19,6 +20,8 @@ struct BuildSettings {
   std::vector<LightStrategy> lights{LightStrategy::tree};  ///< those that will be rendered with
   bool sanitize = false;  ///< NaN and infinite voxels become 0 instead of an error
   int threads = 0;        ///< 0: all cores
+  /// Bytes: a scene that is estimated to need more, film and volumes included, is refused before anything is built.
+  std::size_t max_memory = std::numeric_limits<std::size_t>::max();
 };
 
 /// What one light strategy adds to a build.
@@ -78,6 +81,7 @@ struct BadSample {
 struct RenderReport {
   int samples = 0;  ///< per pixel, done
   bool stopped = false;  ///< ended by RenderControl::stop
+  std::uint64_t unrendered = 0;  ///< pixels without a sample: the first pass was given up
   double seconds = 0;  ///< spent rendering
   std::uint64_t paths = 0, rays = 0, shadow_rays = 0, density_lookups = 0;
 
@@ -100,8 +104,21 @@ class RenderJob {
   RenderJob& operator=(RenderJob&&) noexcept;
   ~RenderJob();
 
-  /// `samples` > 0 more for every pixel. False: given up; the job is then good for nothing but its report.
-  bool advance(int samples, const PassWatch& watch = {});
+  /// What is left of a pass that is given up. `spoilt`: the job is good for nothing but its report. `undone`: the job is as
+  /// it was before the pass, for which the pass takes twice the film's memory; a first pass, before which there was nothing,
+  /// leaves the pixels it finished, the others black (report().unrendered, and 0 in channel SampleCount).
+  enum class GivenUp { spoilt, undone };
+
+  /// `samples` > 0 more for every pixel. False: given up.
+  bool advance(int samples, const PassWatch& watch = {}, GivenUp given_up = GivenUp::spoilt);
+
+  /// The state at this pass end, at least 1 sample, as bytes for restore(). Ends in a checksum.
+  std::string save() const;
+  /// Take up what save() gave to a job of the same world and settings (but for spp, time, error and threads) in the same
+  /// program; the samples that follow are then those of the unbroken render, bit for bit. `name` stands for the bytes in
+  /// messages. Throws Error (scene), with both values for what differs, and leaves the job as it was.
+  void restore(std::string_view bytes, const std::string& name);
+
   PixelBounds pixels() const;  ///< of the frame, that are rendered
   int samples() const;     ///< a pixel, so far
   double seconds() const;  ///< spent in advance()
@@ -120,9 +137,17 @@ class RenderJob {
 struct RenderControl {
   /// Called a few times a second by one thread at a time, which waits for it; may be empty. Must not throw.
   std::function<void(const Progress&)> progress{};
-  const std::atomic<bool>* stop = nullptr;  ///< set it to end at the next pass end with what there is
+  /// Set it to end with what there is at the last pass end, or the next one if that is less than two seconds away. Only a
+  /// first pass that takes longer leaves pixels without a sample.
+  const std::atomic<bool>* stop = nullptr;
   /// Called at 1, 2, 4, 8 ... samples; may be empty. The time it takes is not the render's.
   std::function<void(const RenderJob&)> checkpoint{};
+  /// Called at the first pass end `save_seconds` after the start or the last call, and at the end of a render that is
+  /// stopped; may be empty. For RenderJob::save.
+  std::function<void(const RenderJob&)> save{};
+  double save_seconds = 60;
+  /// Called before the first pass; may be empty. For RenderJob::restore.
+  std::function<void(RenderJob&)> begin{};
 };
 
 struct Rendering {

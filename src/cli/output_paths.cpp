@@ -17,6 +17,9 @@ void check_writable(const std::string& path, const std::string& option) {
   if (fs::is_directory(path, ignored)) {
     throw Error(Failure::output, path + ": is a folder; give a file name with " + option);
   }
+  if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored)) {
+    throw Error(Failure::output, path + ": is not a regular file; give another name with " + option);
+  }
   if (!fs::is_directory(folder, ignored)) {
     throw Error(Failure::output, path + ": folder " + folder.string() + " does not exist; make it first");
   }

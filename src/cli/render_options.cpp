@@ -125,6 +125,11 @@ void declare(CLI::App& command, RenderOptions& o) {
   auto* log = command.add_option("--error-log", o.error_log, "file that gets a line of JSON at 1, 2, 4, 8 ... samples and at the end: seconds, samples, errors; --error-log error.jsonl");
   reference->needs(log);
   log->needs(reference);
+  command.add_option("--checkpoint", o.checkpoint, "seconds between saves to OUTPUT.checkpoint, which --resume goes on from; removed when the render is complete [none]; --checkpoint 60")
+      ->check(positive());
+  command.add_flag("--resume", o.resume, "go on from OUTPUT.checkpoint if there is one: the same bits as an unbroken render");
+  command.add_option("--max-memory", o.max_memory, "GB: a scene that is estimated to need more is refused before it is built [what the machine has]; --max-memory 8")
+      ->check(positive());
   command.add_flag("--reproducible", o.reproducible, "leave dates and times out of the image header");
   declare_progress(command, o.progress);
   command.add_flag("--quiet", o.quiet, "no progress, notes or summary; errors only");

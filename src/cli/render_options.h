@@ -32,10 +32,10 @@ struct RenderOptions {
   MethodOptions methods;
   PictureOptions picture;
   std::optional<int> spp, threads;
-  std::optional<double> time, error;
+  std::optional<double> time, error, checkpoint, max_memory;
   std::optional<std::uint64_t> seed;
   std::string reference, error_log, aovs, progress = "auto";
-  bool reproducible = false, quiet = false, json = false;
+  bool reproducible = false, quiet = false, json = false, resume = false;
 };
 
 void declare(CLI::App& command, MethodOptions& options);

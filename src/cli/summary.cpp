@@ -39,6 +39,10 @@ std::string as_text(const Summary& s) {
                       mebibytes(s.build.geometry_bytes), mebibytes(s.build.volume_bytes), mebibytes(s.build.light_bytes));
   text += fmt::format("  health  {} non-finite samples, {} majorant violations, {} caps hit, {} boundary parity errors\n",
                       r.non_finite, r.majorant_violations, r.caps_hit, r.parity_errors);
+  if (r.unrendered > 0) {
+    text += fmt::format("  stopped in the first pass: {} of {} pixels have no sample and are black\n", r.unrendered,
+                        std::int64_t{s.width} * s.height);
+  }
   return text + bad_samples(r);
 }
 
@@ -51,6 +55,7 @@ std::string as_json(const Summary& s) {
   j["height"] = s.height;
   j["samples"] = r.samples;
   j["stopped"] = r.stopped;
+  j["unrendered"] = r.unrendered;
   j["seconds"] = {{"read", s.read_seconds},         {"build", s.build_seconds},
                   {"geometry", s.build.geometry_seconds}, {"volumes", s.build.volume_seconds},
                   {"lights", s.build.light_seconds}, {"render", r.seconds},

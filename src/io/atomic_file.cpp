@@ -1,15 +1,22 @@
 #include "io/atomic_file.h"
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/statvfs.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <limits>
+#include <memory>
 #include <system_error>
+#include <vector>
 
 #include "tyndall/error.h"
+#include "tyndall/io.h"
 
 namespace tyndall {
 namespace {
@@ -39,6 +46,16 @@ bool sync(const std::string& path, int flags) {
 }
 
 }  // namespace
+
+std::uint64_t room_for_file(const std::string& path) {
+  std::uint64_t room = std::numeric_limits<std::uint64_t>::max();
+  rlimit limit{};
+  if (::getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) room = limit.rlim_cur;
+  struct statvfs disk {};
+  if (::statvfs(folder_of(followed(path)).c_str(), &disk) == 0 && disk.f_blocks > 0)
+    room = std::min<std::uint64_t>(room, std::uint64_t{disk.f_bavail} * disk.f_frsize);
+  return room;
+}
 
 AtomicFile::AtomicFile(const std::string& path) : path_(path), target_(followed(path)) {
   std::error_code ignored;
@@ -82,6 +99,18 @@ void AtomicFile::close() {
   struct stat status {};
   if (::stat(temporary_.c_str(), &status) != 0) fail(system_reason());
   if (status.st_size < size) fail("the file is shorter than what was written");
+}
+
+void AtomicFile::require_holds(std::string_view bytes) const {
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(temporary_.c_str(), "rb"), std::fclose);
+  if (!file) fail("it cannot be opened again: " + system_reason());
+  std::vector<char> buffer(std::min<std::size_t>(bytes.size() + 1, std::size_t{1} << 20));
+  std::size_t at = 0;
+  while (const std::size_t got = std::fread(buffer.data(), 1, buffer.size(), file.get())) {
+    if (got > bytes.size() - at || std::memcmp(buffer.data(), bytes.data() + at, got) != 0) fail("it reads back differently");
+    at += got;
+  }
+  if (at != bytes.size()) fail("it reads back differently");
 }
 
 void AtomicFile::commit() {

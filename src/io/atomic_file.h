@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <string>
+#include <string_view>
 
 namespace tyndall {
 
@@ -21,6 +22,8 @@ class AtomicFile {
 
   /// Flushes and closes, checks that everything was accepted and that the file's size is what was written.
   void close();
+  /// After close: opened again, the file holds `bytes`.
+  void require_holds(std::string_view bytes) const;
   /// After close: to the disk, then to its name, then the folder's entry to the disk.
   void commit();
   [[noreturn]] void fail(const std::string& reason) const;  ///< throws the Error

@@ -1,6 +1,7 @@
 /// OpenEXR files. With exr_*.cpp the only door to that library; writing is write_exr in tyndall/io.h.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,9 @@ struct ExrFile {
   std::string compression;                 ///< "zip", "piz" ...
   std::string storage;                     ///< "scanlines" or "tiles"
 };
+
+/// Threads that the library may use to pack or unpack an image of this many values, made available to it.
+int exr_threads(std::size_t values);
 
 /// True when the file begins as OpenEXR files do; false also when it cannot be opened.
 bool is_exr(const std::string& path);

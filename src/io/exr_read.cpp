@@ -10,10 +10,12 @@
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/ImfTestFile.h>
+#include <OpenEXR/ImfThreading.h>
 
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
+#include <thread>
 
 #include "io/exr.h"
 #include "tyndall/error.h"
@@ -156,7 +158,7 @@ ExrFile decode(const std::string& path) {
 
 bool holds(const std::string& path, const Image& image) {
   constexpr int strip = 64;  // rows; keeps the check's memory small beside the image's
-  Imf::InputFile file(path.c_str());
+  Imf::InputFile file(path.c_str(), exr_threads(image.channels.size() * image.channels.front().values.size()));
   const Imf::ChannelList& channels = file.header().channels();
   std::size_t count = 0;
   for (auto c = channels.begin(); c != channels.end(); ++c) ++count;
@@ -192,11 +194,22 @@ auto guarded(const std::string& path, const Read& read) {
   } catch (const std::bad_alloc&) {
     fail(path, "needs more memory than there is");
   } catch (const std::exception& error) {
-    fail(path, "cannot be read as OpenEXR: " + tidy(error.what()));
+    const std::string reason = error.what();
+    if (reason.find("Early end of file") != std::string::npos)
+      fail(path, "ends too early; it may have been cut off while it was written or copied");
+    fail(path, "cannot be read as OpenEXR: " + tidy(reason));
   }
 }
 
 }  // namespace
+
+int exr_threads(std::size_t values) {
+  constexpr std::size_t kSmall = 1 << 21;
+  if (values < kSmall) return 0;
+  const int wanted = static_cast<int>(std::min(std::thread::hardware_concurrency(), 8u));
+  if (Imf::globalThreadCount() < wanted) Imf::setGlobalThreadCount(wanted);
+  return wanted;
+}
 
 bool is_exr(const std::string& path) { return Imf::isOpenExrFile(path.c_str()); }
 

@@ -97,7 +97,7 @@ void require_whole(const Image& image, const AtomicFile& file) {
 
 /// All bytes to the stream; on return the position is the end of the file.
 void encode(const Image& image, FileStream& stream) {
-  Imf::OutputFile output(stream, header_of(image), 0);
+  Imf::OutputFile output(stream, header_of(image), exr_threads(image.channels.size() * image.channels.front().values.size()));
   Imf::FrameBuffer buffer;
   for (const Channel& c : image.channels)
     buffer.insert(c.name, Imf::Slice::Make(Imf::FLOAT, c.values.data(), to_box(image.data)));

@@ -7,9 +7,12 @@
 #include <memory>
 
 #include "tyndall/error.h"
+#include "tyndall/io.h"
 
 namespace tyndall {
 namespace {
+
+constexpr std::size_t kMaxUnsizedBytes = std::size_t{1} << 30;  // of pipes and devices, which may never end
 
 struct CloseFile {
   void operator()(std::FILE* file) const { std::fclose(file); }
@@ -29,19 +32,23 @@ std::string read_file_text(const std::string& path) {
 
   // The size is a hint only: pipes have none, and a file may grow while it is read.
   std::string bytes;
-  const auto size = std::filesystem::file_size(path, ignored);
-  std::size_t step = ignored ? 1 << 20 : static_cast<std::size_t>(size) + 1;
+  std::uintmax_t size = std::filesystem::file_size(path, ignored);
+  if (ignored) size = 0;
+  std::size_t step = size > 0 ? static_cast<std::size_t>(size) + 1 : 1 << 20;
   while (true) {
     const std::size_t used = bytes.size();
     bytes.resize(used + step);
     const std::size_t got = std::fread(bytes.data() + used, 1, step, file.get());
     bytes.resize(used + got);
     if (got < step) break;
+    if (bytes.size() > kMaxUnsizedBytes + size) throw unreadable(path, "it has no end");
     step = 1 << 20;
   }
   if (std::ferror(file.get())) throw unreadable(path, std::strerror(errno));
   if (is_gzip(bytes)) return gunzip(bytes, path);
   return bytes;
 }
+
+std::string read_file(const std::string& path) { return read_file_text(path); }
 
 }  // namespace tyndall

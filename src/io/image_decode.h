@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "tyndall/image.h"
+#include "tyndall/io.h"
 
 namespace tyndall {
 
@@ -24,6 +25,10 @@ inline constexpr int kMaxImageSide = 1 << 16;
 Image decode_png(std::string_view bytes, const Encoding& encoding, const std::string& path);
 /// .hdr, .jpg, .tga and .bmp.
 Image decode_stb(std::string_view bytes, const Encoding& encoding, const std::string& path);
+
+/// What their headers declare.
+ImageSize png_size(std::string_view bytes, const std::string& path);
+ImageSize stb_size(std::string_view bytes, const std::string& path);
 
 /// `samples` interleaved values in [0,1], `count` a pixel (1: Y, 2: Y A, 3: R G B, 4: R G B A), as planes. Alpha is
 /// taken as it is; the others go through `encoding`, by a table when they are 8 or 16 bit integers.

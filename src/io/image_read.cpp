@@ -5,11 +5,27 @@
 #include "tyndall/io.h"
 
 namespace tyndall {
+namespace {
+
+bool is_png(std::string_view bytes) { return bytes.starts_with("\x89PNG\r\n\x1a\n"); }
+
+}  // namespace
+
+ImageSize read_image_size(const std::string& path) {
+  if (is_exr(path)) {
+    const Image header = read_exr_header(path);
+    return {header.width(), header.height()};
+  }
+  const std::string bytes = read_file_text(path);
+  return is_png(bytes) ? png_size(bytes, path) : stb_size(bytes, path);
+}
+
 Image read_image(const std::string& path, const std::string& encoding) {
   const Encoding decoded_by = parse_encoding(encoding, path);
   if (is_exr(path)) return read_exr(path).image;
   const std::string bytes = read_file_text(path);
-  if (bytes.starts_with("\x89PNG\r\n\x1a\n")) return decode_png(bytes, decoded_by, path);
+  if (bytes.empty()) throw Error(Failure::scene, path + ": is empty; it may not have been written to its end");
+  if (is_png(bytes)) return decode_png(bytes, decoded_by, path);
   return decode_stb(bytes, decoded_by, path);
 }
 

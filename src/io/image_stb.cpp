@@ -1,9 +1,52 @@
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <memory>
+#include <set>
 
 #include "io/image_decode.h"
 #include "tyndall/error.h"
+
+namespace tyndall {
+namespace {
+
+/// Everything that stb_image holds: it is left by an exception at the end of a file, and cannot clean up then.
+class StbMemory {
+ public:
+  StbMemory() : outer_(current) { current = this; }
+  ~StbMemory() {
+    current = outer_;
+    for (void* block : blocks_) std::free(block);
+  }
+  StbMemory(const StbMemory&) = delete;
+  StbMemory& operator=(const StbMemory&) = delete;
+
+  void* resize(void* block, std::size_t size) {
+    void* moved = std::realloc(block, size);
+    if (!moved) return nullptr;
+    blocks_.erase(block);
+    blocks_.insert(moved);
+    return moved;
+  }
+  void release(void* block) {
+    blocks_.erase(block);
+    std::free(block);
+  }
+
+  static thread_local StbMemory* current;
+
+ private:
+  StbMemory* outer_;
+  std::set<void*> blocks_;
+};
+thread_local StbMemory* StbMemory::current = nullptr;
+
+void* stb_malloc(std::size_t size) { return StbMemory::current->resize(nullptr, std::max<std::size_t>(size, 1)); }
+[[maybe_unused]] void* stb_realloc(void* block, std::size_t size) { return StbMemory::current->resize(block, std::max<std::size_t>(size, 1)); }
+void stb_free(void* block) { StbMemory::current->release(block); }
+
+}  // namespace
+}  // namespace tyndall
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpragmas"
@@ -14,6 +57,9 @@
 #pragma GCC diagnostic ignored "-Wshadow"
 #pragma GCC diagnostic ignored "-Wmisleading-indentation"
 #define STB_IMAGE_IMPLEMENTATION
+#define STBI_MALLOC(size) tyndall::stb_malloc(size)
+#define STBI_REALLOC(block, size) tyndall::stb_realloc(block, size)
+#define STBI_FREE(block) tyndall::stb_free(block)
 #define STB_IMAGE_STATIC
 #define STBI_NO_STDIO
 #define STBI_ONLY_HDR
@@ -27,16 +73,13 @@
 namespace tyndall {
 namespace {
 
-struct Free {
-  void operator()(void* pixels) const { stbi_image_free(pixels); }
-};
-
-/// Bytes handed to stb_image on request: it takes the end of its input for zeros, so we notice when it is passed.
+/// Bytes handed to stb_image on request: it takes the end of its input for zeros without end, and loops over them for ever.
 struct Source {
   std::string_view bytes;
+  bool must_last = false;  ///< asking for more than there is means that the file is cut off
   std::size_t position = 0;
-  bool exhausted = false;
 };
+struct CutOff {};
 
 int read_bytes(void* user, char* out, int count) {
   constexpr std::size_t look_ahead = 128;  // what stb_image fetches at a time; fewer left is no fault then
@@ -45,7 +88,7 @@ int read_bytes(void* user, char* out, int count) {
   const std::size_t got = std::min(wanted, source.bytes.size() - source.position);
   std::copy_n(source.bytes.data() + source.position, got, out);
   source.position += got;
-  if (got == 0 || (got < wanted && wanted != look_ahead)) source.exhausted = true;
+  if (source.must_last && (got == 0 || (got < wanted && wanted != look_ahead))) throw CutOff{};
   return static_cast<int>(got);
 }
 
@@ -76,12 +119,23 @@ Image from_floats(const float* samples, int width, int height) {
 
 }  // namespace
 
+ImageSize stb_size(std::string_view bytes, const std::string& path) {
+  const StbMemory memory;
+  Source source{bytes};
+  ImageSize size;
+  int count = 0;
+  if (!stbi_info_from_callbacks(&kCallbacks, &source, &size.width, &size.height, &count))
+    throw Error(Failure::scene,
+                path + ": cannot be read: it is none of OpenEXR, PNG, Radiance HDR, JPEG, TGA, BMP, or its header is damaged");
+  return size;
+}
+
 Image decode_stb(std::string_view bytes, const Encoding& encoding, const std::string& path) {
+  const StbMemory memory;
   Source source{bytes};
   const auto fail = [&](const std::string& reason) { throw Error(Failure::scene, path + ": cannot be read: " + reason); };
-  int width = 0, height = 0, count = 0;
-  if (!stbi_info_from_callbacks(&kCallbacks, &source, &width, &height, &count))
-    fail("it is none of OpenEXR, PNG, Radiance HDR, JPEG, TGA, BMP, or its header is damaged");
+  auto [width, height] = stb_size(bytes, path);
+  int count = 0;
   if (width <= 0 || height <= 0) fail("its header declares no pixels");
   constexpr std::size_t max_ratio = 2000;  // pixels a byte: beyond the densest that these formats reach
   if (static_cast<std::size_t>(width) * static_cast<std::size_t>(height) / max_ratio > bytes.size())
@@ -89,14 +143,17 @@ Image decode_stb(std::string_view bytes, const Encoding& encoding, const std::st
 
   source = {bytes};
   const bool hdr = stbi_is_hdr_from_callbacks(&kCallbacks, &source);
-  source = {bytes};
-  const std::unique_ptr<void, Free> samples(
-      hdr ? static_cast<void*>(stbi_loadf_from_callbacks(&kCallbacks, &source, &width, &height, &count, 3))
-          : static_cast<void*>(stbi_load_from_callbacks(&kCallbacks, &source, &width, &height, &count, 0)));
+  source = {bytes, true};
+  const void* samples = nullptr;  // belongs to `memory`
+  try {
+    samples = hdr ? static_cast<void*>(stbi_loadf_from_callbacks(&kCallbacks, &source, &width, &height, &count, 3))
+                  : static_cast<void*>(stbi_load_from_callbacks(&kCallbacks, &source, &width, &height, &count, 0));
+  } catch (const CutOff&) {
+    fail("the file is cut off");
+  }
   if (!samples) fail(stbi_failure_reason());
-  if (source.exhausted) fail("the file is cut off");
-  if (hdr) return from_floats(static_cast<const float*>(samples.get()), width, height);
-  return image_from_samples(static_cast<const std::uint8_t*>(samples.get()), width, height, count, encoding);
+  if (hdr) return from_floats(static_cast<const float*>(samples), width, height);
+  return image_from_samples(static_cast<const std::uint8_t*>(samples), width, height, count, encoding);
 }
 
 }  // namespace tyndall

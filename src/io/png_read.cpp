@@ -68,6 +68,17 @@ bool read_rows(png_structp png, Raster& raster) {
 
 }  // namespace
 
+ImageSize png_size(std::string_view bytes, const std::string& path) {
+  constexpr std::size_t kAt = 16;  // after the signature, the length and the name of the first chunk
+  if (bytes.size() < kAt + 8 || bytes.substr(12, 4) != "IHDR") throw Error(Failure::scene, path + ": cannot be read as PNG: it has no header");
+  const auto number = [&](std::size_t at) {
+    std::uint32_t value = 0;
+    for (std::size_t i = 0; i < 4; ++i) value = value << 8 | static_cast<unsigned char>(bytes[at + i]);
+    return static_cast<int>(std::min<std::uint32_t>(value, kMaxImageSide + 1));
+  };
+  return {number(kAt), number(kAt + 4)};
+}
+
 Image decode_png(std::string_view bytes, const Encoding& encoding, const std::string& path) {
   Source source{bytes};
   const auto fail = [&](const std::string& reason) -> void {

@@ -1,13 +1,12 @@
 #include <png.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <csetjmp>
-#include <cstring>
+#include <new>
+#include <string>
 #include <vector>
 
-#include "io/atomic_file.h"
 #include "tyndall/error.h"
 #include "tyndall/io.h"
 
@@ -35,11 +34,21 @@ std::vector<png_byte> tone_mapped(const Image& image, float exposure) {
 
 void on_error(png_structp png, png_const_charp) { std::longjmp(png_jmpbuf(png), 1); }
 void on_warning(png_structp, png_const_charp) {}
+void on_write(png_structp png, png_bytep bytes, png_size_t count) {
+  bool taken = true;
+  try {
+    static_cast<std::string*>(png_get_io_ptr(png))->append(reinterpret_cast<const char*>(bytes), count);
+  } catch (const std::bad_alloc&) {
+    taken = false;  // no exception may cross a library written in C
+  }
+  if (!taken) png_error(png, "out of memory");
+}
+void on_flush(png_structp) {}
 
-/// False when a write failed. May be left by longjmp, so it owns nothing.
-bool encode(png_structp png, png_infop info, std::FILE* stream, const Image& image, const png_byte* pixels) {
+/// Appends the file to `out`; false when there is no memory for it. May be left by longjmp, so it owns nothing.
+bool encode(png_structp png, png_infop info, const Image& image, const png_byte* pixels, std::string& out) {
   if (setjmp(png_jmpbuf(png))) return false;
-  png_init_io(png, stream);
+  png_set_write_fn(png, &out, on_write, on_flush);
   png_set_IHDR(png, info, static_cast<png_uint_32>(image.width()), static_cast<png_uint_32>(image.height()), 8,
                PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
@@ -53,19 +62,17 @@ bool encode(png_structp png, png_infop info, std::FILE* stream, const Image& ima
 }  // namespace
 
 void write_png(const Image& image, const std::string& path, float exposure) {
-  AtomicFile file(path);
-  if (image.width() <= 0 || image.height() <= 0) file.fail("the image has no pixels");
+  if (image.width() <= 0 || image.height() <= 0)
+    throw Error(Failure::output, path + ": cannot be written: the image has no pixels");
   const std::vector<png_byte> pixels = tone_mapped(image, exposure);
 
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, on_error, on_warning);
   png_infop info = png ? png_create_info_struct(png) : nullptr;
-  errno = 0;
-  const bool written = info && encode(png, info, file.stream(), image, pixels.data());
-  const std::string reason = errno ? std::strerror(errno) : "out of memory";
+  std::string bytes;
+  const bool encoded = info && encode(png, info, image, pixels.data(), bytes);
   png_destroy_write_struct(&png, &info);
-  if (!written) file.fail(reason);
-  file.close();
-  file.commit();
+  if (!encoded) throw Error(Failure::output, path + ": cannot be written: out of memory");
+  write_file(bytes, path);
 }
 
 }  // namespace tyndall

@@ -11,6 +11,7 @@ void write_file(std::string_view bytes, const std::string& path) {
   errno = 0;
   if (std::fwrite(bytes.data(), 1, bytes.size(), file.stream()) != bytes.size()) file.fail(std::strerror(errno));
   file.close();
+  file.require_holds(bytes);
   file.commit();
 }
 

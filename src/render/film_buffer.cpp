@@ -65,9 +65,30 @@ FilmBuffer::FilmBuffer(const Film& film, PixelBounds crop, std::vector<Aov> aovs
 
 bool FilmBuffer::wants(Aov aov) const { return std::find(aovs_.begin(), aovs_.end(), aov) != aovs_.end(); }
 
-double* FilmBuffer::pixel(int x, int y) {
-  const std::size_t index = static_cast<std::size_t>(y - crop_.y0) * crop_.width() + (x - crop_.x0);
-  return sums_.data() + index * stride_;
+std::size_t FilmBuffer::index_of(int x, int y) const {
+  return static_cast<std::size_t>(y - crop_.y0) * crop_.width() + (x - crop_.x0);
+}
+
+std::vector<double> FilmBuffer::copy(const PixelBounds& tile) const {
+  const std::size_t row = static_cast<std::size_t>(tile.width()) * stride_;
+  std::vector<double> sums;
+  sums.reserve(row * static_cast<std::size_t>(tile.height()));
+  for (int y = tile.y0; y < tile.y1; ++y) {
+    const double* from = pixel(index_of(tile.x0, y));
+    sums.insert(sums.end(), from, from + row);
+  }
+  return sums;
+}
+
+void FilmBuffer::restore(const PixelBounds& tile, const std::vector<double>& sums) {
+  const std::size_t row = static_cast<std::size_t>(tile.width()) * stride_;
+  for (int y = tile.y0; y < tile.y1; ++y) {
+    std::copy_n(sums.data() + static_cast<std::size_t>(y - tile.y0) * row, row, pixel(tile.x0, y));
+  }
+}
+
+void FilmBuffer::clear(const PixelBounds& tile) {
+  for (int y = tile.y0; y < tile.y1; ++y) std::fill_n(pixel(tile.x0, y), static_cast<std::size_t>(tile.width()) * stride_, 0.0);
 }
 
 void FilmBuffer::add(int x, int y, int sample, const PathRecord& record, float weight) {

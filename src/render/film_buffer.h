@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,14 @@ class FilmBuffer {
   /// Add sample number `sample` of pixel (x, y) of the full frame, weighted by the pixel filter.
   void add(int x, int y, int sample, const PathRecord& record, float weight);
 
+  /// All sums, pixel by pixel: what a checkpoint keeps.
+  std::span<const double> sums() const { return sums_; }
+  std::span<double> sums() { return sums_; }
+  /// The sums of the pixels of `tile`, which lies in the crop; and back.
+  std::vector<double> copy(const PixelBounds& tile) const;
+  void restore(const PixelBounds& tile, const std::vector<double>& sums);
+  void clear(const PixelBounds& tile);
+
   /// Means of the `samples` samples that every pixel has received, in the film's colour space. Beside P and Z stands
   /// SurfaceCount, beside Zvol VolumeCount: over how many samples their means are, so that renders can be merged.
   Image image(int samples) const;
@@ -40,7 +49,8 @@ class FilmBuffer {
   double estimated_relmse(int samples) const;
 
  private:
-  double* pixel(int x, int y);
+  std::size_t index_of(int x, int y) const;
+  double* pixel(int x, int y) { return sums_.data() + index_of(x, y) * stride_; }
   const double* pixel(std::size_t index) const { return sums_.data() + index * stride_; }
   void add_aov(Aov aov, double* sum, const PathRecord& record, float weight) const;
   void store_color(Image& image, const std::string& prefix, std::size_t offset, int samples) const;

@@ -7,7 +7,6 @@
 #include "tyndall/version.h"
 
 namespace tyndall {
-namespace {
 
 std::string options_text(const RenderSettings& settings) {
   std::string text = "--max-depth " + std::to_string(settings.max_depth);
@@ -20,6 +19,8 @@ std::string options_text(const RenderSettings& settings) {
                 settings.shadow_rays);
   return text + numbers;
 }
+
+namespace {
 
 std::string utc_now() {
   const std::time_t now = std::time(nullptr);

@@ -5,6 +5,9 @@
 
 namespace tyndall {
 
+/// Every option of the command line that chooses a method, with its value: "--max-depth 5 --lights tree ...".
+std::string options_text(const RenderSettings& settings);
+
 /// Add camera matrices, the scene's hash, samples, seed, options, version and (unless reproducible) date and time taken.
 void write_header(Image& image, const World::Parts& world, const RenderSettings& settings, const RenderReport& report);
 

@@ -1,8 +1,13 @@
 // The loop around a RenderJob: how long it goes on, and who hears of it.
+#include <chrono>
+
 #include "render/pass_schedule.h"
 
 namespace tyndall {
 namespace {
+
+/// A pass that would last longer than this after a stop is given up.
+constexpr double kLongestWait = 2;  // seconds
 
 class RenderLoop {
  public:
@@ -10,21 +15,43 @@ class RenderLoop {
       : control_(control), job_(world, settings), schedule_(settings, static_cast<bool>(control.checkpoint)) {}
 
   Rendering run() {
-    while (const int count = schedule_.next_pass(job_)) {
-      job_.advance(count, [&](double samples) {
-        report_progress(samples);
-        return true;
-      });
+    if (control_.begin) control_.begin(job_);
+    bool given_up = false;
+    while (const int count = given_up ? 0 : schedule_.next_pass(job_)) {
+      given_up = !run_pass(count);
       report_progress(0);
-      if (control_.checkpoint && PassSchedule::is_checkpoint(job_.samples())) control_.checkpoint(job_);
+      if (!given_up && control_.checkpoint && PassSchedule::is_checkpoint(job_.samples())) control_.checkpoint(job_);
       if (stop_requested()) break;
+      if (control_.save && since(last_save_) >= control_.save_seconds) save();
     }
     RenderReport report = job_.report();
-    report.stopped = stop_requested() && !schedule_.complete(job_);
+    report.stopped = stop_requested() && (given_up || !schedule_.complete(job_));
+    if (report.stopped && report.unrendered == 0 && control_.save) save();
     return {job_.image(), std::move(report)};
   }
 
  private:
+  using Clock = std::chrono::steady_clock;
+  static double since(Clock::time_point then) { return std::chrono::duration<double>(Clock::now() - then).count(); }
+
+  /// False: it was given up. Keeping the way back open costs memory, so it is left out where passes are short.
+  bool run_pass(int count) {
+    const auto start = Clock::now();
+    const bool first = job_.samples() == 0;
+    const bool slow = first || job_.seconds() / job_.samples() * count > kLongestWait / 2;
+    const auto watch = [&](double samples) {
+      report_progress(samples);
+      if (!slow || !stop_requested()) return true;
+      return since(start) * (count - samples) <= kLongestWait * samples;
+    };
+    return job_.advance(count, watch, slow ? RenderJob::GivenUp::undone : RenderJob::GivenUp::spoilt);
+  }
+
+  void save() {
+    control_.save(job_);
+    last_save_ = Clock::now();
+  }
+
   bool stop_requested() const { return control_.stop != nullptr && control_.stop->load(std::memory_order_relaxed); }
 
   /// `samples`: what every pixel has received of the running pass.
@@ -36,6 +63,7 @@ class RenderLoop {
   const RenderControl& control_;
   RenderJob job_;
   PassSchedule schedule_;
+  Clock::time_point last_save_ = Clock::now();
 };
 
 }  // namespace

@@ -6,9 +6,11 @@
 #include <mutex>
 
 #include "math/parallel.h"
+#include "render/checkpoint.h"
 #include "render/film_buffer.h"
 #include "render/image_header.h"
 #include "render/path.h"
+#include "render/scene_hash.h"
 
 namespace tyndall {
 namespace {
@@ -78,31 +80,47 @@ class RenderJob::Impl {
         film_(world.scene.film, full_crop(world.scene, settings), parse_aovs(settings.aovs)),
         pool_(settings.threads) {}
 
-  bool advance(int count, const PassWatch& watch) {
+  bool advance(int count, const PassWatch& watch, GivenUp if_given_up) {
     const auto start = Clock::now();
-    const PixelBounds& crop = film_.crop();
-    const int across = (crop.width() + kTile - 1) / kTile;
-    const int down = (crop.height() + kTile - 1) / kTile;
-    int tiles_done = 0;
-    std::atomic<bool> given_up{false};
-    pool_.for_each(static_cast<std::size_t>(across) * down, 1, [&](std::size_t tile) {
-      if (given_up) return;
+    Pass pass(film_.crop(), count, watch);
+    const bool first = samples_ == 0, undo = if_given_up == GivenUp::undone;
+    const Counters counters_before = counters_;
+    if (undo && !first) pass.before.resize(pass.tiles());
+    pool_.for_each(pass.tiles(), 1, [&](std::size_t tile) {
+      if (pass.given_up) return;
       const FlushDenormals guard;
       Counters counters;
-      const int x0 = crop.x0 + static_cast<int>(tile % across) * kTile;
-      const int y0 = crop.y0 + static_cast<int>(tile / across) * kTile;
-      render_tile({x0, y0, std::min(x0 + kTile, crop.x1), std::min(y0 + kTile, crop.y1)}, count, counters);
+      if (!pass.before.empty()) pass.before[tile] = film_.copy(pass.tile(tile));
+      pass.finished[tile] = render_tile(pass, pass.tile(tile), counters);
       const std::scoped_lock lock(mutex_);
       counters_ += counters;
-      if (watch && !watch(static_cast<double>(++tiles_done) / (across * down) * count)) given_up = true;
     });
     seconds_ += std::chrono::duration<double>(Clock::now() - start).count();
-    if (!given_up) samples_ += count;
-    return !given_up;
+    if (!pass.given_up) {
+      samples_ += count;
+    } else if (undo && first) {
+      keep_finished(pass);
+    } else if (undo) {
+      for (std::size_t i = 0; i < pass.tiles(); ++i) {
+        if (!pass.before[i].empty()) film_.restore(pass.tile(i), pass.before[i]);
+      }
+      counters_ = counters_before;
+    }
+    return !pass.given_up;
+  }
+
+  std::string save() const { return encode_checkpoint(identity(), {samples_, seconds_, counters_}, film_.sums()); }
+
+  void restore(std::string_view bytes, const std::string& name) {
+    CheckpointState state = decode_checkpoint(bytes, name, identity(), film_.sums());
+    samples_ = state.samples;
+    seconds_ = state.seconds;
+    counters_ = std::move(state.counters);
   }
 
   Image image() const {
     Image image = film_.image(samples_);
+    if (!unrendered_.empty()) mark_unrendered(image);
     write_header(image, world_, settings_, report());
     return image;
   }
@@ -125,18 +143,96 @@ class RenderJob::Impl {
     r.caps_hit = counters_.tracking.caps_hit;
     r.parity_errors = counters_.parity_errors;
     r.bad_samples = counters_.bad_samples;
+    for (const PixelBounds& tile : unrendered_) r.unrendered += static_cast<std::uint64_t>(tile.width()) * tile.height();
     return r;
   }
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  void render_tile(const PixelBounds& pixels, int count, Counters& counters) {
+  /// One call of advance().
+  struct Pass {
+    Pass(const PixelBounds& frame, int samples, const PassWatch& pass_watch)
+        : crop(frame),
+          across((frame.width() + kTile - 1) / kTile),
+          down((frame.height() + kTile - 1) / kTile),
+          count(samples),
+          watch(pass_watch),
+          finished(tiles(), 0) {}
+
+    std::size_t tiles() const { return static_cast<std::size_t>(across) * static_cast<std::size_t>(down); }
+    PixelBounds tile(std::size_t i) const {
+      const int x0 = crop.x0 + static_cast<int>(i % static_cast<std::size_t>(across)) * kTile;
+      const int y0 = crop.y0 + static_cast<int>(i / static_cast<std::size_t>(across)) * kTile;
+      return {x0, y0, std::min(x0 + kTile, crop.x1), std::min(y0 + kTile, crop.y1)};
+    }
+    /// `pixels` more have all their samples of the pass.
+    void tell(int pixels) {
+      if (!watch) return;
+      const std::scoped_lock lock(mutex);
+      pixels_done += static_cast<std::uint64_t>(pixels);
+      const double all = static_cast<double>(crop.width()) * crop.height();
+      if (!watch(static_cast<double>(pixels_done) / all * count)) given_up = true;
+    }
+
+    PixelBounds crop;
+    int across, down, count;
+    const PassWatch& watch;
+    std::mutex mutex;
+    std::uint64_t pixels_done = 0;
+    std::atomic<bool> given_up{false};
+    std::vector<char> finished;               ///< by tile
+    std::vector<std::vector<double>> before;  ///< sums by tile, to undo the pass; empty: not kept
+  };
+
+  /// False: the pass was given up on the way.
+  bool render_tile(Pass& pass, const PixelBounds& pixels, Counters& counters) {
     for (int y = pixels.y0; y < pixels.y1; ++y) {
+      if (pass.given_up) return false;
       for (int x = pixels.x0; x < pixels.x1; ++x) {
-        for (int s = samples_; s < samples_ + count; ++s) render_sample(x, y, s, counters);
+        for (int s = samples_; s < samples_ + pass.count; ++s) render_sample(x, y, s, counters);
+      }
+      pass.tell(pixels.width());
+    }
+    return true;
+  }
+
+  /// Of a first pass that was given up.
+  void keep_finished(const Pass& pass) {
+    samples_ = pass.count;
+    for (std::size_t i = 0; i < pass.tiles(); ++i) {
+      if (pass.finished[i]) continue;
+      unrendered_.push_back(pass.tile(i));
+      film_.clear(pass.tile(i));
+    }
+  }
+
+  void mark_unrendered(Image& image) const {
+    if (!image.find("SampleCount")) {
+      for (float& v : image.add_channel("SampleCount").values) v = static_cast<float>(samples_);
+    }
+    for (Channel& channel : image.channels) {
+      if (channel.name != "SampleCount") continue;
+      for (const PixelBounds& tile : unrendered_) {
+        for (int y = tile.y0; y < tile.y1; ++y) {
+          const auto row = static_cast<std::size_t>(y - image.data.y0) * static_cast<std::size_t>(image.width());
+          std::fill_n(channel.values.begin() + static_cast<std::ptrdiff_t>(row) + (tile.x0 - image.data.x0), tile.width(), 0.0f);
+        }
       }
     }
+  }
+
+  /// What must agree for a checkpoint to be taken up: everything that the bits of the picture depend on.
+  CheckpointIdentity identity() const {
+    const PixelBounds& c = film_.crop();
+    std::string pixels, aovs;
+    for (const int v : {c.x0, c.x1, c.y0, c.y1}) pixels += (pixels.empty() ? "" : ",") + std::to_string(v);
+    for (const Aov aov : parse_aovs(settings_.aovs)) aovs += (aovs.empty() ? "" : ",") + std::string(aov_names()[static_cast<std::size_t>(aov)]);
+    return {{"scene", scene_hash_text(world_.scene_hash, settings_)},
+            {"options", options_text(settings_) + " --seed " + std::to_string(settings_.seed)},
+            {"crop", pixels},
+            {"aov", aovs},
+            {"build", build_id()}};
   }
 
   void render_sample(int x, int y, int sample, Counters& counters) {
@@ -176,6 +272,7 @@ class RenderJob::Impl {
   double seconds_ = 0;
   std::mutex mutex_;
   Counters counters_;
+  std::vector<PixelBounds> unrendered_;  ///< tiles that the given-up first pass did not finish
 };
 
 RenderJob::RenderJob(const World& world, const RenderSettings& settings)
@@ -184,7 +281,11 @@ RenderJob::RenderJob(RenderJob&&) noexcept = default;
 RenderJob& RenderJob::operator=(RenderJob&&) noexcept = default;
 RenderJob::~RenderJob() = default;
 
-bool RenderJob::advance(int samples, const PassWatch& watch) { return impl_->advance(samples, watch); }
+bool RenderJob::advance(int samples, const PassWatch& watch, GivenUp given_up) {
+  return impl_->advance(samples, watch, given_up);
+}
+std::string RenderJob::save() const { return impl_->save(); }
+void RenderJob::restore(std::string_view bytes, const std::string& name) { impl_->restore(bytes, name); }
 PixelBounds RenderJob::pixels() const { return impl_->pixels(); }
 int RenderJob::samples() const { return impl_->samples(); }
 double RenderJob::seconds() const { return impl_->seconds(); }

@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
 #include "render/camera_media.h"
+#include "render/memory_plan.h"
 #include "render/scene_hash.h"
 #include "render/world_parts.h"
 
@@ -18,12 +20,14 @@ class Stopwatch {
   Clock::time_point start_ = Clock::now();
 };
 
-std::vector<ParticipatingMedium> build_media(const Scene& scene, const BuildSettings& settings, BuildSummary& summary) {
+std::vector<ParticipatingMedium> build_media(const Scene& scene, const BuildSettings& settings, std::size_t most_memory,
+                                             BuildSummary& summary) {
   const Stopwatch watch;
   std::vector<ParticipatingMedium> media;
   media.reserve(scene.media.size());
   for (const Medium& medium : scene.media) {
-    media.push_back(build_medium(medium, {.sanitize = settings.sanitize}, summary.notes));
+    const std::size_t left = most_memory - std::min(summary.volume_bytes, most_memory);
+    media.push_back(build_medium(medium, {.sanitize = settings.sanitize, .most_memory = left}, summary.notes));
     summary.volume_bytes += media.back().memory_bytes();
   }
   summary.media = media.size();
@@ -89,15 +93,22 @@ std::string World::scene_hash(const RenderSettings& settings) const {
 }
 
 World build(Scene scene, const BuildSettings& settings) {
-  return World(std::make_unique<const World::Parts>(std::move(scene), settings));
+  constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
+  std::size_t volume_memory = kNoLimit;
+  if (settings.max_memory != kNoLimit) {
+    const MemoryPlan plan = plan_memory(scene);
+    require_memory(plan, scene, settings.max_memory);
+    volume_memory = left_for_volumes(plan, settings.max_memory);
+  }
+  return World(std::make_unique<const World::Parts>(std::move(scene), settings, volume_memory));
 }
 
-World::Parts::Parts(Scene scene_in, const BuildSettings& settings)
+World::Parts::Parts(Scene scene_in, const BuildSettings& settings, std::size_t volume_memory)
     : scene(std::move(scene_in)),
       textures(build_textures(scene.textures)),
       materials(scene, textures),
       geometry(build_geometry(scene, textures, settings.threads, summary)),
-      media(build_media(scene, settings, summary)),
+      media(build_media(scene, settings, volume_memory, summary)),
       camera(scene.camera, scene.film),
       filter(scene.filter) {
   const Stopwatch watch;

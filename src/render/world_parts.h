@@ -17,7 +17,7 @@
 namespace tyndall {
 
 struct World::Parts {
-  Parts(Scene scene, const BuildSettings& settings);
+  Parts(Scene scene, const BuildSettings& settings, std::size_t volume_memory);  ///< bytes that volume files may take
   Parts(const Parts&) = delete;  // its members refer to each other
 
   BuildSummary summary;  ///< first: the others fill it while they are built

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "tyndall/error.h"
+#include "volume/vdb_remote.h"
 
 namespace tyndall {
 
@@ -17,10 +18,11 @@ std::string printable(const std::string& text) {
   return result;
 }
 
-std::unique_ptr<VolumeFile> open_volume(const std::string& path) {
+std::unique_ptr<VolumeFile> open_volume(const std::string& path, std::size_t most_memory) {
   std::error_code code;
   if (!std::filesystem::exists(path, code)) throw Error(Failure::scene, path + ": no such file; check the path");
   if (std::filesystem::is_directory(path, code)) throw Error(Failure::scene, path + ": is a folder, not a volume file");
+  if (!std::filesystem::is_regular_file(path, code)) throw Error(Failure::scene, path + ": is no regular file; copy it into one");
   std::ifstream in(path, std::ios::binary);
   if (!in) throw Error(Failure::scene, path + ": cannot be opened; check its permissions");
   std::array<char, 8> head{};
@@ -29,7 +31,7 @@ std::unique_ptr<VolumeFile> open_volume(const std::string& path) {
     throw Error(Failure::scene, path + ": is too short to be a volume file (" + std::to_string(in.gcount()) + " bytes)");
 
   // OpenVDB: ' BDV' and four zero bytes, NanoVDB: "NanoVDB" and a digit.
-  if (std::memcmp(head.data(), " BDV\0\0\0\0", 8) == 0) return open_openvdb(path);
+  if (std::memcmp(head.data(), " BDV\0\0\0\0", 8) == 0) return open_remotely(path, most_memory, open_openvdb);
   if (std::memcmp(head.data(), "NanoVDB", 7) == 0) return open_nanovdb(path);
   throw Error(Failure::scene, path + ": is neither an OpenVDB nor a NanoVDB file (its first bytes match neither)");
 }

@@ -1,6 +1,7 @@
 /// The one door to OpenVDB and NanoVDB: volume files as plain grids of ours.
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -20,6 +21,7 @@ struct VolumeGridEntry {
   std::string grid_class;  ///< "fog volume", "level set", "unknown" ...
   bool level_set = false;
   bool linear = true;  ///< its map is affine
+  std::uint64_t leaves = 0;  ///< of 8^3 voxels
 };
 
 /// A grid's voxels and where they lie. Must not outlive its file.
@@ -42,10 +44,13 @@ class VolumeFile {
   virtual Rows describe(std::size_t grid) const = 0;
 };
 
-/// By content: OpenVDB's or NanoVDB's magic number. Throws Error (scene) naming the file and what is wrong with it.
-std::unique_ptr<VolumeFile> open_volume(const std::string& path);
+/// By content: OpenVDB's or NanoVDB's magic number. Reading takes no more than `most_memory` bytes. OpenVDB's library,
+/// which some damaged files crash, works in a process of its own. Throws Error (scene) naming the file and what is wrong
+/// with it.
+std::unique_ptr<VolumeFile> open_volume(const std::string& path,
+                                        std::size_t most_memory = std::numeric_limits<std::size_t>::max());
 
-// The two kinds; open_volume chooses.
+// The two kinds, read in this process; open_volume chooses.
 std::unique_ptr<VolumeFile> open_openvdb(const std::string& path);
 std::unique_ptr<VolumeFile> open_nanovdb(const std::string& path);
 

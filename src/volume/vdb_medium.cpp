@@ -60,6 +60,7 @@ class GridLoader {
   };
   PlacedGrid load(std::size_t index, const Use& use, Transform* to_world = nullptr) {
     refuse_unfit(entry(index), use);
+    refuse_large(entry(index));
     const VolumeGrid grid = file_->load(index);
     const VoxelRules rules{use.negative_to_zero, options_.sanitize, grid.clip};
     report(entry(index), inspect(*grid.source, rules), rules);
@@ -87,7 +88,7 @@ class GridLoader {
  private:
   std::unique_ptr<VolumeFile> open() const {
     try {
-      return open_volume(path_);
+      return open_volume(path_, options_.most_memory);
     } catch (const Error& e) {
       throw Error(medium_.where, e.what());
     }
@@ -127,6 +128,17 @@ class GridLoader {
            " is a level set, a surface; convert it to a fog volume (OpenVDB's sdfToFogVolume, Houdini's VDB Convert) or mesh "
            "it");
     if (!grid.linear) fail(who + " has a frustum transform; resample it to a linear one");
+  }
+
+  /// The voxels as they come from the file, and the bricks made of them.
+  void refuse_large(const VolumeGridEntry& grid) const {
+    constexpr double kBytesAVoxel = sizeof(float) + 3;
+    const double channels = grid.values == VolumeGridEntry::Values::vector ? 3 : 1;
+    const double bytes = static_cast<double>(grid.leaves) * VoxelSource::kLeafVoxels * channels * kBytesAVoxel;
+    if (bytes <= static_cast<double>(options_.most_memory)) return;
+    const auto gigabytes = [](double b) { return std::to_string(b * 1e-9); };
+    fail("grid " + quoted(grid.name) + " is estimated to need " + gigabytes(bytes) + " GB of memory where only " +
+         gigabytes(static_cast<double>(options_.most_memory)) + " GB are left; raise --max-memory or use a coarser volume");
   }
 
   void report(const VolumeGridEntry& grid, const VoxelReport& found, const VoxelRules& rules) {

@@ -82,6 +82,7 @@ class NanoVdbFile : public VolumeFile {
       entry.type = type_name(blob.head().mGridType);
       entry.grid_class = class_name(blob.head().mGridClass);
       entry.level_set = blob.head().mGridClass == nanovdb::GridClass::LevelSet;
+      entry.leaves = reinterpret_cast<const nanovdb::TreeData<3>*>(&blob.head() + 1)->mNodeCount[0];
       switch (blob.head().mGridType) {
         case nanovdb::GridType::Vec3f:
         case nanovdb::GridType::Vec3d:

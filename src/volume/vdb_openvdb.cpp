@@ -194,6 +194,7 @@ class OpenVdbFile : public VolumeFile {
     entry.grid_class = openvdb::GridBase::gridClassToMenuName(grid.getGridClass());
     entry.level_set = grid.getGridClass() == openvdb::GRID_LEVEL_SET;
     entry.linear = grid.transform().isLinear();
+    entry.leaves = grid.constBaseTree().leafCount();
     if (grid.apply<ScalarGrids>([](const auto&) {})) entry.values = VolumeGridEntry::Values::scalar;
     if (grid.apply<VectorGrids>([](const auto&) {})) entry.values = VolumeGridEntry::Values::vector;
     return entry;

@@ -1,0 +1,12 @@
+/// How much memory a command may plan with.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+namespace tyndall::cli {
+
+/// Bytes: `gigabytes` of --max-memory if given, else what the machine has.
+std::size_t memory_limit(std::optional<double> gigabytes);
+
+}  // namespace tyndall::cli

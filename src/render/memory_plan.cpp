@@ -1,0 +1,183 @@
+#include "render/memory_plan.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <set>
+#include <utility>
+
+#include "render/film_buffer.h"
+#include "tyndall/error.h"
+#include "tyndall/io.h"
+
+namespace tyndall {
+namespace {
+
+// Bytes a primitive, measured on scenes of a million of each and rounded up.
+constexpr std::size_t kTriangle = 130;          // positions, and the ray tracing library's tree while it is built
+constexpr std::size_t kBoundaryTriangle = 300;  // kept in a tree of its own as well
+constexpr std::size_t kInstance = 300;
+constexpr std::size_t kLight = 200;  // with its share of the light tree while it is built
+constexpr std::size_t kTexel = 16, kTexelWhileRead = 20, kTexelOfSky = 60;
+constexpr std::size_t kDenseVoxel = 12;  // values, and the bricks made of them
+
+/// Sums that may be beyond 64 bits.
+class Sum {
+ public:
+  void add(double count, double bytes) { bytes_ += count * bytes; }
+  std::size_t bytes() const { return static_cast<std::size_t>(std::min(bytes_, 1e18)); }
+
+ private:
+  double bytes_ = 0;
+};
+
+struct Primitives {
+  double triangles = 0, others = 0;
+  double all() const { return triangles + others; }
+};
+
+Primitives primitives_of(const Shape& shape) {
+  if (const auto* mesh = std::get_if<TriangleMesh>(&shape.kind)) return {static_cast<double>(mesh->indices.size() / 3), 0};
+  if (const auto* mesh = std::get_if<BilinearMesh>(&shape.kind)) return {0, static_cast<double>(mesh->indices.size() / 4)};
+  return {0, 1};
+}
+
+void add_shapes(const std::vector<Shape>& shapes, Sum& geometry) {
+  for (const Shape& shape : shapes)
+    geometry.add(primitives_of(shape).all(), static_cast<double>(shape.boundary ? kBoundaryTriangle : kTriangle));
+}
+
+double emitters_of(const std::vector<Shape>& shapes) {
+  double count = 0;
+  for (const Shape& shape : shapes) count += shape.emission ? primitives_of(shape).all() : 0;
+  return count;
+}
+
+std::size_t plan_film(const Scene& scene) {
+  const PixelBounds& crop = scene.settings.crop.value_or(scene.film.crop);
+  const double pixels = static_cast<double>(std::max(crop.width(), 0)) * std::max(crop.height(), 0);
+  const double channels = 4 + 4 * static_cast<double>(scene.settings.aovs.size());
+  Sum sum;
+  sum.add(pixels, 2 * sizeof(double) * (3 + channels));  // twice: a long pass keeps a way back
+  sum.add(pixels, 2 * sizeof(float) * channels);          // the image, and its encoding
+  return sum.bytes();
+}
+
+std::size_t plan_lights(const Scene& scene) {
+  double count = static_cast<double>(scene.lights.size()) + emitters_of(scene.shapes);
+  std::vector<double> of_object;
+  for (const Object& object : scene.objects) of_object.push_back(emitters_of(object.shapes));
+  for (const Instance& instance : scene.instances)
+    if (instance.object < of_object.size()) count += of_object[instance.object];
+  Sum sum;
+  sum.add(count, kLight);
+  return sum.bytes();
+}
+
+std::size_t plan_geometry(const Scene& scene) {
+  Sum sum;
+  add_shapes(scene.shapes, sum);
+  for (const Object& object : scene.objects) add_shapes(object.shapes, sum);
+  sum.add(static_cast<double>(scene.instances.size()), kInstance);
+  return sum.bytes();
+}
+
+class Pictures {
+ public:
+  void add(const std::string& path, std::size_t bytes_a_texel) {
+    if (path.empty() || !seen_.insert(path).second) return;
+    ImageSize size;
+    try {
+      size = read_image_size(path);
+    } catch (const Error&) {
+      return;  // whoever reads it will say so, with its place in the scene
+    }
+    const double texels = static_cast<double>(size.width) * size.height;
+    sum_.add(texels, static_cast<double>(bytes_a_texel));
+    largest_ = std::max(largest_, texels);
+  }
+  std::size_t bytes() {
+    sum_.add(std::exchange(largest_, 0.0), kTexelWhileRead);
+    return sum_.bytes();
+  }
+
+ private:
+  std::set<std::string> seen_;
+  Sum sum_;
+  double largest_ = 0;
+};
+
+std::size_t plan_pictures(const Scene& scene) {
+  Pictures pictures;
+  for (const Texture& texture : scene.textures)
+    if (const auto* image = std::get_if<ImageTexture>(&texture.kind)) pictures.add(image->path, kTexel);
+  for (const Light& light : scene.lights)
+    if (const auto* sky = std::get_if<InfiniteLight>(&light.kind)) pictures.add(sky->path, kTexelOfSky);
+  for (const Shape& shape : scene.shapes)
+    if (shape.emission) pictures.add(shape.emission->path, kTexel);
+  return pictures.bytes();
+}
+
+std::size_t plan_volumes(const Scene& scene) {
+  Sum sum;
+  for (const Medium& medium : scene.media) {
+    if (const auto* grid = std::get_if<UniformGridMedium>(&medium.kind))
+      sum.add(static_cast<double>(grid->density.size() + grid->Le_scale.size() + grid->temperature.size()), kDenseVoxel);
+    if (const auto* grid = std::get_if<RgbGridMedium>(&medium.kind))
+      sum.add(3.0 * static_cast<double>(grid->sigma_a.size() + grid->sigma_s.size() + grid->Le.size()), kDenseVoxel);
+  }
+  return sum.bytes();
+}
+
+/// Bytes of memory that this process holds.
+std::size_t resident() {
+  unsigned long all = 0, held = 0;
+  if (std::FILE* file = std::fopen("/proc/self/statm", "r")) {
+    if (std::fscanf(file, "%lu %lu", &all, &held) != 2) held = 0;
+    std::fclose(file);
+  }
+  return held * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+}
+
+std::string gigabytes(std::size_t bytes) {
+  char text[32];
+  std::snprintf(text, sizeof text, bytes < 1'000'000'000 ? "%.3f" : "%.1f", static_cast<double>(bytes) * 1e-9);
+  return text;
+}
+
+}  // namespace
+
+std::size_t MemoryPlan::total() const {
+  std::size_t sum = in_use;
+  for (const auto& part : parts) sum += std::min(part.second, SIZE_MAX - sum);
+  return sum;
+}
+
+std::string MemoryPlan::str() const {
+  std::string text = "in use " + gigabytes(in_use);
+  for (const auto& [what, bytes] : parts) text += ", " + what + " " + gigabytes(bytes);
+  return text;
+}
+
+MemoryPlan plan_memory(const Scene& scene) {
+  return {resident(),
+          {{"film", plan_film(scene)},
+           {"geometry", plan_geometry(scene)},
+           {"lights", plan_lights(scene)},
+           {"textures", plan_pictures(scene)},
+           {"volumes", plan_volumes(scene)}}};
+}
+
+void require_memory(const MemoryPlan& plan, const Scene& scene, std::size_t limit) {
+  if (plan.total() <= limit) return;
+  throw Error(Failure::scene, (scene.source.empty() ? "the scene" : scene.source) + ": is estimated to need " +
+                                  gigabytes(plan.total()) + " GB of memory (" + plan.str() + "), more than the limit of " +
+                                  gigabytes(limit) + "; make it smaller, or set --max-memory");
+}
+
+std::size_t left_for_volumes(const MemoryPlan& plan, std::size_t limit) {
+  return limit - std::min(plan.total(), limit);
+}
+
+}  // namespace tyndall

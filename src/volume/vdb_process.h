@@ -1,0 +1,83 @@
+/// Work on untrusted data in a process of its own: what it does wrong (a crash, a hang, all memory) stays there.
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace tyndall {
+
+struct ProcessLimits {
+  std::size_t memory = 0;   ///< bytes beyond what this process has
+  double cpu_seconds = 0;   ///< of computing
+};
+
+/// Bytes of memory that the machine has.
+std::size_t physical_memory();
+
+/// The other side is gone, or said something that cannot be. what(): how it ended, to follow "the file ".
+struct ProcessEnded : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// One end of a two-way stream of bytes between two processes on one machine.
+class Channel {
+ public:
+  explicit Channel(int descriptor) : descriptor_(descriptor) {}
+  Channel(const Channel&) = delete;
+  Channel& operator=(const Channel&) = delete;
+  virtual ~Channel();
+
+  void send(const void* bytes, std::size_t count);
+  void receive(void* bytes, std::size_t count);
+
+  template <typename T>
+  void put(const T& value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    send(&value, sizeof value);
+  }
+  template <typename T>
+  T get() {
+    static_assert(std::is_trivially_copyable_v<T>);
+    T value;
+    receive(&value, sizeof value);
+    return value;
+  }
+  void put_flag(bool flag) { put(static_cast<std::uint8_t>(flag)); }
+  bool get_flag() { return get<std::uint8_t>() != 0; }
+  void put_text(const std::string& text);
+  std::string get_text();  ///< at most 64 KB
+
+ protected:
+  /// Returns when bytes can be read; throws ProcessEnded when none will come.
+  virtual void wait() {}
+  [[noreturn]] virtual void closed() const { throw ProcessEnded("was closed"); }
+  int descriptor_;
+};
+
+/// A child process. Reading from it waits no longer than it lives and than its limits allow.
+class WorkerProcess : public Channel {
+ public:
+  /// Runs `serve` in the child, under `limits` and without a terminal; the child ends when that returns or throws.
+  /// Nothing that `serve` changes is seen here. Throws Error (run_time) when no process can be made.
+  WorkerProcess(const ProcessLimits& limits, const std::function<void(Channel&)>& serve);
+  ~WorkerProcess() override;  ///< ends the child
+
+ private:
+  void wait() override;
+  [[noreturn]] void closed() const override;
+  bool has_ended() const;
+
+  ProcessLimits limits_;
+  pid_t child_ = -1;
+  mutable int status_ = 0;
+  mutable bool ended_ = false;
+};
+
+}  // namespace tyndall

@@ -1,0 +1,60 @@
+# What becomes of an image that cannot be written: exit code 4, the file that was there intact, the render kept.
+. "$TYNDALL_SOURCE_DIR/tests/cli/support.bash"
+T=$TYNDALL_BIN
+small_scene >s.pbrt
+rm -rf full unsaved folder.exr device.exr
+mkdir unsaved
+export TMPDIR=$PWD/unsaved HOME=$PWD/unsaved
+expect 0 "$T" render s.pbrt --reproducible --quiet -o whole.exr
+echo "what was there" >old
+
+# refuses NAME MESSAGE: the render into NAME ends with 4 and the message; NAME still holds what was there.
+refuses() {
+  cp old "$1" 2>/dev/null
+  expect 4 "$T" render s.pbrt --reproducible --quiet -o "$1"
+  says "$2" err.txt
+  [ "$(wc -l <err.txt)" -le 3 ] || fail "more than three lines for $1"
+  [ ! -e "$1" ] || cmp -s old "$1" || fail "$1 was harmed"
+}
+
+# Before anything is rendered: no folder, a folder in place of a file, a device, no room.
+refuses missing/a.exr 'missing'
+mkdir -p folder.exr
+expect 4 "$T" render s.pbrt -o folder.exr
+ln -sf /dev/full device.exr
+expect 4 "$T" render s.pbrt -o device.exr
+says 'not a regular file' err.txt
+if [ "$(id -u)" != 0 ]; then
+  mkdir -p closed && chmod 555 closed
+  refuses closed/a.exr 'not writable'
+fi
+for kilobytes in 1 2 5 9 40; do
+  (failures=0; ulimit -f $kilobytes; refuses limit.exr 'can be written'; exit $failures) || fail "limit of $kilobytes KB"
+done
+
+# A disk that fills up while the picture is rendered: the picture ends up elsewhere, whole. Needs a disk of our own.
+cat >full_disk.sh <<'INNER'
+set -e
+mount -t tmpfs -o size=1m none full
+cp old full/a.exr
+"$T" render s.pbrt --spp 100000 --time 2 --reproducible --quiet -o full/a.exr >out.txt 2>err.txt &
+render=$!
+sleep 0.7
+cat /dev/zero >full/fill 2>/dev/null || true
+code=0
+wait $render || code=$?
+[ $code = 4 ] || { echo "exit code $code, not 4: $(cat err.txt)"; exit 1; }
+[ -s full/a.exr ] || { echo "the old file is gone"; exit 1; }
+INNER
+mkdir -p full
+export T
+if unshare -rm true 2>/dev/null && unshare -rm sh -c 'mount -t tmpfs none full' 2>/dev/null; then
+  unshare -rm bash full_disk.sh || fail "a disk that fills up"
+  says 'No space left' err.txt
+  says 'is not lost' err.txt
+  [ "$(ls unsaved/*.exr | wc -l)" = 1 ] || fail "the picture is not where it was said to be"
+  expect 0 "$T" info unsaved/*.exr
+else
+  echo "skipped: no file system of our own can be mounted here"
+fi
+finish

@@ -1,0 +1,77 @@
+# Renders that are cut off: killed at any moment, interrupted, resumed; what must not be resumed is refused.
+. "$TYNDALL_SOURCE_DIR/tests/cli/support.bash"
+T=$TYNDALL_BIN
+rm -rf ./*.exr ./*.checkpoint ./.*.part
+small_scene >s.pbrt
+options="--resolution 80x48 --spp 96 --reproducible --aov Albedo,Z,Variance --quiet"
+expect 0 "$T" render s.pbrt $options -o whole.exr
+[ ! -e whole.exr.checkpoint ] || fail "a checkpoint nobody asked for"
+RANDOM=${TYNDALL_SEED:-1}
+kills=20
+[ -z "${TYNDALL_NIGHTLY-}" ] || kills=200
+
+# Killed again and again, with any number of threads: the picture is never half a file, and in the end the unbroken one.
+"$T" render s.pbrt --spp 1 --quiet -o old.exr
+cp old.exr a.exr
+killed=0 resumed=0
+for attempt in $(seq $((3 * kills))); do
+  [ $killed -lt $kills ] || break
+  "$T" render s.pbrt $options --threads $((RANDOM % 3 + 1)) --checkpoint 0.01 --resume -o a.exr 2>err.txt &
+  render=$!
+  sleep 0.$(printf %03d $((RANDOM % 250)))
+  if kill -KILL $render 2>/dev/null; then killed=$((killed + 1)); fi
+  wait $render 2>/dev/null
+  [ -e a.exr.checkpoint ] && resumed=$((resumed + 1))
+  cmp -s a.exr old.exr || cmp -s a.exr whole.exr || fail "kill $killed left a picture that is neither the old nor the new one"
+  cmp -s a.exr whole.exr && { cp old.exr a.exr; rm -f a.exr.checkpoint; }
+done
+[ $resumed -gt 5 ] || fail "only $resumed of $killed kills left a checkpoint: the test shows nothing"
+expect 0 "$T" render s.pbrt $options --checkpoint 60 --resume -o a.exr
+cmp a.exr whole.exr || fail "the resumed picture is not the unbroken one"
+[ ! -e a.exr.checkpoint ] || fail "the checkpoint of a finished render is left"
+rm -f ./.*.part
+
+# Interrupted, then resumed with another end.
+"$T" render s.pbrt --resolution 80x48 --reproducible --time 60 --quiet --checkpoint 60 -o b.exr 2>err.txt &
+sleep 0.5
+kill -INT $!
+wait $!
+[ $? = 130 ] || fail "an interrupted render does not exit with 130"
+[ -s b.exr.checkpoint ] || fail "an interrupted render leaves no checkpoint"
+expect 0 "$T" info b.exr
+samples=$(sed -n 's/.*tyndall\/samples *//p' out.txt)
+cp b.exr.checkpoint kept.checkpoint
+expect 0 "$T" render s.pbrt --resolution 80x48 --reproducible --spp $((samples + 3)) --resume --progress none -o b.exr
+says "going on from $samples samples" err.txt
+expect 0 "$T" render s.pbrt --resolution 80x48 --reproducible --spp $((samples + 3)) --quiet -o c.exr
+cmp b.exr c.exr || fail "an interrupted and resumed picture is not the unbroken one"
+
+# Refused with both values: another seed, scene, options, frame, build; and what is no whole checkpoint.
+refuses() {  # TEXT OPTION...
+  local text=$1
+  shift
+  cp kept.checkpoint d.exr.checkpoint
+  expect 3 "$T" render s.pbrt --resolution 80x48 --reproducible --spp 4 --quiet --resume -o d.exr "$@"
+  says "$text" err.txt
+  [ "$(wc -l <err.txt)" -le 3 ] || fail "more than three lines: $*"
+  [ ! -e d.exr ] || fail "a refused checkpoint gave a picture: $*"
+}
+refuses '--seed 7 here' --seed 7
+refuses '--seed 0' --seed 7
+refuses 'of another scene' --max-depth 2
+refuses 'of another options' --lights power
+refuses 'of another crop' --crop 0,10,0,10
+refuses 'of another aov' --aov Albedo
+sed -i 's/\[9 9 9\]/[9 9 8]/' s.pbrt
+refuses 'of another scene'
+sed -i 's/\[9 9 8\]/[9 9 9]/' s.pbrt
+head -c 1000 kept.checkpoint >cut && cp kept.checkpoint whole.checkpoint && cp cut kept.checkpoint
+refuses 'damaged'
+cp whole.checkpoint kept.checkpoint
+printf '\x55' | dd of=kept.checkpoint bs=1 seek=30000 conv=notrunc status=none
+refuses 'checksum'
+echo "no checkpoint" >kept.checkpoint
+refuses 'no checkpoint'
+expect 0 "$T" render s.pbrt --spp 2 --resume -o none.exr
+says 'no such file' err.txt
+finish
