@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 #include "render/camera_media.h"
 #include "render/memory_plan.h"
 #include "render/scene_hash.h"
 #include "render/world_parts.h"
+#include "tyndall/error.h"
 
 namespace tyndall {
 namespace {
@@ -79,6 +81,17 @@ Bounds3 scene_bounds(const Geometry& geometry, const std::vector<ParticipatingMe
   return bounds;
 }
 
+/// Rays from farther away lose all detail, and the ray tracing library refuses them.
+void require_camera_within_reach(const Camera& camera, const std::string& source) {
+  constexpr float kFarthest = 1e17f;
+  const Vec3 eye = camera.to_world.point({0, 0, 0});
+  for (int i = 0; i < 3; ++i) {
+    if (std::abs(eye[i]) <= kFarthest) continue;
+    throw Error(Failure::scene, (source.empty() ? "the scene" : source) +
+                                    ": the camera is not within 1e17 units of the origin; correct its transform");
+  }
+}
+
 }  // namespace
 
 World::World(std::unique_ptr<const Parts> parts) : parts_(std::move(parts)) {}
@@ -93,6 +106,7 @@ std::string World::scene_hash(const RenderSettings& settings) const {
 }
 
 World build(Scene scene, const BuildSettings& settings) {
+  require_camera_within_reach(scene.camera, scene.source);
   constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
   std::size_t volume_memory = kNoLimit;
   if (settings.max_memory != kNoLimit) {

@@ -25,7 +25,7 @@ GeometryQuery make_query(const GeometryImpl& impl, const Ray& ray) {
 
 Crossings find_crossings(const GeometryImpl& impl, RTCRayHit ray, GeometryQuery::Boundaries which, const Ray& world_ray) {
   RTCScene scene = impl.world().boundary.get();
-  if (!scene || !(ray.ray.tnear < ray.ray.tfar)) return {};
+  if (!scene || !(ray.ray.tnear < ray.ray.tfar) || !traceable(ray.ray)) return {};
   BoundaryRecords records;
   GeometryQuery query = make_query(impl, world_ray);
   query.boundaries = which;
@@ -52,7 +52,7 @@ Geometry& Geometry::operator=(Geometry&&) noexcept = default;
 Trace Geometry::trace(const Ray& ray, float t_min, float t_max) const {
   Trace trace;
   RTCRayHit r = embree_ray(ray, t_min, t_max);
-  if (RTCScene scene = impl_->world().real.get()) {
+  if (RTCScene scene = impl_->world().real.get(); scene && traceable(r.ray)) {
     GeometryQuery query = make_query(*impl_, ray);
     rtcIntersect1(scene, &query.context, &r);
     if (r.hit.geomID != RTC_INVALID_GEOMETRY_ID) {
@@ -66,7 +66,7 @@ Trace Geometry::trace(const Ray& ray, float t_min, float t_max) const {
 
 std::optional<Crossings> Geometry::trace_shadow(const Ray& ray, float t_min, float t_max) const {
   const RTCRayHit r = embree_ray(ray, t_min, t_max);
-  if (RTCScene scene = impl_->world().real.get()) {
+  if (RTCScene scene = impl_->world().real.get(); scene && traceable(r.ray)) {
     GeometryQuery query = make_query(*impl_, ray);
     RTCRay shadow = r.ray;
     rtcOccluded1(scene, &query.context, &shadow);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <xmmintrin.h>
 
 #include <map>
@@ -72,6 +73,17 @@ bool uses_embree_triangles(const Part& part) {
   return std::holds_alternative<PlacedMesh>(part.form) && !part.is_patch && !part.shape->boundary;
 }
 
+/// Rays that start farther out could not be traced (see kFarthest).
+bool within_reach(const Bounds3& bounds) {
+  const Vec3 reach = max(max(bounds.max, -bounds.max), max(bounds.min, -bounds.min));
+  return bounds.empty() || (is_finite(reach) && std::max({reach.x, reach.y, reach.z}) <= kFarthestShape);
+}
+
+void require_within_reach(const Bounds3& bounds, const Shape& shape) {
+  if (within_reach(bounds)) return;
+  throw Error(shape.where, "the shape is not within 1e17 units of the origin; correct its size or transform");
+}
+
 }  // namespace
 
 GeometryImpl::GeometryImpl(const Scene& scene, const Textures* textures, int threads) {
@@ -92,7 +104,13 @@ GeometryImpl::GeometryImpl(const Scene& scene, const Textures* textures, int thr
 
   bounds = world().bounds;
   for (std::size_t i = 0; i < objects.size(); ++i) {
-    if (!objects[i].set->bounds.empty()) bounds.expand(scene.instances[i].to_world.bounds(objects[i].set->bounds));
+    if (objects[i].set->bounds.empty()) continue;
+    bounds.expand(scene.instances[i].to_world.bounds(objects[i].set->bounds));
+    if (!within_reach(bounds)) {
+      throw Error(Failure::scene, (scene.source.empty() ? "the scene" : scene.source) + ": instance " + std::to_string(i) + " of object \"" +
+                                      scene.objects[scene.instances[i].object].name +
+                                      "\" is not within 1e17 units of the origin; correct its transform");
+    }
   }
   bound_groups();
 }
@@ -163,11 +181,11 @@ std::unique_ptr<PartSet> GeometryImpl::make_set(const Scene& scene, const std::v
     part.real = !is_interface(scene, shape);
     part.alpha_textures = textures_of_alpha(shape, textures);
     if (std::holds_alternative<TriangleMesh>(shape.kind)) triangle_count += part.primitive_count();
-    for (std::uint32_t i = 0; i < part.primitive_count(); ++i) set->bounds.expand(part.primitive_bounds(i));
+    Bounds3 bounds_of_shape;
+    for (std::uint32_t i = 0; i < part.primitive_count(); ++i) bounds_of_shape.expand(part.primitive_bounds(i));
+    require_within_reach(bounds_of_shape, shape);
+    set->bounds.expand(bounds_of_shape);
     set->parts.push_back(std::move(part));
-  }
-  if (!set->bounds.empty() && !(is_finite(set->bounds.min) && is_finite(set->bounds.max))) {
-    throw Error(Failure::scene, "a shape is not within finite coordinates; correct its size or transform");
   }
   return set;
 }

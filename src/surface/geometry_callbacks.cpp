@@ -158,6 +158,7 @@ void object_intersect(const RTCIntersectFunctionNArguments* args) {
   const Visit visit(args->context, object);
   RTCRayHit inner{ray_in(object, rayhit.ray), {}};
   inner.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  if (!traceable(inner.ray)) return;
   rtcIntersect1(object.set->real.get(), args->context, &inner);
   if (inner.hit.geomID == RTC_INVALID_GEOMETRY_ID) return;
   rayhit.hit = inner.hit;
@@ -171,6 +172,7 @@ void object_occluded(const RTCOccludedFunctionNArguments* args) {
   auto& ray = *reinterpret_cast<RTCRay*>(args->ray);
   const Visit visit(args->context, object);
   RTCRay inner = ray_in(object, ray);
+  if (!traceable(inner)) return;
   rtcOccluded1(object.set->real.get(), args->context, &inner);
   if (inner.tfar < 0) ray.tfar = inner.tfar;
 }
@@ -181,6 +183,7 @@ void object_record(const RTCIntersectFunctionNArguments* args) {
   const Visit visit(args->context, object);
   RTCRayHit inner{ray_in(object, reinterpret_cast<const RTCRayHit*>(args->rayhit)->ray), {}};
   inner.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  if (!traceable(inner.ray)) return;
   rtcIntersect1(object.set->boundary.get(), args->context, &inner);
 }
 

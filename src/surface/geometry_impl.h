@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <cmath>
 #include <mutex>
 #include <string>
 #include <utility>
@@ -47,6 +48,17 @@ struct PartSet {
 };
 
 /// An object placed in the world.
+/// Rays beyond this are taken for misses: Embree's own limit is 1.844e18, and as the distribution builds it, it ends the
+/// program at a ray beyond that or one that is not a number.
+inline constexpr float kFarthest = 1e18f;
+inline constexpr float kFarthestShape = 1e17f;  ///< so that rays between shapes stay within it
+
+inline bool traceable(const RTCRay& r) {
+  const auto within = [](float v) { return std::abs(v) <= kFarthest; };  // false for NaN
+  return within(r.org_x) && within(r.org_y) && within(r.org_z) && within(r.dir_x) && within(r.dir_y) && within(r.dir_z) &&
+         r.tnear <= r.tfar && r.tnear >= 0;
+}
+
 struct PlacedObject {
   const PartSet* set;
   AffineMap map;
