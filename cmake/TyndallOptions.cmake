@@ -1,6 +1,7 @@
 # Options, compiler flags that every target of Tyndall shares, and the generated version header.
 option(TYNDALL_TESTS "Build the tests and benchmarks" ON)
 option(TYNDALL_WERROR "Treat warnings as errors" OFF)
+option(TYNDALL_FUZZ "Build the libFuzzer targets of tests/fuzz; needs clang" OFF)
 set(TYNDALL_SANITIZE "" CACHE STRING "-fsanitize= list, e.g. address,undefined; empty for none")
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
   set(_arch x86-64-v3)
@@ -29,4 +30,7 @@ if(TYNDALL_SANITIZE)
   target_compile_options(tyndall_options INTERFACE
     ${TYNDALL_SANITIZE_FLAG} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(tyndall_options INTERFACE ${TYNDALL_SANITIZE_FLAG})
+endif()
+if(TYNDALL_FUZZ)
+  target_compile_options(tyndall_options INTERFACE -fsanitize=fuzzer-no-link)
 endif()

@@ -75,13 +75,13 @@ std::size_t physical_memory() {
   return static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
 }
 
-// ------------------------------------------------------------------------------------------------ Channel
+// ------------------------------------------------------------------------------------------------ ProcessChannel
 
-Channel::~Channel() {
+ProcessChannel::~ProcessChannel() {
   if (descriptor_ >= 0) close(descriptor_);
 }
 
-void Channel::send(const void* bytes, std::size_t count) {
+void ProcessChannel::send(const void* bytes, std::size_t count) {
   const auto* at = static_cast<const char*>(bytes);
   while (count > 0) {
     const ssize_t sent = ::send(descriptor_, at, count, MSG_NOSIGNAL);
@@ -92,7 +92,7 @@ void Channel::send(const void* bytes, std::size_t count) {
   }
 }
 
-void Channel::receive(void* bytes, std::size_t count) {
+void ProcessChannel::receive(void* bytes, std::size_t count) {
   auto* at = static_cast<char*>(bytes);
   while (count > 0) {
     wait();
@@ -104,12 +104,12 @@ void Channel::receive(void* bytes, std::size_t count) {
   }
 }
 
-void Channel::put_text(const std::string& text) {
+void ProcessChannel::put_text(const std::string& text) {
   put(static_cast<std::uint32_t>(text.size()));
   send(text.data(), text.size());
 }
 
-std::string Channel::get_text() {
+std::string ProcessChannel::get_text() {
   const auto size = get<std::uint32_t>();
   if (size > kLongestText) throw ProcessEnded("makes its reader talk nonsense; it is damaged");
   std::string text(size, '\0');
@@ -119,8 +119,8 @@ std::string Channel::get_text() {
 
 // ------------------------------------------------------------------------------------------ WorkerProcess
 
-WorkerProcess::WorkerProcess(const ProcessLimits& limits, const std::function<void(Channel&)>& serve)
-    : Channel(-1), limits_(limits) {
+WorkerProcess::WorkerProcess(const ProcessLimits& limits, const std::function<void(ProcessChannel&)>& serve)
+    : ProcessChannel(-1), limits_(limits) {
   int ends[2];
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0)
     throw Error(Failure::run_time, std::string("no channel to another process can be made: ") + std::strerror(errno));
@@ -131,7 +131,7 @@ WorkerProcess::WorkerProcess(const ProcessLimits& limits, const std::function<vo
     submit_to(limits, parent);
     int code = 0;
     try {
-      Channel channel(ends[1]);
+      ProcessChannel channel(ends[1]);
       serve(channel);
     } catch (...) {
       code = 1;

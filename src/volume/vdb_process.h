@@ -27,12 +27,12 @@ struct ProcessEnded : std::runtime_error {
 };
 
 /// One end of a two-way stream of bytes between two processes on one machine.
-class Channel {
+class ProcessChannel {
  public:
-  explicit Channel(int descriptor) : descriptor_(descriptor) {}
-  Channel(const Channel&) = delete;
-  Channel& operator=(const Channel&) = delete;
-  virtual ~Channel();
+  explicit ProcessChannel(int descriptor) : descriptor_(descriptor) {}
+  ProcessChannel(const ProcessChannel&) = delete;
+  ProcessChannel& operator=(const ProcessChannel&) = delete;
+  virtual ~ProcessChannel();
 
   void send(const void* bytes, std::size_t count);
   void receive(void* bytes, std::size_t count);
@@ -62,11 +62,11 @@ class Channel {
 };
 
 /// A child process. Reading from it waits no longer than it lives and than its limits allow.
-class WorkerProcess : public Channel {
+class WorkerProcess : public ProcessChannel {
  public:
   /// Runs `serve` in the child, under `limits` and without a terminal; the child ends when that returns or throws.
   /// Nothing that `serve` changes is seen here. Throws Error (run_time) when no process can be made.
-  WorkerProcess(const ProcessLimits& limits, const std::function<void(Channel&)>& serve);
+  WorkerProcess(const ProcessLimits& limits, const std::function<void(ProcessChannel&)>& serve);
   ~WorkerProcess() override;  ///< ends the child
 
  private:

@@ -8,7 +8,6 @@
 #include <mutex>
 
 #include "tyndall/error.h"
-#include "volume/vdb_process.h"
 
 namespace tyndall {
 namespace {
@@ -34,7 +33,7 @@ ProcessLimits limits_for(const std::string& path, std::size_t most_memory) {
 
 // ------------------------------------------------------------------------------------------ in the child
 
-void put_rows(Channel& channel, const VolumeFile::Rows& rows) {
+void put_rows(ProcessChannel& channel, const VolumeFile::Rows& rows) {
   channel.put(static_cast<std::uint32_t>(rows.size()));
   for (const auto& [name, value] : rows) {
     channel.put_text(name);
@@ -42,7 +41,7 @@ void put_rows(Channel& channel, const VolumeFile::Rows& rows) {
   }
 }
 
-void put_entry(Channel& channel, const VolumeGridEntry& entry) {
+void put_entry(ProcessChannel& channel, const VolumeGridEntry& entry) {
   channel.put(entry.values);
   for (const std::string* text : {&entry.name, &entry.type, &entry.grid_class}) channel.put_text(*text);
   channel.put_flag(entry.level_set);
@@ -50,7 +49,7 @@ void put_entry(Channel& channel, const VolumeGridEntry& entry) {
   channel.put(entry.leaves);
 }
 
-void put_grid(Channel& channel, const VolumeGrid& grid) {
+void put_grid(ProcessChannel& channel, const VolumeGrid& grid) {
   channel.put(grid.index_to_world.matrix());
   channel.put_flag(grid.clip.has_value());
   channel.put(grid.clip.value_or(VoxelBox{}));
@@ -75,7 +74,7 @@ void put_grid(Channel& channel, const VolumeGrid& grid) {
 
 /// Answers with what `make` gives, handed to `put`, or with its Error.
 template <typename Make, typename Put>
-bool answer(Channel& channel, const Make& make, const Put& put) {
+bool answer(ProcessChannel& channel, const Make& make, const Put& put) {
   std::string failure;
   try {
     const auto result = make();
@@ -90,7 +89,7 @@ bool answer(Channel& channel, const Make& make, const Put& put) {
   return false;
 }
 
-void serve(Channel& channel, const std::string& path, std::unique_ptr<VolumeFile> (*open)(const std::string&)) {
+void serve(ProcessChannel& channel, const std::string& path, std::unique_ptr<VolumeFile> (*open)(const std::string&)) {
   std::unique_ptr<VolumeFile> file;
   const auto out_of_memory = [&]() -> Error {
     return Error(Failure::scene, path + ": needs more memory than its size explains, or than may be used; it may be damaged");
@@ -129,7 +128,7 @@ void serve(Channel& channel, const std::string& path, std::unique_ptr<VolumeFile
 
 class ReceivedSource : public VoxelSource {
  public:
-  ReceivedSource(Channel& channel, std::size_t most_memory) {
+  ReceivedSource(ProcessChannel& channel, std::size_t most_memory) {
     const auto channels = channel.get<std::uint32_t>(), leaves = channel.get<std::uint32_t>();
     const auto blocks = channel.get<std::uint64_t>();
     if (channels != 1 && channels != 3) refuse();
@@ -177,8 +176,8 @@ class ReceivedSource : public VoxelSource {
 
 class RemoteVolumeFile : public VolumeFile {
  public:
-  RemoteVolumeFile(const std::string& path, const ProcessLimits& limits, std::unique_ptr<VolumeFile> (*open)(const std::string&))
-      : path_(path), most_memory_(limits.memory), worker_(limits, [&](Channel& channel) { serve(channel, path, open); }) {
+  RemoteVolumeFile(const std::string& path, std::unique_ptr<ProcessChannel> worker, std::size_t most_memory)
+      : path_(path), most_memory_(most_memory), channel_(std::move(worker)), worker_(*channel_) {
     receive([&] {
       format_ = worker_.get_text();
       properties_ = get_rows();
@@ -267,7 +266,8 @@ class RemoteVolumeFile : public VolumeFile {
   std::string path_, format_;
   std::size_t most_memory_;
   mutable std::mutex mutex_;
-  mutable WorkerProcess worker_;
+  std::unique_ptr<ProcessChannel> channel_;
+  ProcessChannel& worker_;
   Rows properties_;
   std::vector<VolumeGridEntry> entries_;
 };
@@ -276,7 +276,13 @@ class RemoteVolumeFile : public VolumeFile {
 
 std::unique_ptr<VolumeFile> open_remotely(const std::string& path, std::size_t most_memory,
                                           std::unique_ptr<VolumeFile> (*open)(const std::string& path)) {
-  return std::make_unique<RemoteVolumeFile>(path, limits_for(path, most_memory), open);
+  const ProcessLimits limits = limits_for(path, most_memory);
+  auto worker = std::make_unique<WorkerProcess>(limits, [&](ProcessChannel& channel) { serve(channel, path, open); });
+  return receive_volume(path, std::move(worker), limits.memory);
+}
+
+std::unique_ptr<VolumeFile> receive_volume(const std::string& path, std::unique_ptr<ProcessChannel> channel, std::size_t most_memory) {
+  return std::make_unique<RemoteVolumeFile>(path, std::move(channel), most_memory);
 }
 
 }  // namespace tyndall

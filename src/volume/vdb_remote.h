@@ -2,6 +2,7 @@
 #pragma once
 
 #include "volume/vdb_file.h"
+#include "volume/vdb_process.h"
 
 namespace tyndall {
 
@@ -10,5 +11,9 @@ namespace tyndall {
 /// (scene), also for what makes the child crash or exceed its limits; so do the functions of the result.
 std::unique_ptr<VolumeFile> open_remotely(const std::string& path, std::size_t most_memory,
                                           std::unique_ptr<VolumeFile> (*open)(const std::string& path));
+
+/// The receiving half: a file that speaks through `channel`. Nothing that comes from there is trusted; what is received takes
+/// at most `most_memory` bytes.
+std::unique_ptr<VolumeFile> receive_volume(const std::string& path, std::unique_ptr<ProcessChannel> channel, std::size_t most_memory);
 
 }  // namespace tyndall

@@ -1,0 +1,108 @@
+/// A child process that does everything wrong: none of it reaches this one, and each gets its words.
+#include <doctest/doctest.h>
+
+#include <signal.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <vector>
+
+#include "tyndall/error.h"
+#include "volume/vdb_process.h"
+
+using namespace tyndall;
+
+namespace {
+
+constexpr ProcessLimits kLimits{std::size_t{256} << 20, 1};
+
+/// How the child ends that does `misdeed` instead of answering.
+template <typename Misdeed>
+std::string end_of(const Misdeed& misdeed) {
+  try {
+    WorkerProcess worker(kLimits, [&](ProcessChannel& channel) {
+      misdeed();
+      channel.put(1);
+    });
+    worker.get<int>();
+  } catch (const ProcessEnded& e) {
+    return e.what();
+  }
+  return "it answered";
+}
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+}  // namespace
+
+TEST_CASE("what goes over the channel arrives") {
+  WorkerProcess worker(kLimits, [](ProcessChannel& channel) {
+    while (true) {
+      const auto n = channel.get<std::uint64_t>();
+      channel.put_text("number " + std::to_string(n));
+      const std::vector<float> values(n, 0.5f);
+      channel.send(values.data(), n * sizeof(float));
+    }
+  });
+  for (const std::uint64_t n : {3ull, 1000000ull, 1ull}) {
+    worker.put(n);
+    CHECK(worker.get_text() == "number " + std::to_string(n));
+    std::vector<float> values(n);
+    worker.receive(values.data(), n * sizeof(float));
+    CHECK(values == std::vector<float>(n, 0.5f));
+  }
+}
+
+TEST_CASE("a child that crashes, aborts, throws or leaves is told apart and harms nobody") {
+  CHECK(contains(end_of([] { raise(SIGSEGV); }), "Segmentation"));
+  CHECK(contains(end_of([] { std::abort(); }), "Abort"));
+  CHECK(contains(end_of([] { throw 1; }), "gave up"));
+  CHECK(contains(end_of([] { _exit(0); }), "gave up"));
+  CHECK(contains(end_of([] { raise(SIGKILL); }), "too much memory"));
+  CHECK(end_of([] {}) == "it answered");
+}
+
+TEST_CASE("a child that computes for ever is ended") {
+  const auto start = std::chrono::steady_clock::now();
+  const std::string end = end_of([] {
+    volatile unsigned i = 0;
+    for (;;) i = i + 1;
+  });
+  CHECK(contains(end, "too long"));
+  CHECK(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < 10);
+}
+
+#ifndef __SANITIZE_ADDRESS__
+TEST_CASE("a child gets no more memory than its limit") {
+  const std::string end = end_of([] {
+    std::vector<std::vector<char>> held;
+    try {
+      for (;;) held.emplace_back(std::size_t{16} << 20, 'x');
+    } catch (const std::bad_alloc&) {
+      raise(held.size() < 17 ? SIGUSR1 : SIGUSR2);
+    }
+  });
+  CAPTURE(end);
+  CHECK(contains(end, "User defined signal 1"));
+}
+#endif
+
+TEST_CASE("a text that claims to be huge is refused") {
+  WorkerProcess worker(kLimits, [](ProcessChannel& channel) { channel.put(std::uint32_t{0xffffffff}); });
+  CHECK_THROWS_AS(worker.get_text(), ProcessEnded);
+}
+
+TEST_CASE("a child does not outlive its object") {
+  pid_t id = 0;
+  {
+    WorkerProcess worker(kLimits, [](ProcessChannel& channel) {
+      channel.put(getpid());
+      channel.get<int>();
+    });
+    id = worker.get<pid_t>();
+    CHECK(kill(id, 0) == 0);
+  }
+  CHECK(kill(id, 0) != 0);
+}
