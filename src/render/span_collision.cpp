@@ -1,12 +1,11 @@
 #include <algorithm>
 
+#include "render/light_draws.h"
 #include "render/resampling.h"
 #include "render/span_light.h"
 
 namespace tyndall {
 namespace {
-
-constexpr double kBelowOne = 0x1.fffffffffffffp-1;
 
 /// A light looked at from a collision without visibility.
 struct Candidate {
@@ -39,26 +38,17 @@ std::optional<Candidate> look_at(const LightContext& context, const Event& event
 
 using Candidates = SmallVector<Candidate, 8>;
 
-void add_candidates(const LightContext& context, const Event& event, const LightCluster& cluster, Sampler& sampler, Candidates& found) {
-  const auto n = cluster.candidates;
-  const double u = sampler.next_wide();
-  for (std::uint32_t i = 0; i < n; ++i) {
-    const Vec2 on_light = sampler.next_2d();
-    const auto selected = context.selector.select_in(cluster, event.span.search.query, std::min((i + u) / n, kBelowOne));
-    if (!selected) continue;
-    const auto c = look_at(context, event, {selected->light, selected->pmf * static_cast<float>(n)}, on_light);
-    if (c) found.push_back(*c);
-  }
-}
-
 Candidates find_candidates(const LightContext& context, const Event& event, Sampler& sampler) {
   Candidates found;
-  if (!context.selector.exhaustive()) {
-    for (const LightCluster& cluster : event.span.search.cut) add_candidates(context, event, cluster, sampler, found);
+  const auto add = [&](SelectedLight tried) {
+    if (const auto c = look_at(context, event, tried, sampler.next_2d())) found.push_back(*c);
+  };
+  if (context.selector.exhaustive()) {
+    for (LightId id = 0; id < context.world.lights.size(); ++id) add({id, 1});
     return found;
   }
-  for (LightId id = 0; id < context.world.lights.size(); ++id) {
-    if (const auto c = look_at(context, event, {id, 1}, sampler.next_2d())) found.push_back(*c);
+  for (const auto& drawn : draw_lights(context.selector, event.span.search.cut, event.span.search.query, sampler)) {
+    if (drawn) add(*drawn);
   }
   return found;
 }

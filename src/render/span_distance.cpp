@@ -152,7 +152,7 @@ float DistanceSampler::sample_in(std::size_t bin, float u) const {
   } else {
     t = begin - std::log1p(-u) / profile_->sigmas()[bin];
   }
-  return std::clamp(t, begin, std::min(end, std::numeric_limits<float>::max()));
+  return std::clamp(t, begin, std::nextafter(end, begin));  // the next bin begins at `end`
 }
 
 float DistanceSampler::pdf_in(std::size_t bin, float t) const {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "math/small_vector.h"
+#include "render/light_draws.h"
 #include "render/resampling.h"
 #include "volume/coarse.h"
 
@@ -17,8 +18,6 @@ constexpr int kCandidates = 8, kLaterCandidates = 4;
 /// Transmittances below this do not count as less in choices: the medium may be thinner than it looks.
 constexpr float kLeastTransmittance = 1e-3f;
 constexpr int kShadowReads = 4;
-constexpr double kBelowOne = 0x1.fffffffffffffp-1;
-
 /// What the media do at a point of a span.
 struct Scattering {
   Rgb sigma_s;
@@ -113,20 +112,13 @@ Pairs all_lights(const LightContext& context, const PairFinder& finder, Sampler&
   return pairs;
 }
 
-/// One number gives all selections in a cluster: the i-th of n lies in the i-th n-th of [0, 1), so that they spread.
 Pairs chosen_lights(const LightContext& context, const SpanSearch& search, const PairFinder& finder, Sampler& sampler) {
   Pairs pairs;
-  for (const LightCluster& cluster : search.cut) {
-    const double u = sampler.next_wide();
-    const auto n = cluster.candidates;
-    for (std::uint32_t i = 0; i < n; ++i) {
-      const float along = sampler.next_1d();
-      const Vec2 on_light = sampler.next_2d();
-      const auto selected = context.selector.select_in(cluster, search.query, std::min((i + u) / n, kBelowOne));
-      if (!selected) continue;
-      const auto pair = finder.look_at(selected->light, selected->pmf * static_cast<float>(n), along, on_light);
-      if (pair) pairs.push_back(*pair);
-    }
+  for (const auto& drawn : draw_lights(context.selector, search.cut, search.query, sampler)) {
+    const float along = sampler.next_1d();
+    const Vec2 on_light = sampler.next_2d();
+    if (!drawn) continue;
+    if (const auto pair = finder.look_at(drawn->light, drawn->pmf, along, on_light)) pairs.push_back(*pair);
   }
   return pairs;
 }

@@ -1,0 +1,187 @@
+/// Distances along a span: the density integrates to 1, samples follow it, and extremes stay sound.
+#include "render/span_distance.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "math/rng.h"
+#include "support/chi_squared.h"
+
+using namespace tyndall;
+using namespace tyndall::test;
+
+namespace {
+
+ParticipatingMedium homogeneous(float sigma_s) {
+  std::vector<std::string> notes;
+  Medium medium;
+  medium.kind = HomogeneousMedium{};
+  medium.optics.sigma_s = Rgb(sigma_s);
+  medium.optics.sigma_a = Rgb(0.1f * sigma_s);
+  return build_medium(medium, {}, notes);
+}
+
+/// Two stretches of a ray, the second denser, with a gap in between; or one without an end.
+struct Case {
+  std::vector<ParticipatingMedium> media;
+  Span span;
+};
+
+Case two_stretches(float scale) {
+  Case c;
+  c.media.push_back(homogeneous(0.5f / scale));
+  c.media.push_back(homogeneous(4 / scale));
+  c.span.ray = {{0, 0, 0}, {0, 0, 1}};
+  c.span.t_end = 9 * scale;
+  for (std::size_t i = 0; i < 2; ++i) {
+    SpanPart part{};
+    part.t0 = (1 + 4 * static_cast<float>(i)) * scale;
+    part.t1 = part.t0 + 3 * scale;
+    part.media.push_back(&c.media[i]);
+    part.box = {Vec3(-kInfinity), Vec3(kInfinity)};
+    c.span.parts.push_back(part);
+  }
+  return c;
+}
+
+Case endless(float sigma_s) {
+  Case c;
+  c.media.push_back(homogeneous(sigma_s));
+  c.span.ray = {{0, 0, 0}, {0, 0, 1}};
+  c.span.t_end = kInfinity;
+  SpanPart part{};
+  part.t0 = 0;
+  part.t1 = kInfinity;
+  part.media.push_back(&c.media[0]);
+  part.box = {Vec3(-kInfinity), Vec3(kInfinity)};
+  c.span.parts.push_back(part);
+  return c;
+}
+
+/// Integral of the density over [a, b] by midpoints, which lie evenly in angle about distance c: there densities peak.
+double integral(const DistanceSampler& sampler, double a, double b, double c) {
+  constexpr int kPoints = 256;
+  constexpr double kWidth = 1e-3;
+  const double from = std::atan((a - c) / kWidth), step = (std::atan((b - c) / kWidth) - from) / kPoints;
+  if (step < 1e-9) return 0;
+  double sum = 0;
+  for (int k = 0; k < kPoints; ++k) {
+    const double tangent = std::tan(from + (k + 0.5) * step);
+    sum += sampler.pdf(static_cast<float>(c + kWidth * tangent)) * kWidth * (1 + tangent * tangent) * step;
+  }
+  return sum;
+}
+
+/// The same evenly in distance.
+double integral(const DistanceSampler& sampler, double a, double b) {
+  constexpr int kPoints = 256;
+  double sum = 0;
+  for (int k = 0; k < kPoints; ++k) sum += sampler.pdf(static_cast<float>(a + (b - a) * (k + 0.5) / kPoints)) * (b - a) / kPoints;
+  return sum;
+}
+
+/// Samples against the density: in each of the profile's bins cut into four, the share of samples is its integral.
+/// `peak`: where the ray passes the light so closely that the density peaks.
+void check_sampler(const SpanProfile& profile, const DistanceSampler& sampler, std::optional<float> peak, int seed) {
+  constexpr int kCuts = 4, kDraws = 100'000;
+  const auto& edges = profile.edges();
+  const float last = edges.back() < kInfinity ? edges.back() : edges[SpanProfile::kBins - 1] * 4 + 4 * profile.reach();
+  std::vector<float> bounds;
+  for (std::size_t i = 0; i < SpanProfile::kBins; ++i) {
+    const float end = std::min(edges[i + 1], last);
+    for (int k = 0; k < kCuts; ++k) bounds.push_back(edges[i] + (end - edges[i]) * static_cast<float>(k) / kCuts);
+  }
+  bounds.push_back(last);
+  std::vector<double> expected(bounds.size(), 0), observed(bounds.size(), 0);  // the last: beyond
+  double sum = 0;
+  for (std::size_t i = 0; i + 1 < bounds.size(); ++i) {
+    expected[i] = peak ? integral(sampler, bounds[i], bounds[i + 1], *peak) : integral(sampler, bounds[i], bounds[i + 1]);
+    sum += expected[i];
+  }
+  expected.back() = std::max(1 - sum, 0.0);
+  if (edges.back() < kInfinity) CHECK(sum == doctest::Approx(1).epsilon(2e-3));
+  Rng rng(static_cast<std::uint64_t>(seed));
+  for (int i = 0; i < kDraws; ++i) {
+    const DistanceSample s = sampler.sample(rng.uniform());
+    REQUIRE(s.pdf > 0);
+    REQUIRE(std::isfinite(s.t));
+    REQUIRE(s.t >= profile.begin());
+    REQUIRE(s.t <= profile.end());
+    CHECK(sampler.pdf(s.t) == doctest::Approx(s.pdf).epsilon(1e-4));
+    const auto next = std::upper_bound(bounds.begin(), bounds.end(), s.t);
+    ++observed[std::min<std::size_t>(static_cast<std::size_t>(std::max<std::ptrdiff_t>(next - bounds.begin() - 1, 0)), observed.size() - 1)];
+  }
+  double statistic = 0, pool_e = 0, pool_o = 0;
+  int cells = 0;
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    pool_e += kDraws * expected[i];
+    pool_o += observed[i];
+    if (pool_e < 20) continue;
+    statistic += (pool_o - pool_e) * (pool_o - pool_e) / pool_e;
+    ++cells;
+    pool_e = pool_o = 0;
+  }
+  CHECK(pool_o <= pool_e + 6 * std::sqrt(pool_e + 1) + 1);
+  REQUIRE(cells > 1);
+  CHECK(chi_squared_tail(statistic, cells - 1) > sidak(1e-3, 24));
+}
+
+}  // namespace
+
+TEST_CASE("distances toward lights follow their density") {
+  const std::vector<LightPlace> places{{Vec3(0.3f, 0, 2), 0}, {Vec3(0, 0.01f, 6), 0}, {Vec3(40, 0, 3), 0.5f}, {Vec3(0, 0, 5.5f), 0},
+                                       {Vec3(2, 1, -30), 0}, {std::nullopt, 0}};
+  int seed = 0;
+  for (const auto& make : {+[] { return two_stretches(1); }, +[] { return endless(0.7f); }}) {
+    const Case c = make();
+    const auto profile = SpanProfile::of(c.span);
+    REQUIRE(profile);
+    for (const LightPlace& place : places) {
+      CAPTURE(seed);
+      const bool on_ray = place.center && std::hypot(place.center->x, place.center->y) < 0.05f;
+      const auto peak = on_ray ? std::optional(place.center->z) : std::nullopt;
+      check_sampler(*profile, DistanceSampler(*profile, c.span.ray, place, DistanceSampler::Weights{0.6f}), peak, ++seed);
+      if (place.center) check_sampler(*profile, DistanceSampler(*profile, c.span.ray, place, std::nullopt), peak, ++seed);
+    }
+  }
+}
+
+TEST_CASE("distances stay sound at every scale") {
+  for (int k = -30; k <= 30; k += 5) {
+    CAPTURE(k);
+    const float scale = std::ldexp(1.0f, k);
+    const Case c = two_stretches(scale);
+    const auto profile = SpanProfile::of(c.span);
+    REQUIRE(profile);
+    Rng rng(7);
+    for (int i = 0; i < 2000; ++i) {
+      const float size = std::ldexp(scale, static_cast<int>(40 * rng.uniform()) - 20);
+      const LightPlace place{Vec3(rng.uniform() - 0.5f, rng.uniform() - 0.5f, rng.uniform() - 0.5f) * size, 0};
+      const DistanceSampler sampler(*profile, c.span.ray, place, DistanceSampler::Weights{0.9f});
+      const DistanceSample s = sampler.sample(rng.uniform());
+      REQUIRE(std::isfinite(s.t));
+      REQUIRE(s.pdf > 0);
+      REQUIRE(std::isfinite(s.pdf));
+      REQUIRE(s.t >= profile->begin());
+      REQUIRE(s.t <= profile->end());
+    }
+  }
+}
+
+TEST_CASE("the profile of a homogeneous medium is exact at its edges") {
+  const Case c = endless(0.7f);
+  const auto profile = SpanProfile::of(c.span);
+  REQUIRE(profile);
+  for (float t = 0; t < 20; t += 0.37f) CHECK(profile->transmittance(t) == doctest::Approx(std::exp(-0.77f * t)).epsilon(1e-4));
+  CHECK(profile->scattered() == doctest::Approx(0.7f / 0.77f).epsilon(1e-3));
+}
+
+TEST_CASE("a span that does not scatter has no profile") {
+  Case c = endless(0.7f);
+  c.media.clear();
+  c.media.push_back(homogeneous(0));
+  c.span.parts[0].media.clear();
+  c.span.parts[0].media.push_back(&c.media[0]);
+  CHECK(!SpanProfile::of(c.span));
+}
