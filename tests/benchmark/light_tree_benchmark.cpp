@@ -1,5 +1,6 @@
 // The light tree in figures, as ratios within one run:
 //   Select    lights chosen a second, wide tree over binary tree, one thread               bar: 4
+//             `ratio`: one by one; `ratio_8`: eight for a point at once, as cuts are drawn from
 //   Build     time over that of tbb::parallel_sort of as many 64-bit keys with 32 bytes    bar: 6
 //   Variance  of unoccluded direct light, one light a point, relative; exact sums over all lights
 #include <benchmark/benchmark.h>
@@ -75,20 +76,38 @@ double select_seconds(const Tree& tree, const LightScene& scene, int draws) {
   return seconds() - start;
 }
 
+/// Eight for a point at once.
+double select_eight_seconds(const WideLightTree& tree, const LightScene& scene, int draws) {
+  Rng rng(9);
+  std::array<WideLightTree::Draw, 8> eight;
+  std::array<std::optional<WideLightTree::Choice>, 8> choices;
+  const double start = seconds();
+  for (int i = 0; i < draws; i += 8) {
+    for (auto& draw : eight) draw = {tree.root(), rng.uniform_wide()};
+    const WideQuery query = tree.localize(scene.points[static_cast<std::size_t>(i / 8) % scene.points.size()]);
+    tree.select_below(eight, query, choices);
+    benchmark::DoNotOptimize(choices);
+  }
+  return seconds() - start;
+}
+
 void select(benchmark::State& state, LightScene (*make)(std::size_t, std::size_t)) {
   const LightScene scene = make(static_cast<std::size_t>(state.range(0)), 1000);
   const WideLightTree wide(test::numbered(scene.lights));
   const LightTree binary(test::numbered(scene.lights));
   constexpr int kDraws = 100'000;
-  double wide_seconds = 0, binary_seconds = 0;
+  double wide_seconds = 0, binary_seconds = 0, eight_seconds = 0;
   for (auto _ : state) {
     wide_seconds += select_seconds(wide, scene, kDraws);
+    eight_seconds += select_eight_seconds(wide, scene, kDraws);
     binary_seconds += select_seconds(binary, scene, kDraws);
   }
   const double draws = double(kDraws) * double(state.iterations());
   state.counters["tree_ns"] = wide_seconds / draws * 1e9;
+  state.counters["tree_8_ns"] = eight_seconds / draws * 1e9;
   state.counters["binary_ns"] = binary_seconds / draws * 1e9;
   state.counters["ratio"] = binary_seconds / wide_seconds;
+  state.counters["ratio_8"] = binary_seconds / eight_seconds;
 }
 
 void build(benchmark::State& state, LightScene (*make)(std::size_t, std::size_t)) {

@@ -232,7 +232,30 @@ TEST_CASE_TEMPLATE("segments: one that shrinks to a point asks what the point as
     for (std::size_t i = 0; i < lights.size(); ++i) {
       // Outside the clusters only the share of their variance that counts as distance differs, by a few percent.
       const double point = tree.pmf(PointQuery{q.o, {}}, leaves[i]);
-      REQUIRE(tree.pmf(q, leaves[i]) == doctest::Approx(point).epsilon(0.1));
+      REQUIRE(tree.pmf(q, leaves[i]) == doctest::Approx(point).epsilon(0.1).scale(0));
+    }
+  }
+}
+
+TEST_CASE_TEMPLATE("segments: from how far the ray comes does not matter", Tree, LightTree, WideLightTree) {
+  std::vector<LightBounds> lights;
+  Rng rng(14);
+  for (int i = 0; i < 300; ++i) lights.push_back(test::point_bounds(test::random_in_cube(rng), 1 + 9 * rng.uniform()));
+  const Tree tree(test::numbered(lights));
+  const auto leaves = leaves_of(tree, lights.size());
+  for (const float y : {0.0f, 0.25f, 3.0f}) {
+    for (const MediaStrategy m : {MediaStrategy::closest, MediaStrategy::integral, MediaStrategy::product}) {
+      SegmentQuery near{.o = {-2, y, 0.5f}, .d = {1, 0, 0}, .t0 = 0, .t1 = 4, .importance = m}, far = near;
+      constexpr float kFar = 0x1p20;  // a quarter is what floats resolve there
+      far.o.x -= kFar;
+      far.t0 += kFar;
+      far.t1 += kFar;
+      near.profile = far.profile = test::homogeneous_profile(0, 4, 1, 1, 0.5f);
+      for (float& e : far.profile.edge) e += kFar;
+      near.profile.edge = far.profile.edge;
+      for (float& e : near.profile.edge) e -= kFar;
+      for (const auto leaf : leaves)
+        REQUIRE(tree.pmf(far, leaf) == doctest::Approx(tree.pmf(near, leaf)).epsilon(1e-4).scale(0));
     }
   }
 }
