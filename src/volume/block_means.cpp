@@ -6,17 +6,6 @@
 namespace tyndall {
 namespace {
 
-/// Mean of the trilinear interpolant over a block: its outermost voxel layers count half.
-double mean_of(const float* corner) {
-  constexpr int kCells = BlockMeans::kCells, kY = BrickStore::kVoxelSide, kZ = kY * kY;
-  const auto weight = [](int i) { return i == 0 || i == kCells ? 0.5 : 1.0; };
-  double sum = 0;
-  for (int z = 0; z <= kCells; ++z)
-    for (int y = 0; y <= kCells; ++y)
-      for (int x = 0; x <= kCells; ++x) sum += weight(x) * weight(y) * weight(z) * corner[z * kZ + y * kY + x];
-  return sum / (kCells * kCells * kCells);
-}
-
 std::uint8_t step_of(double mean, double low, double step) {
   const double steps = step > 0 ? std::round((mean - low) / step) : 0;
   return static_cast<std::uint8_t>(std::clamp(steps, mean == 0 ? 0.0 : 1.0, 255.0));
@@ -43,7 +32,7 @@ void BlockMeans::add(const float* voxels) {
     for (int z = 0; z < BrickStore::kSide; z += kCells)
       for (int y = 0; y < BrickStore::kSide; y += kCells)
         for (int x = 0; x < BrickStore::kSide; x += kCells)
-          steps_.push_back(step_of(mean_of(channel + z * kZ + y * kY + x), *low, step));
+          steps_.push_back(step_of(range_of_cells(channel + z * kZ + y * kY + x, kCells).mean, *low, step));
   }
 }
 

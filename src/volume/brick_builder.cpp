@@ -25,6 +25,7 @@ class BrickGridBuilder {
         voxels_(kVoxels * channels_) {
     grid_.bricks_ = BrickStore(source.channels(), options.float_bricks);
     grid_.block_means_ = BlockMeans(source.channels());
+    grid_.octants_ = BrickOctants(source.channels());
   }
 
   BrickGrid build() {
@@ -71,6 +72,7 @@ class BrickGridBuilder {
     grid_.ranges_.shrink_to_fit();
     grid_.bricks_.shrink_to_fit();
     grid_.block_means_.shrink_to_fit();
+    grid_.octants_.shrink_to_fit();
     for (int i = 0; i < 3; ++i) {
       const auto axis = static_cast<std::size_t>(i);
       grid_.support_.lo[i] = static_cast<double>(non_zero_.lo[axis] - 1 - grid_.origin_[axis]);
@@ -224,6 +226,7 @@ class BrickGridBuilder {
     Built built;
     built.node.first = grid_.bricks_.add(voxels_.data(), built.ranges);
     grid_.block_means_.add(voxels_.data());
+    grid_.octants_.add(voxels_.data());
     return built;
   }
 

@@ -53,7 +53,7 @@ ValueRange BrickGrid::range(int channel) const {
 
 std::size_t BrickGrid::memory_bytes() const {
   return nodes_.capacity() * sizeof(Node) + ranges_.capacity() * sizeof(ValueRange) + bricks_.memory_bytes() +
-         block_means_.memory_bytes() + directory_.memory_bytes();
+         block_means_.memory_bytes() + octants_.memory_bytes() + directory_.memory_bytes();
 }
 
 }  // namespace tyndall

@@ -15,6 +15,7 @@
 #include "volume/affine.h"
 #include "volume/block_means.h"
 #include "volume/brick_directory.h"
+#include "volume/brick_octants.h"
 #include "volume/brick_store.h"
 #include "volume/voxel_source.h"
 
@@ -42,6 +43,7 @@ class BrickGrid {
   /// Local coordinates outside which every look-up is 0.
   const Box3d& support() const { return support_; }
   const BrickStore& bricks() const { return bricks_; }
+  const BrickOctants& octants() const { return octants_; }
   std::size_t memory_bytes() const;
   ValueRange range(int channel = 0) const;  ///< of the whole grid, the empty surroundings included
 
@@ -98,6 +100,7 @@ class BrickGrid {
   std::vector<ValueRange> ranges_;  // channels() a node
   BrickStore bricks_;
   BlockMeans block_means_;
+  BrickOctants octants_;
   BrickDirectory directory_;
 };
 

@@ -27,6 +27,15 @@ class BrickReader {
     for (int c = 0; c < bricks_->channels(); ++c) out[c] = bricks_->read(bricks_->plane(brick_, c), point);
   }
 
+  /// t at which the ray crosses the plane of brick coordinate `x` on an axis; not a number or infinite if it does not.
+  double crossing(int axis, double x) const { return (x - line_.o[axis]) / line_.d[axis]; }
+  /// Of the brick, that holds the point at t: bit 0, 1, 2 for the upper half along x, y, z.
+  unsigned octant(double t) const {
+    constexpr double kMiddle = kBrickCells / 2;
+    const auto upper = [&](int i) { return line_.o[i] + t * line_.d[i] >= kMiddle ? 1u : 0u; };
+    return upper(0) | upper(1) << 1 | upper(2) << 2;
+  }
+
  private:
   Line line_;
   BrickStore::Plane plane_;  // of the first channel

@@ -12,21 +12,24 @@ constexpr float kWiden = 0x1p-21f;
 float wider_max(float v) { return v + std::abs(v) * kWiden; }
 float wider_min(float v) { return v - std::abs(v) * kWiden; }
 
-/// Weight of a voxel layer in the mean over the 8 cells of an axis: the outer ones belong to one cell only.
-constexpr double layer_weight(int i) { return i == 0 || i == BrickStore::kVoxelSide - 1 ? 0.5 : 1.0; }
-
-ValueRange range_of(const float* voxels) {
-  constexpr int kSide = BrickStore::kVoxelSide;
-  const auto [low, high] = std::minmax_element(voxels, voxels + BrickStore::kVoxels);
-  double sum = 0;
-  const float* voxel = voxels;
-  for (int z = 0; z < kSide; ++z)
-    for (int y = 0; y < kSide; ++y)
-      for (int x = 0; x < kSide; ++x) sum += layer_weight(x) * layer_weight(y) * layer_weight(z) * *voxel++;
-  return {wider_min(*low), wider_max(*high), static_cast<float>(sum / 512)};
-}
-
 }  // namespace
+
+ValueRange range_of_cells(const float* corner, int cells) {
+  constexpr int kY = BrickStore::kVoxelSide, kZ = kY * kY;
+  // In the mean over cells the outer layers of voxels count half: they belong to one cell only.
+  const auto weight = [&](int i) { return i == 0 || i == cells ? 0.5 : 1.0; };
+  float low = *corner, high = *corner;
+  double sum = 0;
+  for (int z = 0; z <= cells; ++z)
+    for (int y = 0; y <= cells; ++y)
+      for (int x = 0; x <= cells; ++x) {
+        const float voxel = corner[z * kZ + y * kY + x];
+        low = std::min(low, voxel);
+        high = std::max(high, voxel);
+        sum += weight(x) * weight(y) * weight(z) * voxel;
+      }
+  return {wider_min(low), wider_max(high), static_cast<float>(sum / (cells * cells * cells))};
+}
 
 BrickStore::BrickStore(int channels, bool floats) : channels_(channels), floats_only_(floats) {
   add_slot();
@@ -64,7 +67,7 @@ std::uint32_t BrickStore::add(float* voxels, ChannelRanges& ranges) {
     } else {
       planes_.push_back({plane, quantise(channel, steps_.data() + to)});
     }
-    ranges[static_cast<std::size_t>(c)] = range_of(channel);
+    ranges[static_cast<std::size_t>(c)] = range_of_cells(channel, kSide);
   }
   return static_cast<std::uint32_t>(size() - 1);
 }

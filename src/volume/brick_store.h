@@ -17,6 +17,9 @@ struct ValueRange {
 inline constexpr int kMaxChannels = 6;
 using ChannelRanges = std::array<ValueRange, kMaxChannels>;
 
+/// Of the trilinear interpolant over cells^3 cells, `corner` being the first of their voxels within a brick's 9^3.
+ValueRange range_of_cells(const float* corner, int cells);
+
 class BrickStore {
  public:
   static constexpr std::uint32_t kNothing = 0;  ///< a brick of 0, there from the start

@@ -12,13 +12,19 @@
 
 namespace tyndall {
 
-/// What the pieces must bound. `majorant`: rate >= sigma_t. `residual`: rate >= |sigma_t - control|.
-enum class WalkMode { majorant, residual };
+/// What the pieces must bound. `majorant`: rate >= sigma_t. `march`: rate >= |sigma_t - control|. `residual`: that times
+/// kOversampling, and bricks are walked by octants: both lower the variance of residual tracking for less time than they
+/// take, where a march would rather have more look-ups in fewer pieces.
+enum class WalkMode { majorant, residual, march };
+inline constexpr float kOversampling = 1.7f;
 
 /// A node of the grid's tree is split further only while rate * length exceeds this: below it, walking the children
-/// costs more than the look-ups it would save. Finer pieces lower the variance of residual tracking too.
+/// costs more than the look-ups it would save. Finer pieces lower the variance where a control is subtracted.
 template <WalkMode Mode>
 inline constexpr float kRefineDepth = Mode == WalkMode::majorant ? 1.0f : 0.125f;
+
+/// A brick is walked by octants where its rate * length exceeds this; residual only.
+inline constexpr float kSplitDepth = 0.1f;
 
 /// Sigma and emission at a point, in 1/world unit and radiance/world unit.
 struct LocalOptics {
@@ -51,6 +57,7 @@ class MediumWalk {
   bool next() {
     t_ = t_end_;
     if (t_ >= limit_) return false;
+    if (part_ < part_count_) return next_part();
     ++steps_;
     reading_ = false;
     if (t_ >= inside_end_ || steps_ > max_steps_) return pass(limit_);
@@ -69,8 +76,8 @@ class MediumWalk {
   double t() const { return t_; }
   double t_end() const { return t_end_; }
   float rate() const { return rate_; }
-  Rgb control() const { return control_; }  ///< sigma_t that is subtracted; residual mode only
-  std::uint64_t steps() const { return steps_; }
+  Rgb control() const { return control_; }  ///< sigma_t that is subtracted; 0 in majorant mode
+  std::uint64_t steps() const { return steps_ + parts_walked_; }
   bool capped() const { return steps_ > max_steps_; }  ///< the safety limit of steps ended the walk: a defect
 
   /// Inside the current piece, of non-zero rate.
@@ -92,7 +99,7 @@ class MediumWalk {
     last_sigma_s_ = result.sigma_s;
     return result;
   }
-  /// sigma_t minus control; residual mode.
+  /// sigma_t minus control.
   Rgb excess_at(double t) {
     const LocalOptics optics = optics_at(t, false);
     return optics.sigma_a + optics.sigma_s - control_;
@@ -102,6 +109,7 @@ class MediumWalk {
 
  private:
   static constexpr double kInf = std::numeric_limits<double>::infinity();
+  static constexpr float kScale = Mode == WalkMode::residual ? kOversampling : 1;
 
   bool pass(double until) {
     t_end_ = until;
@@ -115,8 +123,8 @@ class MediumWalk {
   bool next_uniform(float control, float spread) {
     const Rgb sigma_t = medium_->optics.sigma_a + medium_->optics.sigma_s;
     t_end_ = inside_end_;
-    rate_ = max_component(sigma_t) * (Mode == WalkMode::majorant ? 1 : spread);
-    if constexpr (Mode == WalkMode::residual) control_ = sigma_t * control;
+    rate_ = max_component(sigma_t) * (Mode == WalkMode::majorant ? 1 : spread * kScale);
+    if constexpr (Mode != WalkMode::majorant) control_ = sigma_t * control;
     return true;
   }
 
@@ -139,6 +147,33 @@ class MediumWalk {
     node_level_ = local_.level();
     node_corner_ = local_.corner();
     if (t_end_ < inside_end_ && !local_.leave(grid, t_end_)) inside_end_ = t_end_;
+    if constexpr (Mode == WalkMode::residual)
+      if (node_level_ == 0 && rate_ * (t_end_ - t_) > kSplitDepth) split_brick();
+    return true;
+  }
+
+  /// Turn the current piece, a brick, into those of the octants that the ray passes, up to 4.
+  void split_brick() {
+    reader_.enter(medium_->density.grid, local_, node_, node_corner_);
+    reading_ = true;
+    part_count_ = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double middle = reader_.crossing(axis, BrickOctants::kCells);
+      if (!(middle > t_ && middle < t_end_)) continue;
+      int at = part_count_++;
+      for (; at > 0 && part_ends_[at - 1] > middle; --at) part_ends_[at] = part_ends_[at - 1];
+      part_ends_[at] = middle;
+    }
+    part_ends_[part_count_++] = t_end_;
+    part_ = 0;
+    next_part();
+  }
+  bool next_part() {
+    t_end_ = part_ends_[part_++];
+    ++parts_walked_;
+    const BrickGrid& grid = medium_->density.grid;
+    const unsigned octant = reader_.octant(t_ + (t_end_ - t_) * 0.5);
+    set_rate(grid.octants().ranges(grid.bricks().slot(grid.node(node_).first), octant), t_end_ - t_);
     return true;
   }
 
@@ -154,11 +189,11 @@ class MediumWalk {
   /// Rate and control of a node that the ray crosses in `length`.
   void set_rate(std::span<const ValueRange> ranges, double length) {
     rate_ = variation(ranges);
-    if constexpr (Mode == WalkMode::residual) {
+    if constexpr (Mode != WalkMode::majorant) {
       const float mean_share = rate_ == 0 ? 1.0f : std::exp(-static_cast<float>(rate_ * length));
       if (ranges.size() == 1) {
         const float c = control_value(ranges[0], mean_share);
-        rate_ = spread(ranges[0], c) * top_sigma_;
+        rate_ = spread(ranges[0], c) * top_sigma_ * kScale;
         control_ = (medium_->optics.sigma_a + medium_->optics.sigma_s) * c;
         return;
       }
@@ -166,7 +201,7 @@ class MediumWalk {
       for (std::size_t c = 0; c < ranges.size(); ++c) values[c] = control_value(ranges[c], mean_share);
       control_ = extinction(values);
       for (std::size_t c = 0; c < ranges.size(); ++c) values[c] = spread(ranges[c], values[c]);
-      rate_ = max_component(extinction(values));
+      rate_ = max_component(extinction(values)) * kScale;
     }
   }
   Rgb extinction(const float* values) const {
@@ -237,6 +272,9 @@ class MediumWalk {
   Index3 node_corner_{};  // of the current piece's node
   std::uint32_t node_ = BrickGrid::kNone;
   int node_level_ = 0;
+  double part_ends_[4];
+  int part_ = 0, part_count_ = 0;
+  std::uint64_t parts_walked_ = 0;
   bool reading_ = false;  // the piece is one brick, and the reader is there
   BrickReader reader_;
 };

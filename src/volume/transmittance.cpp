@@ -82,7 +82,7 @@ Rgb residual_ratio_tracking(Walk& walk, Rng& rng, TrackingStats& stats) {
       }
       t += step;
       const Rgb excess = walk.excess_at(t);
-      count_lookup(max_abs(excess), rate, stats);
+      count_lookup(max_abs(excess), rate / kOversampling, stats);
       state.T *= Rgb{1.0f} - excess * (1 / rate);
       if (guard.spent(stats)) return {};
       next = exponential(rng);
@@ -104,10 +104,16 @@ Rgb transmittance(TransmittanceStrategy strategy, MediaView media, const Ray& ra
     ++stats.segments;
     return sum_of(media).transmittance(double{t1} - t0);
   }
-  if (strategy == TransmittanceStrategy::residual || strategy == TransmittanceStrategy::raymarch) {
+  if (strategy == TransmittanceStrategy::raymarch) {
+    return with_walk<WalkMode::march>(media, ray, t0, t1, [&](auto& walk) {
+      const Rgb T = ray_marching(walk, rng, stats);
+      finish(walk, stats);
+      return T;
+    });
+  }
+  if (strategy == TransmittanceStrategy::residual) {
     return with_walk<WalkMode::residual>(media, ray, t0, t1, [&](auto& walk) {
-      const Rgb T = strategy == TransmittanceStrategy::residual ? residual_ratio_tracking(walk, rng, stats)
-                                                                : ray_marching(walk, rng, stats);
+      const Rgb T = residual_ratio_tracking(walk, rng, stats);
       finish(walk, stats);
       return T;
     });

@@ -56,7 +56,7 @@ Tiling walk_along(const ParticipatingMedium& medium, const Ray& ray, double t0, 
         result.violations += max_component(optics.sigma_a + optics.sigma_s) > walk.rate() ? 1 : 0;
       } else {
         const Rgb e = walk.excess_at(t);
-        result.violations += std::max({std::abs(e.r), std::abs(e.g), std::abs(e.b)}) > walk.rate() ? 1 : 0;
+        result.violations += std::max({std::abs(e.r), std::abs(e.g), std::abs(e.b)}) > walk.rate() / kOversampling ? 1 : 0;
       }
     }
   }
