@@ -246,6 +246,7 @@ class RenderJob::Impl {
                               .want_albedo = film_.wants(Aov::albedo)};
     PathRecord record = Path(context, limits, world_.camera.ray(on_film, lens)).run();
     expose(record);
+    place(record);
     if (!record.is_finite()) {
       ++counters.non_finite;
       counters.bad_samples.push_back({x, y, sample});
@@ -254,6 +255,13 @@ class RenderJob::Impl {
       record.alpha = 0;
     }
     film_.add(x, y, sample, record, offset.weight);
+  }
+
+  /// Positions and depths, in the user's space and units.
+  void place(PathRecord& record) const {
+    if (record.hit_surface) record.p = world_.to_user.point(record.p);
+    record.z *= world_.unit;
+    record.z_volume *= world_.unit;
   }
 
   void expose(PathRecord& record) const {

@@ -88,8 +88,13 @@ void require_camera_within_reach(const Camera& camera, const std::string& source
   for (int i = 0; i < 3; ++i) {
     if (std::abs(eye[i]) <= kFarthest) continue;
     throw Error(Failure::scene, (source.empty() ? "the scene" : source) +
-                                    ": the camera is not within 1e17 units of the origin; correct its transform");
+                                    ": the camera is more than 1e17 times the size of the scene away from it; correct its transform");
   }
+}
+
+Camera as_given(Camera camera, const Transform& to_user) {
+  camera.to_world = to_user * camera.to_world;
+  return camera;
 }
 
 }  // namespace
@@ -106,7 +111,6 @@ std::string World::scene_hash(const RenderSettings& settings) const {
 }
 
 World build(Scene scene, const BuildSettings& settings) {
-  require_camera_within_reach(scene.camera, scene.source);
   constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
   std::size_t volume_memory = kNoLimit;
   if (settings.max_memory != kNoLimit) {
@@ -114,11 +118,19 @@ World build(Scene scene, const BuildSettings& settings) {
     require_memory(plan, scene, settings.max_memory);
     volume_memory = left_for_volumes(plan, settings.max_memory);
   }
-  return World(std::make_unique<const World::Parts>(std::move(scene), settings, volume_memory));
+  const std::uint64_t hash = hash_scene(scene);  // now and not when an image is written: the files may be gone then
+  UnitScene unit_scene = in_unit_size(std::move(scene));
+  require_camera_within_reach(unit_scene.scene.camera, unit_scene.scene.source);
+  auto parts = std::make_unique<World::Parts>(std::move(unit_scene), settings, volume_memory);
+  parts->scene_hash = hash;
+  return World(std::move(parts));
 }
 
-World::Parts::Parts(Scene scene_in, const BuildSettings& settings, std::size_t volume_memory)
-    : scene(std::move(scene_in)),
+World::Parts::Parts(UnitScene unit_scene, const BuildSettings& settings, std::size_t volume_memory)
+    : scene(std::move(unit_scene.scene)),
+      to_user(unit_scene.to_user),
+      unit(static_cast<float>(unit_scene.unit)),
+      user_camera(as_given(scene.camera, to_user), scene.film),
       textures(build_textures(scene.textures)),
       materials(scene, textures),
       geometry(build_geometry(scene, textures, settings.threads, summary)),
@@ -136,7 +148,6 @@ World::Parts::Parts(Scene scene_in, const BuildSettings& settings, std::size_t v
   summary.light_bytes = lights.memory_bytes();
   summary.light_seconds = watch.seconds();
   camera_media = find_camera_media(scene.camera.medium, camera.center(), geometry);
-  scene_hash = hash_scene(scene);  // now and not when an image is written: the files may be gone then
 }
 
 }  // namespace tyndall

@@ -8,6 +8,7 @@
 #include "render/media_state.h"
 #include "render/pixel_filter.h"
 #include "render/span_walk.h"
+#include "render/unit_scene.h"
 #include "surface/geometry.h"
 #include "surface/material.h"
 #include "texture/textures.h"
@@ -17,11 +18,14 @@
 namespace tyndall {
 
 struct World::Parts {
-  Parts(Scene scene, const BuildSettings& settings, std::size_t volume_memory);  ///< bytes that volume files may take
+  Parts(UnitScene unit_scene, const BuildSettings& settings, std::size_t volume_memory);  ///< bytes that volume files may take
   Parts(const Parts&) = delete;  // its members refer to each other
 
   BuildSummary summary;  ///< first: the others fill it while they are built
-  Scene scene;
+  Scene scene;         ///< in the renderer's own units, as everything here
+  Transform to_user;   ///< to the space of the scene as it was given
+  float unit;          ///< length there of 1 here
+  CameraRays user_camera;  ///< the camera as it was given, for what images say of it
   Textures textures;
   Materials materials;
   Geometry geometry;

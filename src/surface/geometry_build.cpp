@@ -81,7 +81,7 @@ bool within_reach(const Bounds3& bounds) {
 
 void require_within_reach(const Bounds3& bounds, const Shape& shape) {
   if (within_reach(bounds)) return;
-  throw Error(shape.where, "the shape is not within 1e17 units of the origin; correct its size or transform");
+  throw Error(shape.where, "the shape is not within finite reach (1e17 times the size of the scene); correct its size or transform");
 }
 
 }  // namespace
@@ -109,7 +109,7 @@ GeometryImpl::GeometryImpl(const Scene& scene, const Textures* textures, int thr
     if (!within_reach(bounds)) {
       throw Error(Failure::scene, (scene.source.empty() ? "the scene" : scene.source) + ": instance " + std::to_string(i) + " of object \"" +
                                       scene.objects[scene.instances[i].object].name +
-                                      "\" is not within 1e17 units of the origin; correct its transform");
+                                      "\" is not within finite reach (1e17 times the size of the scene); correct its transform");
     }
   }
   bound_groups();
