@@ -1,23 +1,49 @@
 /// The clusters of lights that a vertex draws its candidates from.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <optional>
 
 #include "math/small_vector.h"
 
 namespace tyndall {
 
 struct LightCluster {
-  std::uint32_t ref;         ///< what the strategy knows it by
-  std::uint32_t candidates;  ///< to draw from it, >= 1
+  std::uint32_t ref;  ///< what the strategy knows it by
+  float candidates;   ///< to draw from it, on average; > 0
 };
 
 /// Disjoint clusters that hold every light which may contribute.
 using LightCut = SmallVector<LightCluster, 16>;
 
+/// How many candidates a cut has in all.
+inline int candidates_of(const LightCut& cut) {
+  float sum = 0;
+  for (const LightCluster& c : cut) sum += c.candidates;
+  return static_cast<int>(sum + 0.5f);
+}
+
+/// f(i, cluster, u) for every candidate i, by one number u in [0, 1): of n the i-th comes from the i-th n-th of the cut,
+/// so that they spread. Gives the cluster, and a number in [0, 1) to go on with.
+template <typename F>
+void for_each_candidate(const LightCut& cut, double u, const F& f) {
+  constexpr double kBelowOne = 0x1.fffffffffffffp-1;
+  const int n = candidates_of(cut);
+  double sum = 0;
+  for (const LightCluster& c : cut) sum += c.candidates;
+  const LightCluster* cluster = cut.begin();
+  double before = 0;
+  for (int i = 0; i < n; ++i) {
+    const double at = (i + u) / n * sum;
+    while (at >= before + cluster->candidates && cluster + 1 != cut.end()) before += (cluster++)->candidates;
+    f(i, *cluster, std::min((at - before) / cluster->candidates, kBelowOne));
+  }
+}
+
 /// What a cut may cost.
 struct CutSettings {
-  int candidates = 1;   ///< in all; 0: as many as splitting makes clusters
+  std::optional<int> candidates{};  ///< in all; 0: as many as splitting makes clusters; unset: by the query
   float splitting = 0;  ///< clusters with a lower score are split while candidates allow; 0: none, 1: down to single lights
 };
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 
+#include "math/small_vector.h"
 #include "tyndall/math.h"
 
 namespace tyndall {
@@ -11,10 +12,16 @@ namespace tyndall {
 /// Scene::lights in order, then the primitives of every emissive shape.
 using LightId = std::uint32_t;
 
-/// Directions that a glossy surface favours, or a phase function with a forward peak.
+/// A lobe of microfacets about the surface's normal n: light from wi is scattered by facets whose normals are along
+/// h = wo + eta wi, and there are D(h) of them [Trowbridge and Reitz 1975; Walter et al. 2007]. Lengths of wo and wi in
+/// the frame of tangent, bitangent and n.
 struct QueryLobe {
-  Vec3 axis;        ///< unit, toward the light that it favours
-  float width = 0;  ///< radians off the axis where it has fallen considerably; 0: no lobe
+  Vec3 tangent, bitangent;  ///< unit, with n a frame in which wo = (sin_o, 0, cos_o)
+  float sin_o = 0, cos_o = 1;
+  float eta = 1;                       ///< 1: light from n's side; else the relative index of the other
+  float slope2_t = 0, slope2_b = 0;    ///< squared widths of the facets' slopes
+  float spread_t = 0, spread_b = 0;    ///< what they widen by where the light's direction varies, times its variance
+  float scale = 0;                     ///< of D(h) G into the unit of a cosine lobe of share 1
 };
 
 /// Where light is gathered: what the choice of a light may depend on.
@@ -25,12 +32,27 @@ struct PointQuery {
   /// Scattered rays find environments too, so `sample` will be called with the same flag. Environments that are
   /// best left to them (constant ones) then have pmf 0.
   bool mis_partner = true;
-  std::array<QueryLobe, 2> lobes{};  ///< clusters inside them are split sooner
+  float diffuse = 1;  ///< what a cosine lobe has of the scattering, > 0; lobes have the rest. Only surfaces have lobes
+  int lobe_count = 0;
+  std::array<QueryLobe, 2> lobes{};
+  /// In a medium: mean cosine of the Henyey-Greenstein phase function, 0 for none, and the direction that it is about.
+  float g = 0;
+  Vec3 forward{};
+
+  /// A surface that scatters some directions much more than others.
+  bool glossy() const { return lobe_count > 0; }
 };
 
 struct SelectedLight {
   LightId light;
   float pmf;
 };
+
+/// A light that a vertex looks at; over all its candidates it does so `tries` times on average.
+struct LightCandidate {
+  LightId light;
+  float tries;
+};
+using LightCandidates = SmallVector<LightCandidate, 8>;
 
 }  // namespace tyndall

@@ -17,16 +17,17 @@ std::vector<double> equal_weights(std::vector<double> power) {
 
 LightCut all_as_one(const CutSettings& settings) {
   LightCut whole;
-  whole.push_back({0, static_cast<std::uint32_t>(std::max(settings.candidates, 1))});
+  whole.push_back({0, static_cast<float>(std::max(settings.candidates.value_or(1), 1))});
   return whole;
 }
 
 template <typename Query>
-void one_by_one(const LightSelector& selector, const LightCut& cut, const Query& query, std::span<const double> u,
-                std::span<std::optional<SelectedLight>> selected) {
-  std::size_t i = 0;
-  for (const LightCluster& cluster : cut)
-    for (std::uint32_t k = 0; k < cluster.candidates; ++k, ++i) selected[i] = selector.select_in(cluster, query, u[i]);
+LightCandidates one_by_one(const LightSelector& selector, const LightCut& cut, const Query& query, double u) {
+  LightCandidates drawn;
+  for_each_candidate(cut, u, [&](int, const LightCluster& cluster, double below) {
+    if (const auto s = selector.select_in(cluster, query, below)) drawn.push_back({s->light, s->pmf * cluster.candidates});
+  });
+  return drawn;
 }
 
 }  // namespace
@@ -45,20 +46,18 @@ std::optional<SelectedLight> LightSelector::select_in(const LightCluster&, const
   return select(query, u);
 }
 
-void LightSelector::select_all(const LightCut& cut, const PointQuery& query, std::span<const double> u,
-                               std::span<std::optional<SelectedLight>> selected) const {
-  one_by_one(*this, cut, query, u, selected);
+LightCandidates LightSelector::draw(const LightCut& cut, const PointQuery& query, double u) const {
+  return one_by_one(*this, cut, query, u);
 }
-void LightSelector::select_all(const LightCut& cut, const SegmentQuery& query, std::span<const double> u,
-                               std::span<std::optional<SelectedLight>> selected) const {
-  one_by_one(*this, cut, query, u, selected);
+LightCandidates LightSelector::draw(const LightCut& cut, const SegmentQuery& query, double u) const {
+  return one_by_one(*this, cut, query, u);
 }
 
 float LightSelector::expected(const LightCut& cut, const PointQuery& query, LightId light) const {
-  return exhaustive() ? 1.0f : static_cast<float>(cut[0].candidates) * pmf(query, light);
+  return exhaustive() ? 1.0f : cut[0].candidates * pmf(query, light);
 }
 float LightSelector::expected(const LightCut& cut, const SegmentQuery& query, LightId light) const {
-  return exhaustive() ? 1.0f : static_cast<float>(cut[0].candidates) * pmf(query, light);
+  return exhaustive() ? 1.0f : cut[0].candidates * pmf(query, light);
 }
 
 std::unique_ptr<const LightSelector> make_selector(LightStrategy strategy, SelectionInput input) {

@@ -4,7 +4,6 @@
 
 #include <memory>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "light/far_lights.h"
@@ -30,10 +29,8 @@ class LightSelector {
   virtual LightCut cut(const PointQuery& query, const CutSettings& settings) const;
   /// One light of a cluster of the query's cut, as select(); its pmf is that within the cluster.
   virtual std::optional<SelectedLight> select_in(const LightCluster& cluster, const PointQuery& query, double u) const;
-  /// The candidates of a whole cut, cluster by cluster: select_in() of each by its own u, at once. u and `selected` have
-  /// as many elements as the cut has candidates.
-  virtual void select_all(const LightCut& cut, const PointQuery& query, std::span<const double> u,
-                          std::span<std::optional<SelectedLight>> selected) const;
+  /// All candidates of the query's cut by one number as of select(); fewer where no light is known to contribute.
+  virtual LightCandidates draw(const LightCut& cut, const PointQuery& query, double u) const;
   /// How often the candidates of the cut are `light`, on average; exhaustive: 1.
   virtual float expected(const LightCut& cut, const PointQuery& query, LightId light) const;
 
@@ -42,8 +39,7 @@ class LightSelector {
   virtual float pmf(const SegmentQuery& query, LightId light) const = 0;
   virtual LightCut cut(const SegmentQuery& query, const CutSettings& settings) const;
   virtual std::optional<SelectedLight> select_in(const LightCluster& cluster, const SegmentQuery& query, double u) const;
-  virtual void select_all(const LightCut& cut, const SegmentQuery& query, std::span<const double> u,
-                          std::span<std::optional<SelectedLight>> selected) const;
+  virtual LightCandidates draw(const LightCut& cut, const SegmentQuery& query, double u) const;
   virtual float expected(const LightCut& cut, const SegmentQuery& query, LightId light) const;
 
   /// Callers loop over all lights, each with pmf 1, in place of select().

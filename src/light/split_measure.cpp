@@ -43,11 +43,6 @@ double depth_of(const WideSegment& segment, double t, double stretch) {
 
 }  // namespace
 
-SplitMeasure split_measure(const Cluster& cluster, const WideQuery& query) {
-  const Sphere sphere(cluster.box);
-  return measure_at(cluster, length(sphere.center - Vec3d(query.p)), sphere.radius);
-}
-
 SplitMeasure split_measure(const Cluster& cluster, const WideSegment& segment) {
   const Sphere sphere(cluster.box);
   const Vec3d p(segment.p), d(segment.d);
@@ -60,7 +55,7 @@ SplitMeasure split_measure(const Cluster& cluster, const WideSegment& segment) {
   return m;
 }
 
-double lobe_cv2(const QueryLobe& lobe, Vec3d p, const Cluster& cluster) {
+double lobe_cv2(const ConeLobe& lobe, Vec3d p, const Cluster& cluster) {
   const Sphere sphere(cluster.box);
   const Vec3d to_center = sphere.center - p;
   const double distance = length(to_center);
@@ -74,7 +69,7 @@ double lobe_cv2(const QueryLobe& lobe, Vec3d p, const Cluster& cluster) {
 }
 
 // (1 + g^2 - 2 g cos)^(3/2) = 2 (1 - g)^3 at half of the peak.
-QueryLobe phase_lobe(float g, Vec3 d) {
+ConeLobe phase_lobe(float g, Vec3 d) {
   const float a = std::abs(g);
   const float sine2 = (std::cbrt(4.0f) - 1) * (1 - a) * (1 - a) / std::max(4 * a, 1e-6f);  // of half the angle
   if (sine2 >= 0.5f) return {};

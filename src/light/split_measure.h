@@ -15,16 +15,21 @@ struct SplitMeasure {
   double score() const { return 1 / (1 + cv2); }  ///< in [0, 1]; low: split
 };
 
-SplitMeasure split_measure(const Cluster& cluster, const WideQuery& query);
 /// By distances from the segment, as if all were scattered at its closest point; for `product` with the variation of
 /// transmittance over these distances and with that of the phase function's peak, seen from where it can point best.
 SplitMeasure split_measure(const Cluster& cluster, const WideSegment& segment);
 
+/// Directions about an axis.
+struct ConeLobe {
+  Vec3 axis;        ///< unit
+  float width = 0;  ///< radians off the axis where it has fallen considerably; 0: no lobe
+};
+
 /// How much a lobe at `p` varies over a cluster: nothing where it does not reach, and else as the angle that the cluster
 /// is seen under, in widths of the lobe, squared.
-double lobe_cv2(const QueryLobe& lobe, Vec3d p, const Cluster& cluster);
+double lobe_cv2(const ConeLobe& lobe, Vec3d p, const Cluster& cluster);
 
 /// The peak of the phase function: where it has fallen to half. No lobe for isotropic scattering.
-QueryLobe phase_lobe(float g, Vec3 d);
+ConeLobe phase_lobe(float g, Vec3 d);
 
 }  // namespace tyndall

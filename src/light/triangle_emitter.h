@@ -19,7 +19,8 @@ class TriangleEmitter {
   EmitterExtent extent(std::uint32_t i) const;
   Bounds3 box(std::uint32_t i) const;
 
-  /// Uniform in solid angle; uniform in area where the triangle is too small or too near its own plane for that.
+  /// Uniform in solid angle; uniform in area where the triangle is far off, which comes to the same and is ten times as
+  /// fast, and where it is too small or `p` too near its own plane.
   std::optional<EmitterSample> sample(std::uint32_t i, Vec3 p, Vec2 u) const;
   float pdf(std::uint32_t i, Vec3 p, Vec3 hit) const;  ///< 1/sr, of the direction from `p` to `hit` on the triangle
 
@@ -28,6 +29,9 @@ class TriangleEmitter {
  private:
   Vec3d vertex(std::uint32_t i, int k) const { return Vec3d(positions_[3 * std::size_t(i) + k]); }
   Vec3 normal(std::uint32_t i) const;
+  Vec3 oriented(std::uint32_t i, const Vec3d& n) const;  ///< unit, along the outer one of n and -n
+  /// Uniform over the area; a vertex relative to the observer, and the edges from it.
+  std::optional<EmitterSample> sample_area(std::uint32_t i, const Vec3d& a, const Vec3d& e1, const Vec3d& e2, Vec2 u) const;
   Vec2 uv(std::uint32_t i, double b1, double b2) const;
 
   std::vector<Vec3> positions_;  ///< world space, three a triangle

@@ -1,44 +1,55 @@
 #include "light/wide_cut.h"
 
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
 #include "light/split_measure.h"
+#include "light/wide_spread.h"
 
 namespace tyndall {
 namespace {
 
 using NodeRef = WideLightTree::NodeRef;
 
+/// The children of two nodes: what more cost, they did not gain where it was measured.
+constexpr int kClusters = 15;
+
 /// A cluster of the growing cut.
 struct Open {
   NodeRef ref;
-  bool leaf;
-  double importance;  ///< relative to the other clusters
-  double cv2;         ///< squared coefficient of variation of what it may contribute
-  std::uint32_t candidates;
-
-  double score() const { return leaf ? 1 : 1 / (1 + cv2); }
-  /// Predicted standard deviation of its estimate by one candidate; clusters that hold the point come before all others.
-  double deviation() const { return importance * std::sqrt(std::min(cv2, 1e12)); }
+  float importance;  ///< relative to the other clusters
+  float cv2;         ///< squared coefficient of variation of what it may contribute; leaves: 0
+  float deviation2;  ///< predicted variance of its estimate by one candidate
 };
-using Cut = SmallVector<Open, 16>;
 
-/// Splits by what a question of kind `Local` says of children, and by cv2(Cluster).
-template <typename Local, typename Cv2>
+using Clusters = SmallVector<Open, 16>;
+
+/// How unlike the lights of each child are to a segment.
+ChildSpread child_spread(const WideNode& node, const WideSegment& segment) {
+  ChildSpread spread;
+  for (int i = 0; i < WideNode::kWidth; ++i) {
+    const bool plain = !node.used(i) || node.leaf(i);
+    spread.cv2[static_cast<std::size_t>(i)] = plain ? 0.0f : static_cast<float>(std::min(split_measure(node.cluster(i), segment).cv2, 1e30));
+  }
+  return spread;
+}
+
+/// Splits by what a question, a WideQuery or a WideSegment, says of children.
+template <typename Local>
 class CutBuilder {
  public:
-  CutBuilder(const WideLightTree& tree, const Local& local, const Cv2& cv2, const CutSettings& settings)
-      : tree_(tree), local_(local), cv2_(cv2), settings_(settings) {}
+  CutBuilder(const WideLightTree& tree, const Local& local, const CutSettings& settings)
+      : tree_(tree),
+        local_(local),
+        candidates_(settings.candidates.value_or(1)),
+        most_(candidates_ > 0 ? static_cast<std::size_t>(std::max(candidates_, kClusters)) : std::numeric_limits<std::size_t>::max()),
+        split_above_(settings.splitting > 0 ? 1 / settings.splitting - 1 : kInfinity) {}
 
   LightCut build() {
-    cut_.push_back({tree_.root(), tree_.is_leaf(tree_.root()), 1, cv2_(tree_.cluster(tree_.root())), 1});
+    cut_.push_back({tree_.root(), 1, kInfinity, kInfinity});
     while (split_worst()) {
     }
-    share_out();
-    LightCut result;
-    for (const Open& c : cut_) result.push_back({c.ref, c.candidates});
-    return result;
+    return shared_out();
   }
 
  private:
@@ -46,45 +57,55 @@ class CutBuilder {
   bool split_worst() {
     std::size_t worst = cut_.size();
     for (std::size_t i = 0; i < cut_.size(); ++i) {
-      if (cut_[i].leaf || !(cut_[i].score() < settings_.splitting)) continue;
-      if (worst == cut_.size() || cut_[i].deviation() > cut_[worst].deviation()) worst = i;
+      if (!(cut_[i].cv2 > split_above_)) continue;
+      if (worst == cut_.size() || cut_[i].deviation2 > cut_[worst].deviation2) worst = i;
     }
     return worst < cut_.size() && split(worst);
   }
 
   bool split(std::size_t index) {
-    const NodeRef parent = cut_[index].ref;
-    const ChildImportance children = tree_.children(parent, local_);
-    const std::uint32_t node = tree_.node_of(parent);
-    const auto used =
-        static_cast<std::size_t>(std::count_if(children.of.begin(), children.of.end(), [](float i) { return i > 0; }));
-    if (settings_.candidates > 0 && cut_.size() - 1 + used > static_cast<std::size_t>(settings_.candidates)) return false;
-    cut_[index] = cut_.back();
-    cut_.truncate(cut_.size() - 1);
+    const std::uint32_t parent = tree_.node_of(cut_[index].ref);
+    const WideNode& node = tree_.nodes()[parent];
+    if (cut_.size() - 1 + node.size() > most_) return false;
+    const ChildImportance children = child_importance(node, local_);
+    const ChildSpread spread = child_spread(node, local_);
+    // In the parent's place: neighbours in the cut are neighbours in space, so that strata of the number that draws from it
+    // are regions.
+    const Clusters rest = after(index);
+    cut_.truncate(index);
     for (std::uint32_t i = 0; i < WideNode::kWidth; ++i) {
       if (!(children.of[i] > 0)) continue;
-      const NodeRef ref = 8 * node + i;
-      const bool leaf = tree_.is_leaf(ref);
-      cut_.push_back({ref, leaf, double(children.of[i]) * tree_.nodes()[node].scale, leaf ? 0 : cv2_(tree_.cluster(ref)), 1});
+      const float importance = children.of[i] * node.scale, cv2 = spread.cv2[i];
+      cut_.push_back({8 * parent + i, importance, cv2, importance * importance * std::min(cv2, 1e12f)});
     }
+    for (const Open& c : rest) cut_.push_back(c);
     return true;
   }
 
-  /// One by one to the cluster with the most importance a candidate [d'Hondt's rule].
-  void share_out() {
-    if (cut_.empty()) return;
-    for (auto left = static_cast<std::size_t>(settings_.candidates); left > cut_.size(); --left) {
-      std::max_element(cut_.begin(), cut_.end(), [](const Open& a, const Open& b) {
-        return a.importance / (a.candidates + 1) < b.importance / (b.candidates + 1);
-      })->candidates++;
-    }
+  Clusters after(std::size_t index) const {
+    Clusters rest;
+    for (std::size_t i = index + 1; i < cut_.size(); ++i) rest.push_back(cut_[i]);
+    return rest;
+  }
+
+  /// At least one candidate each if there are enough; the rest, or all, by importance.
+  LightCut shared_out() const {
+    LightCut result;
+    const auto size = static_cast<float>(cut_.size());
+    const float n = candidates_ > 0 ? static_cast<float>(candidates_) : size;
+    float total = 0;
+    for (const Open& c : cut_) total += c.importance;
+    const float least = n >= size ? 1.0f : 0.0f, rest = n - least * size;
+    for (const Open& c : cut_) result.push_back({c.ref, least + rest * (c.importance / total)});
+    return result;
   }
 
   const WideLightTree& tree_;
   const Local& local_;
-  const Cv2& cv2_;
-  const CutSettings& settings_;
-  Cut cut_;
+  int candidates_;      ///< 0: as many as clusters
+  std::size_t most_;    ///< clusters
+  float split_above_;   ///< this cv2: the score 1 / (1 + cv2) is then below what was asked for
+  Clusters cut_;
 };
 
 }  // namespace
@@ -92,19 +113,13 @@ class CutBuilder {
 LightCut wide_cut(const WideLightTree& tree, const PointQuery& query, const CutSettings& settings) {
   if (tree.empty()) return {};
   const WideQuery local = tree.localize(query);
-  const auto cv2 = [&](const Cluster& cluster) {
-    double factor = 1 + split_measure(cluster, local).cv2;
-    for (const QueryLobe& lobe : query.lobes) factor *= 1 + lobe_cv2(lobe, Vec3d(local.p), cluster);
-    return factor - 1;
-  };
-  return CutBuilder(tree, local, cv2, settings).build();
+  return CutBuilder(tree, local, settings).build();
 }
 
 LightCut wide_cut(const WideLightTree& tree, const Segment& query, const CutSettings& settings) {
   if (tree.empty()) return {};
   const WideSegment local = tree.localize(query);
-  const auto cv2 = [&](const Cluster& cluster) { return split_measure(cluster, local).cv2; };
-  return CutBuilder(tree, local, cv2, settings).build();
+  return CutBuilder(tree, local, settings).build();
 }
 
 }  // namespace tyndall

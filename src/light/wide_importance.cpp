@@ -1,4 +1,5 @@
 // The importance of eight clusters at once for a point. Its oracle in plain doubles is in the tests.
+#include "light/wide_glossy.h"
 #include "light/wide_lanes.h"
 
 namespace tyndall {
@@ -42,13 +43,26 @@ constexpr float kShareOfReceived = 0.3f;
   const Float8 ahead = emission.folded(-emission.along(at.mean)) * per_distance;
   Float8 factor = emission.likely(ahead, bound);
 
+  const Vector8 toward = at.mean * per_distance;
+  const Float8 variance = at.deviation * at.deviation * per_distance * per_distance;
   if (query.surface) {
     const Vector8 n = splat8(query.n);
     const Float8 reach = abs(n.x) * half.x + abs(n.y) * half.y + abs(n.z) * half.z;
     if (!query.transmissive) none = none || dot(n, d) + reach <= -kSlack * reach1;
     const Float8 along = dot(n, at.mean), height = query.transmissive ? abs(along) : along;
     const Float8 received = max(height, kShareOfReceived * (height + reach)) * per_distance;
-    factor *= min(max(received, Float8(kLeastLaneFactor)), Float8(1.0f));
+    const Float8 cosine = min(max(received, Float8(kLeastLaneFactor)), Float8(1.0f));
+    if (query.lobe_count == 0) {
+      factor *= cosine;
+    } else {
+      const Float8 height_of_center = dot(n, d);
+      const Arrival arrival{toward, variance, cosine, height_of_center + reach, height_of_center - reach};
+      Float8 scattered = query.diffuse * cosine;
+      for (int i = 0; i < query.lobe_count; ++i) scattered += glossy(query.lobes[i], arrival);
+      factor *= scattered;
+    }
+  } else if (query.g != 0) {
+    factor *= phase(query.g, query.forward, toward, variance);
   }
   const Float8 importance = max(factor * intensity * per_distance * per_distance, Float8(kLeastImportance));
   ChildImportance result;

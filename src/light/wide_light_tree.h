@@ -72,6 +72,7 @@ class WideLightTree {
   }
   /// Bounds and moments of a cluster, lengths in the tree's unit, intensity relative to that of all lights.
   Cluster cluster(NodeRef ref) const { return ref == kAll ? all_ : nodes_[ref / 8].cluster(static_cast<int>(ref % 8)); }
+  std::uint32_t count_of(NodeRef ref) const { return ref == kAll ? all_.count : nodes_[ref / 8].count[ref % 8]; }  ///< lights
   /// select() within one cluster; a leaf has pmf 1.
   std::optional<Choice> select_below(NodeRef top, const WideQuery& query, double u) const;
   std::optional<Choice> select_below(NodeRef top, const WideSegment& query, double u) const;
@@ -109,7 +110,6 @@ class WideLightTree {
   std::optional<Choice> select_by_number(NodeRef top, const Query& query, double u) const;
   template <typename Query>
   double ascend(NodeRef top, NodeRef leaf, const Query& query) const;
-  std::uint32_t count_of(NodeRef ref) const { return ref == kAll ? all_.count : nodes_[ref / 8].count[ref % 8]; }
 
   BigArray<WideNode> nodes_;  ///< the first is the root
   Cluster all_;

@@ -3,6 +3,7 @@
 /// Everything that can exclude a light is rounded so that it excludes none that the exact bounds admit.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -38,6 +39,7 @@ struct alignas(64) WideNode {
   float scale;                          ///< intensity of the strongest child, relative to that of all lights
 
   bool used(int i) const { return intensity[i] != 0; }
+  std::size_t size() const { return static_cast<std::size_t>(std::count_if(intensity, intensity + kWidth, [](auto i) { return i != 0; })); }
   bool leaf(int i) const { return flags[i] & kLeaf; }
   /// Tells the processor that the descent comes here.
   void prefetch() const {
@@ -61,6 +63,11 @@ struct WideQuery {
   Vec3 p, n;
   bool surface = false;       ///< n is a normal
   bool transmissive = false;  ///< and light from below counts
+  float diffuse = 1;          ///< as in PointQuery, from here on
+  int lobe_count = 0;
+  std::array<QueryLobe, 2> lobes{};
+  float g = 0;
+  Vec3 forward{};
 };
 
 /// Importance of each of a node's children, in units of `scale` / length^2: at least a tiny positive number unless no

@@ -47,7 +47,16 @@ WideQuery WideLightTree::localize(const PointQuery& query) const {
   Vec3d p = Vec3d(query.p) * to_unit(query.p);
   const double largest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
   if (largest > WideQuery::kFar) p = p * (WideQuery::kFar / largest);
-  return {to_vec3(p), query.n, dot(query.n, query.n) > 0, query.transmissive};
+  WideQuery local{to_vec3(p), query.n, dot(query.n, query.n) > 0, query.transmissive};
+  if (!local.surface) {
+    local.g = query.g;
+    local.forward = query.forward;
+    return local;
+  }
+  local.diffuse = query.diffuse;
+  local.lobe_count = query.lobe_count;
+  std::copy_n(query.lobes.begin(), query.lobe_count, local.lobes.begin());
+  return local;
 }
 
 WideSegment WideLightTree::localize(const Segment& query) const {

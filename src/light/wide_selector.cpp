@@ -8,9 +8,12 @@
 namespace tyndall {
 namespace {
 
-// Clusters that are none of the tree's; its own stay far below.
-constexpr std::uint32_t kEverything = 0xfffffffe;  ///< near and far lights together: a single candidate needs no cut
+// None of the tree's clusters; its own stay far below, but for the one of all lights.
 constexpr std::uint32_t kFarCluster = 0xfffffffd;  ///< all lights at infinity
+
+/// Bounds of clusters tell little of where a narrow lobe meets a light. Elsewhere one light is as good as several, and
+/// what is left of the variance is in what lies between.
+constexpr int kGlossyCandidates = 4;
 
 const LightCluster* find(const LightCut& cut, std::uint32_t ref) {
   const auto it = std::find_if(cut.begin(), cut.end(), [ref](const LightCluster& c) { return c.ref == ref; });
@@ -23,65 +26,55 @@ std::optional<SelectedLight> answer(const std::optional<Choice>& choice) {
   return SelectedLight{choice->light, static_cast<float>(choice->pmf)};
 }
 
-LightCut everything() {
-  LightCut cut;
-  cut.push_back({kEverything, 1});
-  return cut;
-}
-
 }  // namespace
 
 template <typename Query>
-LightCut WideSelector::split(const Query& query, const CutSettings& settings) const {
-  LightCut cut;
+LightCut WideSelector::split(const Query& query, int candidates, float splitting) const {
   const Shares share = shares(query);
-  CutSettings near = settings;
-  if (share.far > 0) {
-    const int all = std::max(settings.candidates, 1), most = share.near > 0 ? std::max(all - 1, 1) : all;
-    const int far = std::clamp(static_cast<int>(std::lround(share.far * all)), 1, most);
-    cut.push_back({kFarCluster, static_cast<std::uint32_t>(far)});
-    if (settings.candidates > 0) near.candidates = settings.candidates - far;
+  LightCut cut;
+  if (share.near > 0) cut = wide_cut(tree(), query, {candidates, splitting});
+  if (!(share.far > 0)) return cut;
+  if (candidates > 0) {
+    for (LightCluster& c : cut) c.candidates *= static_cast<float>(share.near);
   }
-  if (share.near > 0) {
-    for (const LightCluster& c : wide_cut(tree(), query, near)) cut.push_back(c);
-  }
+  cut.push_back({kFarCluster, candidates > 0 ? static_cast<float>(share.far * candidates) : 1.0f});
   return cut;
 }
 
 LightCut WideSelector::cut(const PointQuery& query, const CutSettings& settings) const {
-  return settings.candidates == 1 ? everything() : split(query, settings);
+  return split(query, settings.candidates.value_or(query.glossy() ? kGlossyCandidates : 1), settings.splitting);
 }
 LightCut WideSelector::cut(const SegmentQuery& query, const CutSettings& settings) const {
-  return settings.candidates == 1 ? everything() : split(Segment(query), settings);
+  return split(Segment(query), settings.candidates.value_or(1), settings.splitting);
 }
 
 template <typename Query>
-std::optional<SelectedLight> WideSelector::draw(const LightCluster& cluster, const Query& query, double u) const {
+std::optional<SelectedLight> WideSelector::draw_in(const LightCluster& cluster, const Query& query, double u) const {
   if (cluster.ref == kFarCluster) return answer(far().select(query, u));
   return answer(tree().select_below(cluster.ref, tree().localize(query), u));
 }
 
 template <typename Query>
-void WideSelector::draw_all(const LightCut& cut, const Query& query, std::span<const double> u,
-                            std::span<std::optional<SelectedLight>> selected) const {
+LightCandidates WideSelector::draw_all(const LightCut& cut, const Query& query, double u) const {
+  LightCandidates drawn;
   SmallVector<WideLightTree::Draw, 16> draws;
-  SmallVector<std::uint32_t, 16> places;
-  std::uint32_t i = 0;
-  for (const LightCluster& cluster : cut) {
-    for (std::uint32_t k = 0; k < cluster.candidates; ++k, ++i) {
-      if (cluster.ref == kFarCluster) {
-        selected[i] = answer(far().select(query, u[i]));
-      } else {
-        draws.push_back({cluster.ref, u[i]});
-        places.push_back(i);
-      }
+  SmallVector<float, 16> tries;
+  for_each_candidate(cut, u, [&](int, const LightCluster& cluster, double below) {
+    if (cluster.ref != kFarCluster) {
+      draws.push_back({cluster.ref, below});
+      tries.push_back(cluster.candidates);
+    } else if (const auto choice = far().select(query, below)) {
+      drawn.push_back({choice->light, static_cast<float>(choice->pmf * cluster.candidates)});
     }
-  }
+  });
   SmallVector<std::optional<WideLightTree::Choice>, 16> choices;
-  for (std::size_t k = 0; k < draws.size(); ++k) choices.push_back({});
+  for (std::size_t i = 0; i < draws.size(); ++i) choices.push_back({});
   tree().select_below(std::span<const WideLightTree::Draw>(draws.data(), draws.size()), tree().localize(query),
                       std::span(choices.data(), choices.size()));
-  for (std::size_t k = 0; k < draws.size(); ++k) selected[places[k]] = answer(choices[k]);
+  for (std::size_t i = 0; i < draws.size(); ++i) {
+    if (choices[i]) drawn.push_back({choices[i]->light, static_cast<float>(choices[i]->pmf * tries[i])});
+  }
+  return drawn;
 }
 
 /// Up from the leaf to the cluster of the cut that holds it.
@@ -103,28 +96,20 @@ float WideSelector::tries(const LightCut& cut, const Query& query, LightId light
 }
 
 std::optional<SelectedLight> WideSelector::select_in(const LightCluster& cluster, const PointQuery& query, double u) const {
-  return cluster.ref == kEverything ? select(query, u) : draw(cluster, query, u);
+  return draw_in(cluster, query, u);
 }
 std::optional<SelectedLight> WideSelector::select_in(const LightCluster& cluster, const SegmentQuery& query, double u) const {
-  return cluster.ref == kEverything ? select(query, u) : draw(cluster, Segment(query), u);
+  return draw_in(cluster, Segment(query), u);
 }
 
-void WideSelector::select_all(const LightCut& cut, const PointQuery& query, std::span<const double> u,
-                              std::span<std::optional<SelectedLight>> selected) const {
-  if (find(cut, kEverything)) return LightSelector::select_all(cut, query, u, selected);
-  draw_all(cut, query, u, selected);
-}
-void WideSelector::select_all(const LightCut& cut, const SegmentQuery& query, std::span<const double> u,
-                              std::span<std::optional<SelectedLight>> selected) const {
-  if (find(cut, kEverything)) return LightSelector::select_all(cut, query, u, selected);
-  draw_all(cut, Segment(query), u, selected);
+LightCandidates WideSelector::draw(const LightCut& cut, const PointQuery& query, double u) const { return draw_all(cut, query, u); }
+LightCandidates WideSelector::draw(const LightCut& cut, const SegmentQuery& query, double u) const {
+  return draw_all(cut, Segment(query), u);
 }
 
-float WideSelector::expected(const LightCut& cut, const PointQuery& query, LightId light) const {
-  return find(cut, kEverything) ? pmf(query, light) : tries(cut, query, light);
-}
+float WideSelector::expected(const LightCut& cut, const PointQuery& query, LightId light) const { return tries(cut, query, light); }
 float WideSelector::expected(const LightCut& cut, const SegmentQuery& query, LightId light) const {
-  return find(cut, kEverything) ? pmf(query, light) : tries(cut, Segment(query), light);
+  return tries(cut, Segment(query), light);
 }
 
 }  // namespace tyndall

@@ -13,21 +13,18 @@ class WideSelector final : public TreeSelector<WideLightTree> {
   LightCut cut(const SegmentQuery& query, const CutSettings& settings) const override;
   std::optional<SelectedLight> select_in(const LightCluster& cluster, const PointQuery& query, double u) const override;
   std::optional<SelectedLight> select_in(const LightCluster& cluster, const SegmentQuery& query, double u) const override;
-  void select_all(const LightCut& cut, const PointQuery& query, std::span<const double> u,
-                  std::span<std::optional<SelectedLight>> selected) const override;
-  void select_all(const LightCut& cut, const SegmentQuery& query, std::span<const double> u,
-                  std::span<std::optional<SelectedLight>> selected) const override;
+  LightCandidates draw(const LightCut& cut, const PointQuery& query, double u) const override;
+  LightCandidates draw(const LightCut& cut, const SegmentQuery& query, double u) const override;
   float expected(const LightCut& cut, const PointQuery& query, LightId light) const override;
   float expected(const LightCut& cut, const SegmentQuery& query, LightId light) const override;
 
  private:
   template <typename Query>
-  LightCut split(const Query& query, const CutSettings& settings) const;
+  LightCut split(const Query& query, int candidates, float splitting) const;
   template <typename Query>
-  std::optional<SelectedLight> draw(const LightCluster& cluster, const Query& query, double u) const;
+  std::optional<SelectedLight> draw_in(const LightCluster& cluster, const Query& query, double u) const;
   template <typename Query>
-  void draw_all(const LightCut& cut, const Query& query, std::span<const double> u,
-                std::span<std::optional<SelectedLight>> selected) const;
+  LightCandidates draw_all(const LightCut& cut, const Query& query, double u) const;
   template <typename Query>
   double expected_near(const LightCut& cut, const Query& query, std::uint32_t leaf) const;
   template <typename Query>

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace tyndall {
@@ -14,6 +15,22 @@ class SmallVector {
   static_assert(std::is_trivially_copyable_v<T>);
 
  public:
+  SmallVector() {}  // leaves the elements in place uninitialised: most vectors use few
+  SmallVector(const SmallVector& v) : heap_(v.heap_), size_(v.size_) { copy_inline(v); }
+  SmallVector(SmallVector&& v) noexcept : heap_(std::move(v.heap_)), size_(v.size_) { copy_inline(v); }
+  SmallVector& operator=(const SmallVector& v) {
+    heap_ = v.heap_;
+    size_ = v.size_;
+    copy_inline(v);
+    return *this;
+  }
+  SmallVector& operator=(SmallVector&& v) noexcept {
+    heap_ = std::move(v.heap_);
+    size_ = v.size_;
+    copy_inline(v);
+    return *this;
+  }
+
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
   void clear() { size_ = 0; }
@@ -52,7 +69,13 @@ class SmallVector {
   }
 
  private:
-  std::array<T, N> inline_{};
+  void copy_inline(const SmallVector& v) {
+    if (size_ <= N) std::copy_n(v.inline_.begin(), size_, inline_.begin());
+  }
+
+  union {
+    std::array<T, N> inline_;
+  };
   std::vector<T> heap_;
   std::size_t size_ = 0;
 };

@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "math/small_vector.h"
+#include "render/resampling.h"
 
 namespace tyndall {
 namespace {
 
 /// Shadow rays end this fraction short of the light, so that they do not meet the emitter itself.
 constexpr float kShadowEnd = 1 - 1e-4f;
-constexpr double kBelowOne = 0x1.fffffffffffffp-1;
 
 /// A light looked at without visibility.
 struct Candidate {
@@ -19,12 +19,11 @@ struct Candidate {
   float weight;      ///< in resampling: the contribution's size
 };
 
-/// `tries`: times that light is tried, on average.
-std::optional<Candidate> look_at(const LightContext& context, const Vertex& vertex, Rgb beta, SelectedLight tried, Vec2 u) {
+std::optional<Candidate> look_at(const LightContext& context, const Vertex& vertex, Rgb beta, LightCandidate tried, Vec2 u) {
   const auto light = context.world.lights.sample(tried.light, vertex.p(), u, true);
   // What is not a number goes on, so that the film sees it and counts it.
   if (!light || is_black(light->L)) return std::nullopt;
-  const float density = tried.pmf * light->pdf;
+  const float density = tried.tries * light->pdf;
   if (density <= 0) return std::nullopt;
   const Rgb f = vertex.eval(light->wi);
   if (is_black(f)) return std::nullopt;
@@ -53,39 +52,6 @@ Rgb trace_all(const LightContext& context, const Vertex& vertex, Rgb beta, Sampl
 
 using Candidates = SmallVector<Candidate, 8>;
 
-/// One number gives all selections in a cluster: the i-th of n lies in the i-th n-th of [0, 1), so that they spread.
-void add_candidates(const LightContext& context, const Vertex& vertex, const PointQuery& query, LightCluster cluster, Rgb beta,
-                    Sampler& sampler, Candidates& found) {
-  const auto n = cluster.candidates;
-  const double u = sampler.next_wide();
-  for (std::uint32_t i = 0; i < n; ++i) {
-    const Vec2 on_light = sampler.next_2d();
-    const auto selected = context.selector.select_in(cluster, query, std::min((i + u) / n, kBelowOne));
-    if (!selected) continue;
-    const auto c = look_at(context, vertex, beta, {selected->light, selected->pmf * static_cast<float>(n)}, on_light);
-    if (c) found.push_back(*c);
-  }
-}
-
-/// Resampled importance sampling: `rays` of the candidates, drawn with replacement in proportion to their weights, stand
-/// for all [Talbot et al. 2005, eq. 4]. Strata of one number draw them.
-Rgb trace_some(const LightContext& context, const Vertex& vertex, const Candidates& candidates, Sampler& sampler, double u) {
-  double total = 0;
-  for (const Candidate& c : candidates) total += c.weight;
-  if (!std::isfinite(total)) return Rgb(static_cast<float>(total));  // for the film to count
-  const int rays = context.settings.shadow_rays;
-  Rgb sum;
-  std::size_t i = 0;
-  double passed = candidates[0].weight;  // cumulative weight up to and with candidate i
-  for (int k = 0; k < rays; ++k) {
-    const double target = (k + u) / rays * total;
-    while (passed <= target && i + 1 < candidates.size()) passed += candidates[++i].weight;
-    const Candidate& c = candidates[i];
-    sum += trace(context, vertex, c, sampler) * static_cast<float>(total / (c.weight * static_cast<double>(rays)));
-  }
-  return sum;
-}
-
 }  // namespace
 
 Rgb visibility(const LightContext& context, const MediaState& media, Vec3 origin, Vec3 wi, float distance, Sampler& sampler) {
@@ -111,10 +77,9 @@ Rgb visibility(const LightContext& context, const MediaState& media, Vec3 origin
 
 LightSearch light_search(const LightContext& context, const Vertex& vertex) {
   const RenderSettings& settings = context.settings;
-  const int candidates = settings.candidates.value_or(1);
-  LightSearch search{candidates != 1 ? vertex.light_query_with_lobes() : vertex.light_query(), {}};
+  LightSearch search{vertex.light_query(), {}};
   if (context.world.lights.empty() || !vertex.has_smooth() || context.selector.exhaustive()) return search;
-  search.cut = context.selector.cut(search.query, {.candidates = candidates, .splitting = settings.splitting});
+  search.cut = context.selector.cut(search.query, {.candidates = settings.candidates, .splitting = settings.splitting});
   return search;
 }
 
@@ -125,14 +90,13 @@ Rgb direct_light(const LightContext& context, const Vertex& vertex, const LightS
 
   const float u = sampler.next_1d();
   Candidates candidates;
-  for (const LightCluster& cluster : search.cut) {
-    add_candidates(context, vertex, search.query, cluster, beta, sampler, candidates);
+  for (const LightCandidate& tried : context.selector.draw(search.cut, search.query, sampler.next_wide())) {
+    if (const auto c = look_at(context, vertex, beta, tried, sampler.next_2d())) candidates.push_back(*c);
   }
-  if (candidates.empty()) return {};
-  const int rays = context.settings.shadow_rays;
-  if (rays > 0 && candidates.size() > static_cast<std::size_t>(rays)) return trace_some(context, vertex, candidates, sampler, u);
   Rgb sum;
-  for (const Candidate& c : candidates) sum += trace(context, vertex, c, sampler);
+  for (const Survivor& s : resample(candidates, context.settings.shadow_rays, u)) {
+    sum += trace(context, vertex, candidates[s.index], sampler) * s.scale;
+  }
   return sum;
 }
 

@@ -1,6 +1,5 @@
 #include <algorithm>
 
-#include "render/light_draws.h"
 #include "render/resampling.h"
 #include "render/span_light.h"
 
@@ -20,11 +19,11 @@ struct Event {
   Rgb beta;
 };
 
-std::optional<Candidate> look_at(const LightContext& context, const Event& event, SelectedLight tried, Vec2 u) {
+std::optional<Candidate> look_at(const LightContext& context, const Event& event, LightCandidate tried, Vec2 u) {
   const auto light = context.world.lights.sample(tried.light, event.vertex.p(), u, true);
   if (!light || is_black(light->L)) return std::nullopt;
   const Rgb f = event.vertex.eval(light->wi);
-  const float density = tried.pmf * light->pdf;
+  const float density = tried.tries * light->pdf;
   if (is_black(f) || !(density > 0)) return std::nullopt;
   const SpanDensities others = span_densities(context, event.span, tried.light);
   const float phase = light->delta ? 0.0f : event.vertex.pdf(light->wi, Rgb(1.0f));
@@ -40,15 +39,15 @@ using Candidates = SmallVector<Candidate, 8>;
 
 Candidates find_candidates(const LightContext& context, const Event& event, Sampler& sampler) {
   Candidates found;
-  const auto add = [&](SelectedLight tried) {
+  const auto add = [&](LightCandidate tried) {
     if (const auto c = look_at(context, event, tried, sampler.next_2d())) found.push_back(*c);
   };
   if (context.selector.exhaustive()) {
     for (LightId id = 0; id < context.world.lights.size(); ++id) add({id, 1});
     return found;
   }
-  for (const auto& drawn : draw_lights(context.selector, event.span.search.cut, event.span.search.query, sampler)) {
-    if (drawn) add(*drawn);
+  for (const LightCandidate& tried : context.selector.draw(event.span.search.cut, event.span.search.query, sampler.next_wide())) {
+    add(tried);
   }
   return found;
 }

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "math/small_vector.h"
-#include "render/light_draws.h"
 #include "render/resampling.h"
 #include "volume/coarse.h"
 
@@ -60,8 +59,8 @@ class PairFinder {
   PairFinder(const LightContext& context, const Span& span, const SpanSearch& search, Rgb beta)
       : context_(context), span_(span), search_(search), beta_(beta) {}
 
-  /// `tries`: how many times that light is tried, on average.
-  std::optional<Pair> look_at(LightId id, float tries, float u, Vec2 on_light) const {
+  std::optional<Pair> look_at(LightCandidate tried, float u, Vec2 on_light) const {
+    const auto [id, tries] = tried;
     const Lights& lights = context_.world.lights;
     const DistanceSample distance = distances_to(context_, search_, id).sample(u);
     if (!(distance.pdf > 0) || !std::isfinite(distance.t)) return std::nullopt;
@@ -107,18 +106,16 @@ Pairs all_lights(const LightContext& context, const PairFinder& finder, Sampler&
   Pairs pairs;
   for (LightId id = 0; id < context.world.lights.size(); ++id) {
     const float u = sampler.next_1d();
-    if (const auto pair = finder.look_at(id, 1, u, sampler.next_2d())) pairs.push_back(*pair);
+    if (const auto pair = finder.look_at({id, 1}, u, sampler.next_2d())) pairs.push_back(*pair);
   }
   return pairs;
 }
 
 Pairs chosen_lights(const LightContext& context, const SpanSearch& search, const PairFinder& finder, Sampler& sampler) {
   Pairs pairs;
-  for (const auto& drawn : draw_lights(context.selector, search.cut, search.query, sampler)) {
+  for (const LightCandidate& tried : context.selector.draw(search.cut, search.query, sampler.next_wide())) {
     const float along = sampler.next_1d();
-    const Vec2 on_light = sampler.next_2d();
-    if (!drawn) continue;
-    if (const auto pair = finder.look_at(drawn->light, drawn->pmf, along, on_light)) pairs.push_back(*pair);
+    if (const auto pair = finder.look_at(tried, along, sampler.next_2d())) pairs.push_back(*pair);
   }
   return pairs;
 }

@@ -1,6 +1,34 @@
 #include "render/vertex.h"
 
+#include <algorithm>
+
 namespace tyndall {
+namespace {
+
+/// Cosines below this make lobes about half vectors endless.
+constexpr float kLeastCosine = 0.03f;
+/// The outline of a lobe is never trusted to the point of leaving out what it does not show.
+constexpr float kLeastDiffuse = 0.01f;
+constexpr float kSharpest = 0.98f;
+
+QueryLobe lobe_of(const Highlight& h, Vec3 wo, Vec3 n) {
+  QueryLobe lobe;
+  lobe.tangent = h.tangent;
+  lobe.bitangent = cross(n, h.tangent);
+  lobe.cos_o = std::max(dot(wo, n), kLeastCosine);
+  lobe.sin_o = dot(wo, h.tangent);
+  lobe.eta = h.eta;
+  const float cos_t = std::max(std::abs(dot(h.axis, n)), kLeastCosine);
+  const float l2 = std::max(length_squared(wo + h.axis * h.eta), 4 * kLeastCosine * kLeastCosine);
+  lobe.slope2_t = h.slope2_t;
+  lobe.slope2_b = h.slope2_b;
+  lobe.spread_b = h.eta * h.eta / l2;
+  lobe.spread_t = lobe.spread_b * cos_t * cos_t;
+  lobe.scale = 2 * h.share * lobe.cos_o * cos_t / l2;
+  return lobe;
+}
+
+}  // namespace
 
 Vertex::Vertex(Surface surface, Vec3 wo, const MediaState& media) : kind_(std::move(surface)), wo_(wo), media_(media) {}
 Vertex::Vertex(InMedium medium, Vec3 wo, const MediaState& media) : kind_(std::move(medium)), wo_(wo), media_(media) {}
@@ -12,23 +40,18 @@ Vec3 Vertex::p() const {
 
 PointQuery Vertex::light_query() const {
   const auto* surface = std::get_if<Surface>(&kind_);
-  if (!surface) return {.p = p(), .n = {0, 0, 0}, .transmissive = true};
-  // Sides are those of the shading normal, as in the BSDF.
-  return {.p = surface->hit.p,
-          .n = face_forward(surface->hit.ns, wo_),
-          .transmissive = surface->bsdf.transmits()};
-}
-
-PointQuery Vertex::light_query_with_lobes() const {
-  PointQuery query = light_query();
-  if (const auto* surface = std::get_if<Surface>(&kind_)) {
-    const Highlights highlights = surface->bsdf.highlights(wo_);
-    for (std::size_t i = 0; i < highlights.size(); ++i) query.lobes[i] = {highlights[i].axis, highlights[i].width};
+  if (!surface) {
+    const float g = std::get<InMedium>(kind_).phase.mean_cosine();
+    PointQuery query{.p = p(), .n = {0, 0, 0}, .transmissive = true};
+    query.g = std::clamp(g, -kSharpest, kSharpest);
+    query.forward = -wo_;
     return query;
   }
-  // Henyey-Greenstein falls to a quarter near 1.2 (1 - g) off the forward direction.
-  const float g = std::get<InMedium>(kind_).phase.mean_cosine();
-  if (std::abs(g) > 0.5f) query.lobes[0] = {g > 0 ? -wo_ : wo_, 1.2f * (1 - std::abs(g))};
+  // Sides are those of the shading normal, as in the BSDF.
+  PointQuery query{.p = surface->hit.p, .n = face_forward(surface->hit.ns, wo_), .transmissive = surface->bsdf.transmits()};
+  const Highlights highlights = surface->bsdf.highlights(wo_);
+  query.diffuse = std::max(highlights.diffuse, kLeastDiffuse);
+  for (const Highlight& h : highlights.glossy) query.lobes[query.lobe_count++] = lobe_of(h, wo_, query.n);
   return query;
 }
 

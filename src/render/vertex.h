@@ -40,10 +40,8 @@ class Vertex {
   Vec3 wo() const { return wo_; }
   bool on_surface() const { return std::holds_alternative<Surface>(kind_); }
 
-  /// How light selection sees this vertex.
+  /// How light selection sees this vertex: with the directions that it favours.
   PointQuery light_query() const;
-  /// The same with the directions that this vertex favours.
-  PointQuery light_query_with_lobes() const;
   /// Some light arriving from a sampled direction could be scattered: next-event estimation makes sense.
   bool has_smooth() const;
 

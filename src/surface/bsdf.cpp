@@ -3,23 +3,45 @@
 namespace tyndall {
 namespace {
 
+constexpr float kMissedByGlass = 0.3f;
+
+/// Shares are of one: what is absorbed makes no difference.
 struct HighlightFinder {
   Vec3 wo;  ///< local
   Highlights found{};
 
-  void operator()(const ConductorLobe& lobe) { add_reflection(lobe.ggx, wo, found); }
+  void operator()(const ConductorLobe& lobe) { only(lobe.ggx); }
   void operator()(const DielectricLobe& lobe) {
     if (lobe.is_specular()) return;
-    add_reflection(lobe.ggx, wo, found);
-    add_transmission(lobe.ggx, lobe.eta, wo, found);
+    // Near total reflection a rough interface lets light through where no smooth one would: the lobes miss it.
+    const float r = reflectance(lobe);
+    found.diffuse = kMissedByGlass;
+    add_reflection(lobe.ggx, wo, (1 - kMissedByGlass) * r, found);
+    add_transmission(lobe.ggx, lobe.eta, wo, (1 - kMissedByGlass) * (1 - r), found);
   }
-  void operator()(const CoatedDiffuseLobe& lobe) { (*this)(lobe.top.ggx); }
+  void operator()(const CoatedDiffuseLobe& lobe) {
+    if (lobe.top.is_specular()) return;
+    const float r = reflectance(lobe.top), below = (1 - r) * mean(lobe.bottom.reflectance);
+    if (!(r + below > 0)) return;
+    found.diffuse = below / (r + below);
+    add_reflection(lobe.top.ggx, wo, r / (r + below), found);
+  }
   void operator()(const CoatedConductorLobe& lobe) {
-    (*this)(lobe.top.ggx);
-    if (found.empty()) add_reflection(lobe.bottom.ggx, wo, found);
+    if (lobe.top.is_specular()) return only(lobe.bottom.ggx);
+    const float r = reflectance(lobe.top);
+    found.diffuse = 0;
+    add_reflection(lobe.top.ggx, wo, r, found);
+    add_reflection(lobe.bottom.ggx, wo, 1 - r, found);
   }
-  void operator()(const Ggx& ggx) { add_reflection(ggx, wo, found); }
   void operator()(const auto&) {}
+
+  void only(const Ggx& ggx) {
+    found.diffuse = 0;
+    add_reflection(ggx, wo, 1, found);
+  }
+  float reflectance(const DielectricLobe& lobe) const {
+    return fresnel_dielectric(std::abs(wo.z), wo.z > 0 ? lobe.eta : 1 / lobe.eta);
+  }
 };
 
 }  // namespace
@@ -27,7 +49,10 @@ struct HighlightFinder {
 Highlights Bsdf::highlights(Vec3 wo) const {
   HighlightFinder finder{frame_.to_local(wo)};
   std::visit(finder, lobe_);
-  for (Highlight& h : finder.found) h.axis = normalize(frame_.to_world(h.axis));
+  for (Highlight& h : finder.found.glossy) {
+    h.axis = normalize(frame_.to_world(h.axis));
+    h.tangent = normalize(frame_.to_world(h.tangent));
+  }
   return finder.found;
 }
 

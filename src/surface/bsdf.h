@@ -35,7 +35,7 @@ class Bsdf {
   /// Nothing when the light is absorbed or no direction can be had. All arguments in [0, 1).
   std::optional<BsdfSample> sample(Vec3 wo, float uc, Vec2 u) const;
 
-  /// Where eval(wo, .) peaks: the mirrored and the refracted direction of a glossy lobe. None for broad ones.
+  /// eval(wo, .) in outline: the lobes about the mirrored and the refracted direction, and the rest.
   Highlights highlights(Vec3 wo) const;
 
   /// Some lobe is not specular: next-event estimation makes sense.

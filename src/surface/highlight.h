@@ -1,7 +1,7 @@
-/// Where glossy lobes peak, for those who look for light there.
+/// How a surface scatters in outline: a cosine lobe and glossy ones. For those who weigh light by where it comes from.
 #pragma once
 
-#include <numbers>
+#include <cmath>
 
 #include "math/small_vector.h"
 #include "surface/fresnel.h"
@@ -9,30 +9,47 @@
 
 namespace tyndall {
 
+/// A GGX lobe: f |cos| = share pi D(h) G |cos_o cos_t| / (l^2 cos_o) about h = wo + eta wi, with l = |h| at the peak.
 struct Highlight {
-  Vec3 axis;    ///< unit
-  float width;  ///< radians off the axis where the lobe has fallen to about a quarter
+  Vec3 axis;       ///< unit: toward its peak
+  Vec3 tangent;    ///< unit; wo and the axis lie in the plane of it and the normal
+  float slope2_t;  ///< squared width of the facets' slopes along the tangent
+  float slope2_b;  ///< and across
+  float eta;       ///< 1 for reflections
+  float share;     ///< of the light that is scattered
 };
-using Highlights = SmallVector<Highlight, 2>;
 
-/// Wider than this a lobe is no highlight.
-inline constexpr float kBroadest = std::numbers::pi_v<float> / 4;
+struct Highlights {
+  float diffuse = 1;  ///< share of a cosine lobe, on both sides of a surface that transmits
+  SmallVector<Highlight, 2> glossy;
+};
 
-/// GGX falls to a quarter where tan = alpha off the normal; a reflection turns twice as far as the normal does.
-inline float reflected_width(const Ggx& ggx) { return 2 * std::atan(std::max(ggx.alpha_x(), ggx.alpha_y())); }
-
-/// In the local frame, for `wo` on either side.
-inline void add_reflection(const Ggx& ggx, Vec3 wo, Highlights& highlights) {
-  const float width = reflected_width(ggx);
-  if (!ggx.is_mirror() && width < kBroadest) highlights.push_back({{-wo.x, -wo.y, wo.z}, width});
+/// The lobe of `ggx` in the local frame for `wo` on either side, but for its peak.
+inline Highlight highlight_of(const Ggx& ggx, Vec3 wo, float share) {
+  const float side = std::hypot(wo.x, wo.y);
+  const Vec3 t = side > 1e-6f ? Vec3{wo.x / side, wo.y / side, 0} : Vec3{1, 0, 0};
+  const float x2 = ggx.alpha_x() * ggx.alpha_x(), y2 = ggx.alpha_y() * ggx.alpha_y();
+  return {.axis = {-wo.x, -wo.y, wo.z},
+          .tangent = t,
+          .slope2_t = x2 * t.x * t.x + y2 * t.y * t.y,
+          .slope2_b = x2 * t.y * t.y + y2 * t.x * t.x,
+          .eta = 1,
+          .share = share};
 }
 
-/// Into relative index `eta` (below / above). A refraction turns by about |1 - 1/eta| of what the normal does.
-inline void add_transmission(const Ggx& ggx, float eta, Vec3 wo, Highlights& highlights) {
+inline void add_reflection(const Ggx& ggx, Vec3 wo, float share, Highlights& highlights) {
+  if (!ggx.is_mirror() && share > 0) highlights.glossy.push_back(highlight_of(ggx, wo, share));
+}
+
+/// Into relative index `eta` (below / above).
+inline void add_transmission(const Ggx& ggx, float eta, Vec3 wo, float share, Highlights& highlights) {
   const float relative = wo.z > 0 ? eta : 1 / eta;
   const auto wt = refract(wo, {0, 0, wo.z > 0 ? 1.0f : -1.0f}, relative);
-  const float width = 0.5f * reflected_width(ggx) * std::max(std::abs(1 - 1 / relative), 0.1f);
-  if (wt && !ggx.is_mirror() && width < kBroadest) highlights.push_back({*wt, width});
+  if (!wt || ggx.is_mirror() || !(share > 0)) return;
+  Highlight h = highlight_of(ggx, wo, share);
+  h.axis = *wt;
+  h.eta = relative;
+  highlights.glossy.push_back(h);
 }
 
 }  // namespace tyndall

@@ -32,7 +32,7 @@ class Ggx {
   float reflected_pdf(Vec3 wo, Vec3 m) const;
 
  private:
-  float stretched(Vec3 w) const { return std::hypot(ax_ * w.x, ay_ * w.y, w.z); }
+  float stretched(Vec3 w) const { return length(Vec3{ax_ * w.x, ay_ * w.y, w.z}); }
 
   float ax_ = 0, ay_ = 0;
   bool mirror_ = true;

@@ -79,15 +79,31 @@ TEST_CASE("light strategies") {
                         {"tree-binary", scene, {.lights = LightStrategy::tree_binary}}});
 }
 
-TEST_CASE("several candidates, resampled to fewer shadow rays or all traced") {
-  const std::string scene = many_lights();
-  check_same("resampling", {{"one", scene},
-                            {"4 to 1", scene, {.candidates = 4}},
-                            {"5 to 2, by power", scene, {.lights = LightStrategy::power, .candidates = 5, .shadow_rays = 2}},
-                            {"3, all traced", scene, {.candidates = 3, .shadow_rays = 0}},
-                            {"6 to 2, split", scene, {.lights = LightStrategy::tree, .candidates = 6, .shadow_rays = 2, .splitting = 0.8f}},
-                            {"all that splitting makes", scene, {.lights = LightStrategy::tree, .candidates = 0, .splitting = 0.6f}},
-                            {"12, split, all traced", scene, {.lights = LightStrategy::tree, .candidates = 12, .shadow_rays = 0, .splitting = 1}}});
+/// The same with surfaces that favour directions: metal, rough glass and a coat.
+std::string glossy_lights() {
+  const auto ball = [](const std::string& material, const std::string& place) {
+    return block(material + "\nTranslate " + place + "\nShape \"sphere\" \"float radius\" 0.3\n");
+  };
+  return many_lights() +
+         ball("Material \"conductor\" \"rgb reflectance\" [0.8 0.7 0.6] \"bool remaproughness\" false \"float roughness\" 0.15", "-1 -1.1 -1") +
+         ball("Material \"dielectric\" \"bool remaproughness\" false \"float roughness\" 0.3", "0 -1.3 -1.3") +
+         ball("Material \"coateddiffuse\" \"bool remaproughness\" false \"float roughness\" 0.2", "1 -1.1 -1.2");
+}
+
+TEST_CASE("splitting, candidates and shadow rays: every pair of settings, and nightly every combination") {
+  const std::string scene = glossy_lights();
+  constexpr std::array<float, 3> splitting{0, 0.6f, 1};
+  constexpr std::array<int, 3> candidates{1, 4, 0}, shadow_rays{1, 0, 2};
+  std::vector<Contender> contenders{{"default", scene}, {"plain", scene, {.lights = LightStrategy::tree_binary, .candidates = 1}},
+                                    {"5 by power", scene, {.lights = LightStrategy::power, .candidates = 5, .shadow_rays = 2}}};
+  for (std::size_t i = 0; i < 27; ++i) {
+    const std::size_t s = i / 9, c = i / 3 % 3, r = i % 3;
+    if (!nightly() && (s + c) % 3 != r) continue;  // a Latin square holds every pair once
+    const std::string name = "tree, splitting " + std::to_string(splitting[s]).substr(0, 3) + ", " + std::to_string(candidates[c]) +
+                             " candidates, " + std::to_string(shadow_rays[r]) + " rays";
+    contenders.push_back({name, scene, {.candidates = candidates[c], .shadow_rays = shadow_rays[r], .splitting = splitting[s]}});
+  }
+  check_same("resampling", contenders);
 }
 
 TEST_CASE("transmittance estimators") {

@@ -18,7 +18,7 @@ struct Variant {
   int threads = 0;
   std::optional<int> candidates{};
   int shadow_rays = 1;
-  float splitting = 0;
+  float splitting = RenderSettings{}.splitting;
   MediaStrategy media = MediaStrategy::product;
   DistanceStrategy distance = DistanceStrategy::automatic;
 };

@@ -61,6 +61,14 @@ TEST_CASE("emissive triangles too small or too near for solid angles are sampled
   CHECK(huge.pdf({0, 0, 0.3f}, Vec3{0, 0, 0.3f} + s->wi * s->distance) == doctest::Approx(s->pdf).epsilon(1e-2));
 }
 
+TEST_CASE("emissive triangles are sampled by area when they are far off, and each way up to where that begins") {
+  const std::array<Vec3, 3> needle{Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0.5f, 0.05f, 0.1f}};
+  const std::array<Vec3, 3> flat{Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0.2f, 0.8f, 0}};
+  for (const auto& e : {triangle("flat", flat, kPlain), triangle("needle", needle, kPlain), triangle("skewed", flat, kSkewed)})
+    for (const Vec3 p : {Vec3{0, 0, 4.9f}, Vec3{0, 0, 5.1f}, Vec3{4, 0.2f, 3.5f}, Vec3{20, -3, 0.7f}})
+      test::check_emitter(e, p, normalize(Vec3{0.1f, 0.2f, 0} - p), 8, 60);
+}
+
 TEST_CASE("a triangle gives nothing edge-on, and nothing at all without area") {
   const auto e = triangle("plain", {Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}}, kPlain);
   CHECK(!e.sample({3, 3, 0}, {0.3f, 0.3f}));

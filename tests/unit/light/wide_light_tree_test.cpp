@@ -222,29 +222,6 @@ TEST_CASE("a cluster on its own: select_below() and pmf_below() belong together,
   }
 }
 
-TEST_CASE("the split measure is the coefficient of variation of what lights give") {
-  // Points on a ray with squared distances as the formula takes them: uniform distance, independent intensities.
-  std::vector<LightBounds> lights;
-  Rng rng(6);
-  for (int i = 0; i < 20'000; ++i)
-    lights.push_back(test::point_bounds({2 + 3 * rng.uniform(), 0, 0}, rng.uniform() < 0.5f ? 1 : 3));
-  const WideLightTree tree(test::numbered(lights));
-  double sum = 0, square = 0;
-  for (const LightBounds& l : lights) {
-    const double g = l.intensity / (double(l.box.min.x) * l.box.min.x);
-    sum += g;
-    square += g * g;
-  }
-  const auto at = [&](Vec3 p) { return split_measure(tree.cluster(tree.root()), tree.localize({p, {}})); };
-  const SplitMeasure m = at({});
-  const double n = double(lights.size());
-  CHECK(m.cv2 == doctest::Approx(n * square / (sum * sum) - 1).epsilon(0.1));
-  CHECK(m.nearest / tree.to_unit({}) == doctest::Approx(2).epsilon(0.01));
-  CHECK(m.farthest / tree.to_unit({}) == doctest::Approx(5).epsilon(0.01));
-  CHECK(at({3, 0, 0}).score() == 0);
-  CHECK(at({1e6f, 0, 0}).score() == doctest::Approx(1 / 1.25).epsilon(0.01));  // intensities 1 and 3 remain
-}
-
 TEST_CASE("far away the choice follows power") {
   std::vector<LightBounds> lights;
   Rng rng(12);

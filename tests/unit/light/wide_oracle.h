@@ -11,6 +11,19 @@ struct OracleImportance {
   double margin = 1;  ///< how far, in cosines, the tests for "none" were from deciding otherwise
 };
 
+/// pi f |cos| for a lobe as wide as the facets' slopes and the cluster's spread make it: D G / 4 and so on, written out.
+inline double oracle_lobe(const QueryLobe& lobe, Vec3d toward, double cosine, double variance) {
+  const double at = lobe.slope2_t + lobe.spread_t * variance, ab = lobe.slope2_b + lobe.spread_b * variance;
+  const Vec3d h{lobe.sin_o + lobe.eta * dot(Vec3d(lobe.tangent), toward), lobe.eta * dot(Vec3d(lobe.bitangent), toward),
+                lobe.cos_o + (lobe.eta != 1 ? -lobe.eta : 1.0) * cosine};
+  const Vec3d m = normalize(h);
+  const double e = m.x * m.x / at + m.y * m.y / ab + m.z * m.z;
+  const double D = 1 / (std::sqrt(at * ab) * e * e);  // pi times the density
+  const double a2 = 0.5 * (lobe.slope2_t + lobe.slope2_b);
+  const auto lambda = [&](double z) { return std::sqrt(a2 * (1 - z * z) / (z * z) + 1); };  // 1 + 2 Lambda
+  return lobe.scale * D / ((lambda(lobe.cos_o) + lambda(cosine)) * lobe.cos_o);
+}
+
 inline OracleImportance oracle_importance(const Cluster& c, const WideQuery& q) {
   const Vec3d low(c.box.min), high(c.box.max), half = (high - low) * 0.5, d = (low + high) * 0.5 - Vec3d(q.p), n(q.n);
   const double radius = length(half), distance = length(d);
@@ -44,7 +57,16 @@ inline OracleImportance oracle_importance(const Cluster& c, const WideQuery& q) 
       if (dot(n, d) + reach <= 0) return result;
     }
     const double height = q.transmissive ? std::abs(dot(n, mean)) : dot(n, mean);
-    factor *= std::clamp(std::max(height, 0.3 * (height + reach)) / reckoned, 1e-3, 1.0);
+    const double cosine = std::clamp(std::max(height, 0.3 * (height + reach)) / reckoned, 1e-3, 1.0);
+    double scattered = q.lobe_count == 0 ? cosine : q.diffuse * cosine;
+    for (int i = 0; i < q.lobe_count; ++i) {
+      const bool above = dot(n, d) + reach > 0, below = dot(n, d) - reach < 0;
+      if (q.lobes[i].eta != 1 ? below : above) scattered += oracle_lobe(q.lobes[i], mean / reckoned, cosine, c.variance / (reckoned * reckoned));
+    }
+    factor *= scattered;
+  } else if (q.g != 0) {
+    const double g = q.g / std::sqrt(1 + c.variance / (reckoned * reckoned)), x = dot(Vec3d(q.forward), mean) / reckoned;
+    factor *= (1 - g * g) / std::pow(1 + g * g - 2 * g * x, 1.5);
   }
   result.value = factor * result.upper;
   return result;
