@@ -44,7 +44,7 @@ struct RenderSettings {
   float splitting = 0.5f;
   MediaStrategy media = MediaStrategy::product;
   DistanceStrategy distance = DistanceStrategy::automatic;
-  TransmittanceStrategy transmittance = TransmittanceStrategy::residual;
+  TransmittanceStrategy transmittance = TransmittanceStrategy::raymarch;
   std::vector<std::string> aovs{};  ///< names from aov_names()
   std::optional<PixelBounds> crop{};
   bool reproducible = false;     ///< leave times and dates out of the image header
