@@ -9,14 +9,6 @@
 
 namespace tyndall {
 
-TrackingStats& TrackingStats::operator+=(const TrackingStats& other) {
-  lookups += other.lookups;
-  segments += other.segments;
-  majorant_violations += other.majorant_violations;
-  caps_hit += other.caps_hit;
-  return *this;
-}
-
 namespace {
 
 using namespace kernel;

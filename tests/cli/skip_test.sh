@@ -1,0 +1,68 @@
+# What a scene does not need is not executed: callgrind lists every function of a render, the libraries of the build say
+# whose they are. Each case that must be absent has one beside it in which it is there.
+. "$TYNDALL_SOURCE_DIR/tests/cli/support.bash"
+libraries=$(dirname "$TYNDALL_BIN")/src
+command -v valgrind >/dev/null || { echo "FAILED: valgrind is not installed; install the package of that name"; exit 1; }
+
+# functions_of MODULE: its own, not those of headers, which any module may hold a copy of.
+functions_of() {
+  nm -C --defined-only "$libraries/libtyndall_$1.a" 2>nm.err | awk '$2 ~ /^[Tt]$/ { sub(/^[^ ]+ [Tt] /, ""); print }' |
+    grep 'tyndall::' | grep -v '^_GLOBAL_' | LC_ALL=C sort -u
+}
+functions_of volume >volume.txt
+[ -s volume.txt ] || fail "no functions of src/volume in $libraries"
+
+# ran NAME: what rendering NAME.pbrt executes goes to NAME.txt.
+ran() {
+  valgrind --tool=callgrind --callgrind-out-file=$1.cg "$TYNDALL_BIN" render $1.pbrt -o $1.exr --threads 1 --quiet >$1.out 2>&1 ||
+    fail "$1.pbrt under callgrind: $(tail -3 $1.out)"
+  grep -oE '^c?fn=\([0-9]+\) .*' $1.cg | sed -E "s/^c?fn=\([0-9]+\) //; s/'[0-9]+$//" | LC_ALL=C sort -u >$1.txt
+  [ "$(grep -c 'tyndall::' $1.txt)" -gt 50 ] || fail "$1: callgrind names too few functions of Tyndall; is the program stripped?"
+}
+of_volume() { LC_ALL=C comm -12 volume.txt $1.txt; }  # its functions that ran
+absent() { [ -z "$1" ] || fail "$2: $(echo "$1" | head -3)"; }
+present() { [ -n "$1" ] || fail "nothing to compare with: $2"; }
+
+scene() {
+  cat <<SCENE
+Film "rgb" "integer xresolution" 8 "integer yresolution" 6
+Sampler "independent" "integer pixelsamples" 2
+Integrator "volpath" "integer maxdepth" 3
+LookAt 0 1 -4  0 0.5 0  0 1 0
+Camera "perspective" "float fov" 45
+WorldBegin
+LightSource "point" "point3 from" [1 3 -1] "rgb I" [9 9 9]
+$1
+Material "diffuse" "rgb reflectance" [0.5 0.4 0.3]
+Shape "trianglemesh" "point3 P" [-4 0 -4 4 0 -4 4 0 4 -4 0 4] "integer indices" [0 1 2 0 2 3]
+SCENE
+}
+medium() {  # medium PARAMETERS
+  cat <<SCENE
+AttributeBegin
+  MakeNamedMedium "m" $1 "rgb sigma_s" [1 1 1] "rgb sigma_a" [0.2 0.2 0.2]
+  Material "interface"
+  MediumInterface "m" ""
+  Translate 0 0.6 0
+  Shape "sphere" "float radius" 0.5
+AttributeEnd
+SCENE
+}
+grid='"string type" "uniformgrid" "point3 p0" [-0.5 -0.5 -0.5] "point3 p1" [0.5 0.5 0.5] "integer nx" 2 "integer ny" 2 "integer nz" 2'
+scene "" >bare.pbrt
+scene "$(medium '"string type" "homogeneous"')" >fog.pbrt
+scene "$(medium "$grid \"float density\" [1 2 3 4 5 6 7 8]")" >smoke.pbrt
+scene "$(medium "$grid \"float density\" [1 2 3 4 5 6 7 8] \"float temperature\" [900 900 2000 900 900 900 900 900]")" >fire.pbrt
+for name in bare fog smoke fire; do ran $name; done
+
+absent "$(of_volume bare)" "a scene without media executes"
+present "$(of_volume fog)" "a scene with fog executes nothing of src/volume"
+
+tracking='with_walk|MediumWalk|MergedWalk|BrickReader|GridRay|BrickGrid::lookup'
+absent "$(grep -E "$tracking" fog.txt)" "homogeneous media are tracked"
+present "$(grep -E "$tracking" smoke.txt)" "a grid is not tracked"
+
+emission='EmissionField::at|BlackbodyTable|blackbody|emission_and_transmittance'
+absent "$(of_volume smoke | grep -E "$emission")" "smoke that does not shine is asked for its emission"
+present "$(of_volume fire | grep -E "$emission")" "fire is not asked for its emission"
+finish
