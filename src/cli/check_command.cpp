@@ -1,4 +1,5 @@
 #include "cli/command.h"
+#include "cli/memory.h"
 #include "cli/print.h"
 #include "tyndall/io.h"
 #include "tyndall/render.h"
@@ -13,7 +14,7 @@ std::size_t check_file(const std::string& path) {
   for (const std::string& error : check.errors) print("{}\n", error);
   if (!check.errors.empty()) return check.errors.size();
   try {
-    const World world = build(std::move(check.scene));
+    const World world = build(std::move(check.scene), {.max_memory = memory_limit({})});
     for (const std::string& note : world.summary().notes) print("{}: note: {}\n", path, note);
   } catch (const Error& e) {
     print("{}\n", e.what());

@@ -64,7 +64,7 @@ void add_image(const Image& image, const std::vector<std::string>& types, Descri
 
 Description describe_image(const std::string& path) {
   Description result{path, "image", {}};
-  if (!is_exr(path)) {
+  if (!std::filesystem::is_regular_file(path) || !is_exr(path)) {
     add_image(read_image(path), {}, result);
     return result;
   }

@@ -26,8 +26,9 @@ namespace {
 
 constexpr int kMaxSide = 1 << 17;                 // pixels
 constexpr std::uint64_t kMaxBytes = 1ull << 34;   // decoded
-constexpr std::uint64_t kMaxDeflateRatio = 1100;  // zlib cannot exceed 1032
-constexpr std::uint64_t kMaxChunkRows = 256;      // of the compression with the tallest chunks (DWAB)
+// What a byte of the file can unfold to: zlib cannot exceed 1032, nor PIZ's runs of at most 255 equal values; DWA keeps
+// one coefficient of an even 8 x 8 block before zlib sees it.
+constexpr std::uint64_t kMaxRatio = 1100, kMaxDwaRatio = 64 * kMaxRatio;
 constexpr std::size_t kMaxReason = 200;           // characters of the library's words that are passed on
 
 [[noreturn]] void fail(const std::string& path, const std::string& reason) {
@@ -77,11 +78,9 @@ void require_plausible(const std::string& path, const Imf::Header& header) {
                    " channels, more than the " + std::to_string(kMaxBytes >> 30) + " GiB that are read");
   const std::uint64_t bytes = stored * width * height, size = std::filesystem::file_size(path);
   const Imf::Compression compression = header.compression();
-  const bool deflated = compression == Imf::ZIP_COMPRESSION || compression == Imf::ZIPS_COMPRESSION ||
-                        compression == Imf::RLE_COMPRESSION || compression == Imf::PXR24_COMPRESSION;
-  const bool too_short = compression == Imf::NO_COMPRESSION ? size < bytes
-                         : deflated                         ? size * kMaxDeflateRatio < bytes
-                                                            : size < height / kMaxChunkRows * 8;
+  const bool dwa = compression == Imf::DWAA_COMPRESSION || compression == Imf::DWAB_COMPRESSION;
+  const std::uint64_t ratio = compression == Imf::NO_COMPRESSION ? 1 : dwa ? kMaxDwaRatio : kMaxRatio;
+  const bool too_short = size < bytes / ratio;
   if (too_short)
     fail(path, "is damaged: " + std::to_string(size) + " bytes cannot hold the " + std::to_string(width) + " x " +
                    std::to_string(height) + " pixels it declares");

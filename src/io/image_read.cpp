@@ -1,3 +1,5 @@
+#include <filesystem>
+
 #include "io/exr.h"
 #include "io/file_text.h"
 #include "io/image_decode.h"
@@ -9,9 +11,16 @@ namespace {
 
 bool is_png(std::string_view bytes) { return bytes.starts_with("\x89PNG\r\n\x1a\n"); }
 
+void require_regular(const std::string& path) {
+  std::error_code ignored;
+  if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored))
+    throw Error(Failure::scene, path + ": is no regular file; name an image");
+}
+
 }  // namespace
 
 ImageSize read_image_size(const std::string& path) {
+  require_regular(path);
   if (is_exr(path)) {
     const Image header = read_exr_header(path);
     return {header.width(), header.height()};
@@ -22,6 +31,7 @@ ImageSize read_image_size(const std::string& path) {
 
 Image read_image(const std::string& path, const std::string& encoding) {
   const Encoding decoded_by = parse_encoding(encoding, path);
+  require_regular(path);
   if (is_exr(path)) return read_exr(path).image;
   const std::string bytes = read_file_text(path);
   if (bytes.empty()) throw Error(Failure::scene, path + ": is empty; it may not have been written to its end");

@@ -11,6 +11,14 @@
 namespace tyndall {
 namespace {
 
+/// Items of one list; more do not fit into any file, and a text file may claim any number.
+constexpr double kMaxListed = 1e15;
+
+/// A number of the file for a message.
+std::string shown(double value) {
+  return std::abs(value) < kMaxListed ? std::to_string(static_cast<long long>(value)) : "a number that cannot be";
+}
+
 /// Where the values we want stand in a vertex; -1: absent.
 struct VertexLayout {
   std::array<int, 3> position, normal;
@@ -97,7 +105,7 @@ class BodyReader {
     double value = 0;
     if (!values_.value(property.is_list ? property.count_type : property.type, value)) throw truncated(e, i);
     if (!property.is_list) return static_cast<float>(value);
-    if (!(value >= 0) || !values_.skip(property.type, static_cast<std::size_t>(value))) throw truncated(e, i);
+    if (!(value >= 0 && value < kMaxListed) || !values_.skip(property.type, static_cast<std::size_t>(value))) throw truncated(e, i);
     return 0;
   }
 
@@ -120,14 +128,14 @@ class BodyReader {
     double count = 0;
     if (!values_.value(property.count_type, count)) throw truncated(e, face);
     if (count != 3 && count != 4)
-      throw error("face " + std::to_string(face) + " has " + std::to_string(static_cast<long long>(count)) +
+      throw error("face " + std::to_string(face) + " has " + shown(count) +
                   " corners; only triangles and quadrilaterals are supported, triangulate the mesh");
     std::array<std::uint32_t, 4> corners{};
     for (int c = 0; c < static_cast<int>(count); ++c) {
       double index = 0;
       if (!values_.value(property.type, index)) throw truncated(e, face);
       if (!(index >= 0 && index < static_cast<double>(vertex_count_)))
-        throw error("face " + std::to_string(face) + " has index " + std::to_string(static_cast<long long>(index)) +
+        throw error("face " + std::to_string(face) + " has index " + shown(index) +
                     " out of range; the file has " + std::to_string(vertex_count_) + " vertices");
       corners[c] = static_cast<std::uint32_t>(index);
     }

@@ -129,7 +129,7 @@ TEST_CASE("a pass that is given up is undone; a first one leaves what it finishe
   one_thread.threads = 1;
   RenderJob begun(world, one_thread), full(world, one_thread);
   calls = 0;
-  CHECK_FALSE(begun.advance(1, [&](double) { return ++calls < 40; }, RenderJob::GivenUp::undone));
+  CHECK_FALSE(begun.advance(1, [&](double) { return ++calls < 28; }, RenderJob::GivenUp::undone));
   full.advance(1);
   const Image part = begun.image(), all = full.image();
   const auto &count = part.find("SampleCount")->values, &red = part.find("R")->values, &expected = all.find("R")->values;
