@@ -1,6 +1,7 @@
 #include "render/scene_hash.h"
 
 #include <cstdio>
+#include <filesystem>
 #include <map>
 #include <memory>
 
@@ -26,6 +27,8 @@ std::uint64_t hash_file(const std::string& path) {
   const auto fail = [&](const std::string& what) {
     throw Error(Failure::scene, path + ": " + what + "; put it back, it is part of the scene");
   };
+  std::error_code ignored;
+  if (std::filesystem::exists(path, ignored) && !std::filesystem::is_regular_file(path, ignored)) fail("is no regular file");
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
   if (!file) fail("cannot be opened any more");
   StreamHash bytes;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "render/camera_media.h"
@@ -118,10 +119,19 @@ World build(Scene scene, const BuildSettings& settings) {
     require_memory(plan, scene, settings.max_memory);
     volume_memory = left_for_volumes(plan, settings.max_memory);
   }
-  const std::uint64_t hash = hash_scene(scene);  // now and not when an image is written: the files may be gone then
+  // Of the scene as it was given, and now and not when an image is written: the files may be gone then. A file that
+  // cannot be read is reported by who uses it, with its place in the scene.
+  std::uint64_t hash = 0;
+  std::optional<Error> unread;
+  try {
+    hash = hash_scene(scene);
+  } catch (const Error& e) {
+    unread = e;
+  }
   UnitScene unit_scene = in_unit_size(std::move(scene));
   require_camera_within_reach(unit_scene.scene.camera, unit_scene.scene.source);
   auto parts = std::make_unique<World::Parts>(std::move(unit_scene), settings, volume_memory);
+  if (unread) throw Error(*unread);
   parts->scene_hash = hash;
   return World(std::move(parts));
 }
