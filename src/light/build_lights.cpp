@@ -19,6 +19,7 @@ class Builder {
 
   void add(const Light& light);
   void add(const EmitterShape& placed);
+  void add(const VolumeEmitter& volume);
   Lights finish(const Bounds3& scene_bounds);
 
  private:
@@ -28,6 +29,7 @@ class Builder {
   std::uint32_t image(const AreaLight& light, const Location& where);
   SelectionInput selection_input() const;
   void add_selector(LightStrategy strategy, SelectionInput input);
+  void add_selectors_of_surfaces(SelectionInput input);
   void count(const SelectionInput& input);
 
   std::unique_ptr<Lights::Parts> parts_;
@@ -120,6 +122,11 @@ void Builder::add(const EmitterShape& placed) {
   for (std::uint32_t i = 0; i < emitter.size(); ++i) refer(Kind::emitter, parts_->emitters.size() - 1, i);
 }
 
+void Builder::add(const VolumeEmitter& volume) {
+  refer(Kind::volume, parts_->volumes.size());
+  parts_->volumes.push_back(volume);
+}
+
 SelectionInput Builder::selection_input() const {
   const Lights::Parts& p = *parts_;
   SelectionInput input;
@@ -135,6 +142,7 @@ SelectionInput Builder::selection_input() const {
     input.power.push_back(std::isfinite(power) ? power : 0);
     if (!tree || !(input.power.back() > 0)) continue;
     if (r.kind == Kind::emitter) add_near(p.emitters[r.index].bounds(r.primitive), id);
+    if (r.kind == Kind::volume) add_near(p.volumes[r.index].bounds(), id);
     if (r.kind == Kind::environment) input.far.push_back({p.environments[r.index].cones(), id});
     if (r.kind == Kind::distant) {
       const DeltaArrival a = p.distants[r.index].arrival();
@@ -169,6 +177,16 @@ void Builder::add_selector(LightStrategy strategy, SelectionInput input) {
   parts_->selector_stats.push_back({strategy, elapsed.count(), parts_->selectors.back()->memory_bytes()});
 }
 
+/// For renders in which glowing media are found by scattered rays alone.
+void Builder::add_selectors_of_surfaces(SelectionInput input) {
+  if (parts_->volumes.empty()) return;
+  const std::size_t first = parts_->lights.size() - parts_->volumes.size();
+  std::fill(input.power.begin() + static_cast<std::ptrdiff_t>(first), input.power.end(), 0.0);
+  std::erase_if(input.near, [first](const TreeLight& light) { return light.light >= first; });
+  for (const LightStrategy strategy : options_.strategies)
+    parts_->selectors_of_surfaces.push_back(make_selector(strategy, input));
+}
+
 Lights Builder::finish(const Bounds3& scene_bounds) {
   if (!scene_bounds.empty()) {
     const double radius = 0.5 * length(scene_bounds.extent());
@@ -176,6 +194,7 @@ Lights Builder::finish(const Bounds3& scene_bounds) {
   }
   SelectionInput input = selection_input();
   count(input);
+  add_selectors_of_surfaces(input);
   const auto& strategies = options_.strategies;
   for (std::size_t i = 0; i + 1 < strategies.size(); ++i) add_selector(strategies[i], input);
   if (!strategies.empty()) add_selector(strategies.back(), std::move(input));
@@ -189,6 +208,7 @@ Lights build_lights(const Scene& scene, std::span<const EmitterShape> shapes, co
   Builder builder(options);
   for (const Light& light : scene.lights) builder.add(light);
   for (const EmitterShape& shape : shapes) builder.add(shape);
+  for (const VolumeEmitter& volume : options.volumes) builder.add(volume);
   return builder.finish(scene_bounds);
 }
 

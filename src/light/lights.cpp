@@ -29,6 +29,8 @@ double Lights::Parts::power(LightId light) const {
       return strength(environments[r.index].mean_radiance()) * 4 * kPi * disk;
     case Kind::emitter:
       return emitters[r.index].power(r.primitive);
+    case Kind::volume:
+      return volumes[r.index].power();
   }
   return 0;
 }
@@ -47,9 +49,12 @@ LightId Lights::first_light(std::size_t emitter_shape) const { return parts_->fi
 
 std::span<const SelectorStats> Lights::selectors() const { return parts_->selector_stats; }
 
-const LightSelector& Lights::selector(LightStrategy strategy) const {
-  for (std::size_t i = 0; i < parts_->selectors.size(); ++i) {
-    if (parts_->selector_stats[i].strategy == strategy) return *parts_->selectors[i];
+LightId Lights::first_volume() const { return static_cast<LightId>(size() - parts_->volumes.size()); }
+
+const LightSelector& Lights::selector(LightStrategy strategy, bool with_volumes) const {
+  const auto& selectors = with_volumes || parts_->volumes.empty() ? parts_->selectors : parts_->selectors_of_surfaces;
+  for (std::size_t i = 0; i < selectors.size(); ++i) {
+    if (parts_->selector_stats[i].strategy == strategy) return *selectors[i];
   }
   throw Error(Failure::usage, "the world was not built for light strategy " + std::string(name_of(strategy)) +
                                   "; name it in BuildSettings::lights");
@@ -76,9 +81,20 @@ std::optional<LightSample> Lights::sample(LightId light, Vec3 p, Vec2 u, bool mi
       if (emitter.delta()) return LightSample{s->point.wi, s->point.distance, s->L * (1 / s->point.pdf), 1, true};
       return LightSample{s->point.wi, s->point.distance, s->L, s->point.pdf, false};
     }
+    case Kind::volume:
+      break;
   }
   return std::nullopt;
 }
+
+namespace {
+
+LightPlace place_of(const Bounds3& box) {
+  const Vec3 half = (box.max - box.min) * 0.5f;
+  return {box.min + half, length(half)};
+}
+
+}  // namespace
 
 LightPlace Lights::place(LightId light) const {
   const Parts::Reference r = parts_->lights[light];
@@ -87,11 +103,10 @@ LightPlace Lights::place(LightId light) const {
       return {parts_->points[r.index].position(), 0};
     case Kind::spot:
       return {parts_->spots[r.index].position(), 0};
-    case Kind::emitter: {
-      const Bounds3 box = parts_->emitters[r.index].box(r.primitive);
-      const Vec3 half = (box.max - box.min) * 0.5f;
-      return {box.min + half, length(half)};
-    }
+    case Kind::emitter:
+      return place_of(parts_->emitters[r.index].box(r.primitive));
+    case Kind::volume:
+      return place_of(parts_->volumes[r.index].box);
     case Kind::distant:
     case Kind::environment:
       break;
@@ -120,7 +135,8 @@ float Lights::environment_pdf(LightId light, Vec3 w, bool mis_partner) const {
 std::size_t Lights::memory_bytes() const {
   const Parts& p = *parts_;
   std::size_t bytes = p.lights.capacity() * sizeof(Parts::Reference) + p.points.capacity() * sizeof(PointEmitter) +
-                      p.spots.capacity() * sizeof(SpotEmitter) + p.distants.capacity() * sizeof(DistantEmitter);
+                      p.spots.capacity() * sizeof(SpotEmitter) + p.distants.capacity() * sizeof(DistantEmitter) +
+                      p.volumes.capacity() * sizeof(VolumeEmitter);
   for (const SelectorStats& s : p.selector_stats) bytes += s.memory_bytes;
   for (const Environment& e : p.environments) bytes += e.memory_bytes();
   for (const Emitter& e : p.emitters) bytes += e.memory_bytes();

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "light/selection.h"
+#include "light/volume_emitter.h"
 #include "tyndall/math.h"
 #include "tyndall/scene.h"
 #include "tyndall/settings.h"
@@ -27,6 +28,7 @@ struct LightSample {
   Rgb L;           ///< radiance that arrives when nothing is in between; delta lights: irradiance facing them
   float pdf;       ///< 1/sr; 1 for delta lights
   bool delta;      ///< no scattered ray can find it
+  bool volume = false;  ///< a glowing medium: the light is all along wi, and L a guess at it
 };
 
 /// What the render side knows of an emissive primitive that its ray hit.
@@ -47,6 +49,7 @@ struct LightBuildOptions {
   std::vector<LightStrategy> strategies{LightStrategy::tree};  ///< a selector is built for each
   const Textures* textures = nullptr;  ///< read for the alpha of emissive shapes; null: opaque. Must outlive the lights
   int threads = 0;                     ///< to build with; 0: one a core
+  std::span<const VolumeEmitter> volumes{};  ///< pieces of glowing media; their ids come last
 };
 
 /// Where a light is, roughly.
@@ -81,11 +84,12 @@ class Lights {
 
   std::size_t size() const;
   bool empty() const { return size() == 0; }
-  /// Throws Error (usage) for a strategy that the lights were not built with.
-  const LightSelector& selector(LightStrategy strategy) const;
+  /// Throws Error (usage) for a strategy that the lights were not built with. `with_volumes`: glowing media are chosen too.
+  const LightSelector& selector(LightStrategy strategy, bool with_volumes = true) const;
   std::span<const SelectorStats> selectors() const;  ///< in the order asked for
 
-  /// A direction from `p` toward the light. Nothing when it cannot contribute there.
+  /// A direction from `p` toward the light. Nothing when it cannot contribute there, and for volumes: theirs are found
+  /// by who knows the medium.
   /// `mis_partner`: scattered rays, weighted by MIS, find environments too; they are then sampled by what exceeds
   /// their mean [Karlik et al. 2019], which leaves the rest to the partner. Without one use false.
   std::optional<LightSample> sample(LightId light, Vec3 p, Vec2 u, bool mis_partner) const;
@@ -100,6 +104,8 @@ class Lights {
 
   /// The light that is primitive 0 of the emitter shape (in the order given to build_lights); primitive i follows at +i.
   LightId first_light(std::size_t emitter_shape) const;
+  /// The light that is the first of LightBuildOptions::volumes, the others follow; size() without any.
+  LightId first_volume() const;
   double power(LightId light) const;  ///< W, mean of the channels
   LightPlace place(LightId light) const;
   const LightStats& stats() const;

@@ -13,7 +13,7 @@
 namespace tyndall {
 
 struct Lights::Parts {
-  enum class Kind : std::uint32_t { point, spot, distant, environment, emitter };
+  enum class Kind : std::uint32_t { point, spot, distant, environment, emitter, volume };
   /// Where a light is to be found: eight bytes, since there may be millions.
   struct Reference {
     Kind kind : 3;
@@ -31,10 +31,13 @@ struct Lights::Parts {
   std::vector<Emitter> emitters;     ///< by emitter shape
   std::vector<LightId> first_light;  ///< of each emitter shape
   std::vector<LightId> infinite;
+  std::vector<VolumeEmitter> volumes;
   EmissionMaps maps;
   double scene_radius = 1;
   std::vector<SelectorStats> selector_stats;
   std::vector<std::unique_ptr<const LightSelector>> selectors;  ///< as in selector_stats
+  /// The same without the volumes; empty where there are none.
+  std::vector<std::unique_ptr<const LightSelector>> selectors_of_surfaces;
   LightStats stats;
 };
 

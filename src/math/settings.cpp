@@ -32,6 +32,10 @@ constexpr Table<DistanceStrategy, 5> kDistances{{
     {"both", DistanceStrategy::both},
     {"profile", DistanceStrategy::profile},
 }};
+constexpr Table<EmissionStrategy, 2> kEmissions{{
+    {"paths", EmissionStrategy::paths},
+    {"lights", EmissionStrategy::lights},
+}};
 constexpr Table<TransmittanceStrategy, 4> kTransmittances{{
     {"residual", TransmittanceStrategy::residual},
     {"ratio", TransmittanceStrategy::ratio},
@@ -76,6 +80,7 @@ const std::vector<StrategyAxis>& strategy_axes() {
       axis<kLights, &RenderSettings::lights>("lights", "how a light is chosen"),
       axis<kMedia, &RenderSettings::media>("media", "what stands for a stretch of medium when its light is chosen"),
       axis<kDistances, &RenderSettings::distance>("distance", "how the distance of a scattering event is sampled"),
+      axis<kEmissions, &RenderSettings::emission>("emission", "how the glow of hot media is found"),
       axis<kTransmittances, &RenderSettings::transmittance>("transmittance", "estimator along shadow rays"),
   };
   return axes;

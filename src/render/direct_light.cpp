@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "math/small_vector.h"
+#include "render/fire_light.h"
 #include "render/resampling.h"
 
 namespace tyndall {
@@ -19,8 +20,17 @@ struct Candidate {
   float weight;      ///< in resampling: the contribution's size
 };
 
-std::optional<Candidate> look_at(const LightContext& context, const Vertex& vertex, Rgb beta, LightCandidate tried, Vec2 u) {
-  const auto light = context.world.lights.sample(tried.light, vertex.p(), u, true);
+/// A vertex whose light is sought.
+struct Seeker {
+  const LightContext& context;
+  const Vertex& vertex;
+  const LightSearch& search;
+  Rgb beta;
+};
+
+std::optional<Candidate> look_at(const Seeker& seeker, LightCandidate tried, Vec2 u) {
+  const auto& [context, vertex, search, beta] = seeker;
+  const auto light = sample_light(context, search, tried, vertex.p(), u);
   // What is not a number goes on, so that the film sees it and counts it.
   if (!light || is_black(light->L)) return std::nullopt;
   const float density = tried.tries * light->pdf;
@@ -36,16 +46,17 @@ std::optional<Candidate> look_at(const LightContext& context, const Vertex& vert
 }
 
 /// The candidate's contribution dimmed by what is in between.
-Rgb trace(const LightContext& context, const Vertex& vertex, const Candidate& c, Sampler& sampler) {
+Rgb trace(const Seeker& seeker, const Candidate& c, Sampler& sampler) {
+  const auto& [context, vertex, search, beta] = seeker;
   const World::Parts& world = context.world;
   const Vec3 origin = vertex.origin(world.geometry, c.light.wi);
-  return c.contribution * visibility(context, vertex.media_toward(world.geometry, c.light.wi), origin, c.light.wi, c.light.distance, sampler);
+  return c.contribution * arriving(context, vertex.media_toward(world.geometry, c.light.wi), origin, c.light, sampler);
 }
 
-Rgb trace_all(const LightContext& context, const Vertex& vertex, Rgb beta, Sampler& sampler) {
+Rgb trace_all(const Seeker& seeker, Sampler& sampler) {
   Rgb sum;
-  for (LightId id = 0; id < context.world.lights.size(); ++id) {
-    if (const auto c = look_at(context, vertex, beta, {id, 1}, sampler.next_2d())) sum += trace(context, vertex, *c, sampler);
+  for (LightId id = 0; id < seeker.context.world.lights.size(); ++id) {
+    if (const auto c = look_at(seeker, {id, 1}, sampler.next_2d())) sum += trace(seeker, *c, sampler);
   }
   return sum;
 }
@@ -86,16 +97,17 @@ LightSearch light_search(const LightContext& context, const Vertex& vertex) {
 Rgb direct_light(const LightContext& context, const Vertex& vertex, const LightSearch& search, Rgb beta) {
   Sampler sampler = context.sampler.fork();
   if (context.world.lights.empty() || !vertex.has_smooth()) return {};
-  if (context.selector.exhaustive()) return trace_all(context, vertex, beta, sampler);
+  const Seeker seeker{context, vertex, search, beta};
+  if (context.selector.exhaustive()) return trace_all(seeker, sampler);
 
   const float u = sampler.next_1d();
   Candidates candidates;
   for (const LightCandidate& tried : context.selector.draw(search.cut, search.query, sampler.next_wide())) {
-    if (const auto c = look_at(context, vertex, beta, tried, sampler.next_2d())) candidates.push_back(*c);
+    if (const auto c = look_at(seeker, tried, sampler.next_2d())) candidates.push_back(*c);
   }
   Rgb sum;
   for (const Survivor& s : resample(candidates, context.settings.shadow_rays, u)) {
-    sum += trace(context, vertex, candidates[s.index], sampler) * s.scale;
+    sum += trace(seeker, candidates[s.index], sampler) * s.scale;
   }
   return sum;
 }

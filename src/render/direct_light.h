@@ -3,21 +3,10 @@
 
 #include <cmath>
 
-#include "render/counters.h"
-#include "render/sampler.h"
+#include "render/light_context.h"
 #include "render/vertex.h"
-#include "render/world_parts.h"
 
 namespace tyndall {
-
-/// What light estimation needs of the render at large.
-struct LightContext {
-  const World::Parts& world;
-  const LightSelector& selector;
-  const RenderSettings& settings;
-  Sampler& sampler;
-  Counters& counters;
-};
 
 /// Share of the technique with density `a` when one with density `b` could have found the same: the power heuristic
 /// with exponent 2 [Veach 1997], safe for zero, huge and infinite densities.

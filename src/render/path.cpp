@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "math/hash.h"
+#include "render/fire_light.h"
 
 namespace tyndall {
 namespace {
@@ -50,6 +51,7 @@ PathRecord Path::run() {
 
 /// Next-event estimation, then the direction of the next ray. False ends the path.
 bool Path::scatter(const Vertex& vertex) {
+  context_.emission_counts = depth_ < limits_.max_depth;
   add(beta_ * light_at(vertex), depth_);
 
   const float uc = context_.sampler.next_1d();
@@ -128,6 +130,7 @@ void Path::gather(const Span& span) {
   span_search_ = span_search(context_, span, depth_);
   if (!span_search_ || !pairs_along_spans(context_.settings)) return;
   if (depth_ == 0) first_event_in_medium_ = true;  // of this light's path
+  context_.emission_counts = depth_ + 1 < limits_.max_depth;
   add(beta_ * span_light(context_, span, *span_search_, beta_), depth_ + 1);
 }
 
@@ -136,7 +139,7 @@ std::optional<Vertex> Path::fly(const Span& span) {
   float u = context_.sampler.next_1d();
   for (const SpanPart& part : span.parts) {
     const Flight flight = free_flight(part.view(), ray_, part.t0, part.t1, beta_, u, rng, context_.counters.tracking);
-    add(beta_ * flight.emission, depth_);
+    if (!is_black(flight.emission)) add(beta_ * flight.emission * emission_share(), depth_);
     beta_ *= flight.weight;
     if (is_black(beta_)) return std::nullopt;
     if (flight.collided) {
@@ -174,6 +177,15 @@ float Path::scattering_share(LightId id, float light_pdf) const {
     return mis_weight(span_event_->density * pdf_, others.pair * light_pdf, others.tracked * light_pdf);
   }
   return mis_weight(pdf_, context_.selector.expected(search_.cut, search_.query, id) * light_pdf);
+}
+
+/// MIS weight of what a scattered ray gathers from glowing media.
+float Path::emission_share() const {
+  if (!light_sampled_ || !seeks_fire(context_)) return 1;
+  const FiresOnRay fires = context_.world.fire.along({from_, ray_.d});
+  if (!span_event_) return mis_weight(pdf_, fire_density(context_, search_, fires));
+  const SpanDensities others = span_fire_densities(context_, *span_event_, fires);
+  return mis_weight(span_event_->density * pdf_, others.pair, others.tracked);
 }
 
 void Path::add_environment() {

@@ -30,6 +30,7 @@ class Path {
   Rgb light_at(const Vertex& vertex);
   float scattering_share(LightId id, float light_pdf) const;
   Vertex surface_vertex(const SurfaceHit& hit);
+  float emission_share() const;
   void add_environment();
   void add_surface_emission(const SurfaceHit& hit);
   void add(Rgb contribution, int events);

@@ -76,7 +76,7 @@ class RenderJob::Impl {
   Impl(const World::Parts& world, const RenderSettings& settings)
       : world_(world),
         settings_(resolved(settings, world)),
-        selector_(world.lights.selector(settings.lights)),
+        selector_(world.lights.selector(settings.lights, settings.emission == EmissionStrategy::lights)),
         film_(world.scene.film, full_crop(world.scene, settings), parse_aovs(settings.aovs)),
         pool_(settings.threads) {}
 

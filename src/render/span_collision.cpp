@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "render/fire_light.h"
 #include "render/resampling.h"
 #include "render/span_light.h"
 
@@ -20,7 +21,7 @@ struct Event {
 };
 
 std::optional<Candidate> look_at(const LightContext& context, const Event& event, LightCandidate tried, Vec2 u) {
-  const auto light = context.world.lights.sample(tried.light, event.vertex.p(), u, true);
+  const auto light = sample_light(context, event.span.search, tried, event.vertex.p(), u);
   if (!light || is_black(light->L)) return std::nullopt;
   const Rgb f = event.vertex.eval(light->wi);
   const float density = tried.tries * light->pdf;
@@ -64,7 +65,7 @@ Rgb collision_light(const LightContext& context, const Vertex& vertex, const Spa
     const LightSample& light = candidates[s.index].light;
     const MediaState media = vertex.media_toward(context.world.geometry, light.wi);
     sum += candidates[s.index].contribution * s.scale *
-           visibility(context, media, vertex.p(), light.wi, light.distance, sampler);
+           arriving(context, media, vertex.p(), light, sampler);
   }
   return sum;
 }

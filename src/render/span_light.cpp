@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "math/small_vector.h"
+#include "render/fire_light.h"
 #include "render/resampling.h"
 #include "volume/coarse.h"
 
@@ -50,7 +51,8 @@ DistanceSampler distances_to(const LightContext& context, const SpanSearch& sear
   const DistanceStrategy distance = context.settings.distance;
   const bool plain = distance == DistanceStrategy::equiangular || distance == DistanceStrategy::both;
   const auto weights = plain ? std::nullopt : std::optional(DistanceSampler::Weights{search.g});
-  return DistanceSampler(search.profile, {search.query.o, search.query.d}, context.world.lights.place(id), weights);
+  const LightPlace place = context.world.fire.holds(id) ? context.world.fire.place() : context.world.lights.place(id);
+  return DistanceSampler(search.profile, {search.query.o, search.query.d}, place, weights);
 }
 
 /// Finds the pairs of one span.
@@ -61,7 +63,6 @@ class PairFinder {
 
   std::optional<Pair> look_at(LightCandidate tried, float u, Vec2 on_light) const {
     const auto [id, tries] = tried;
-    const Lights& lights = context_.world.lights;
     const DistanceSample distance = distances_to(context_, search_, id).sample(u);
     if (!(distance.pdf > 0) || !std::isfinite(distance.t)) return std::nullopt;
     const SpanPart& part = span_.part_at(distance.t);
@@ -69,7 +70,7 @@ class PairFinder {
     const Vec3 p = span_.ray.at(distance.t);
     const Scattering scattering = Scattering::at(part, p);
     if (is_black(scattering.sigma_s)) return std::nullopt;
-    const auto light = lights.sample(id, p, on_light, true);
+    const auto light = sample_light(context_, search_, {id, tries}, p, on_light);
     // What is not a number goes on, so that the film sees it and counts it.
     if (!light || is_black(light->L)) return std::nullopt;
 
@@ -155,7 +156,7 @@ Rgb evaluate(const LightContext& context, const Span& span, const Pairs& pairs, 
     if (is_black(T)) continue;
     const Vec3 p = span.ray.at(pair.t);
     sum += pair.contribution * T * s.scale *
-           visibility(context, pair.part->state, p, pair.light.wi, pair.light.distance, sampler);
+           arriving(context, pair.part->state, p, pair.light, sampler);
   }
   return sum;
 }
@@ -225,6 +226,14 @@ Rgb span_light(const LightContext& context, const Span& span, const SpanSearch& 
 
 float collision_density(const Span& span, const SpanSearch& search, float t) {
   return Scattering::at(span.part_at(t), span.ray.at(t)).sigma_t * search.profile.transmittance(t);
+}
+
+SpanDensities span_fire_densities(const LightContext& context, const SpanEvent& event, const FiresOnRay& fires) {
+  if (fires.empty()) return {};
+  const float found = fire_density(context, event.search, fires);
+  const RenderSettings& settings = context.settings;
+  return {.pair = pairs_along_spans(settings) ? found * distances_to(context, event.search, fires[0].light).pdf(event.t) : 0.0f,
+          .tracked = tracks(settings) ? found * event.density : 0.0f};
 }
 
 SpanDensities span_densities(const LightContext& context, const SpanEvent& event, LightId id) {

@@ -44,6 +44,8 @@ struct SpanDensities {
   float tracked = 0;  ///< chosen at a collision
 };
 SpanDensities span_densities(const LightContext& context, const SpanEvent& event, LightId id);
+/// Of all fire on a ray from the event: 1/(length sr).
+SpanDensities span_fire_densities(const LightContext& context, const SpanEvent& event, const FiresOnRay& fires);
 
 /// Next-event estimation at a collision, with the span's choice of lights: the part of `--distance tracking` and `both`.
 Rgb collision_light(const LightContext& context, const Vertex& vertex, const SpanEvent& event, Rgb beta);

@@ -145,17 +145,21 @@ World::Parts::Parts(UnitScene unit_scene, const BuildSettings& settings, std::si
       materials(scene, textures),
       geometry(build_geometry(scene, textures, settings.threads, summary)),
       media(build_media(scene, settings, volume_memory, summary)),
+      fire(media, geometry.groups(), scene.camera.medium),
       camera(scene.camera, scene.film),
       filter(scene.filter) {
   const Stopwatch watch;
   const Emitters emitters = find_emitters(scene, geometry, summary);
+  const std::vector<VolumeEmitter> volumes = fire.emitters();
   lights = build_lights(scene, emitters.shapes, scene_bounds(geometry, media),
-                        {.strategies = settings.lights, .textures = &textures, .threads = settings.threads});
+                        {.strategies = settings.lights, .textures = &textures, .threads = settings.threads, .volumes = volumes});
+  fire.set_first(lights.first_volume());
+  for (std::string& note : fire.notes(scene.media)) summary.notes.push_back(std::move(note));
   first_light.assign(geometry.placed().size(), kNone);
   for (std::size_t i = 0; i < emitters.placed.size(); ++i) first_light[emitters.placed[i]] = lights.first_light(i);
   summary.lights = lights.size();
   for (const SelectorStats& s : lights.selectors()) summary.light_strategies.push_back({s.strategy, s.seconds, s.memory_bytes});
-  summary.light_bytes = lights.memory_bytes();
+  summary.light_bytes = lights.memory_bytes() + fire.memory_bytes();
   summary.light_seconds = watch.seconds();
   camera_media = find_camera_media(scene.camera.medium, camera.center(), geometry);
 }

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "light/lights.h"
+#include "render/fire_lights.h"
 #include "render/camera_ray.h"
 #include "render/media_state.h"
 #include "render/pixel_filter.h"
@@ -30,6 +31,7 @@ struct World::Parts {
   Materials materials;
   Geometry geometry;
   std::vector<ParticipatingMedium> media;
+  FireLights fire;
   Lights lights;
   std::vector<LightId> first_light;  ///< by placed shape; kNone where it does not emit
   CameraRays camera;

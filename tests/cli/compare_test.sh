@@ -34,7 +34,7 @@ says '"budget": "0.2 s"' out.txt
 
 # Usage errors say what is known.
 expect 2 "$T" compare s.pbrt --variants lamps -o r
-says 'lights, media, distance, transmittance, all' err.txt
+says 'lights, media, distance, emission, transmittance, all' err.txt
 expect 2 "$T" compare s.pbrt --variants "a:--max-depth 2" -o r
 says 'give it to compare itself' err.txt
 expect 2 "$T" compare s.pbrt --variants "a:--lights magic" -o r

@@ -27,6 +27,7 @@ RenderSettings settings_of(const Scene& scene, const Variant& variant) {
   settings.splitting = variant.splitting;
   settings.media = variant.media;
   settings.distance = variant.distance;
+  settings.emission = variant.emission;
   settings.reproducible = true;
   return settings;
 }

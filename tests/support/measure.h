@@ -21,6 +21,7 @@ struct Variant {
   float splitting = RenderSettings{}.splitting;
   MediaStrategy media = MediaStrategy::product;
   DistanceStrategy distance = DistanceStrategy::automatic;
+  EmissionStrategy emission = EmissionStrategy::lights;
 };
 
 /// Builds a world and renders it as often as asked.

@@ -1,0 +1,61 @@
+/// The glowing media of a world, as lights.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "light/lights.h"
+#include "surface/geometry.h"
+#include "volume/emissive_bricks.h"
+
+namespace tyndall {
+
+/// A brick that a ray passes.
+struct FireOnRay {
+  LightId light;
+  float glow;       ///< radiance that it sends along the ray, roughly; mean of channels
+  float direction;  ///< 1/sr: density of the ray's direction among those sampled toward the brick
+};
+using FiresOnRay = SmallVector<FireOnRay, 16>;
+
+/// Each brick of a medium that emits is a light, and the media's lights follow each other. A direction toward one is
+/// that of a point drawn in it.
+class FireLights {
+ public:
+  FireLights() = default;
+  /// Of the media that fill some space: the inside of a group, or `unbounded`.
+  FireLights(const std::vector<ParticipatingMedium>& media, const std::vector<BoundaryGroup>& groups,
+             std::optional<MediumId> unbounded);
+
+  bool empty() const { return media_.empty(); }
+  std::vector<VolumeEmitter> emitters() const;  ///< in the order of their ids; bricks beyond their groups have no power
+  void set_first(LightId first) { first_ = first; }  ///< what the first of emitters() became
+
+  bool holds(LightId light) const { return !media_.empty() && light >= first_; }
+  /// Unit direction from `p` toward a point of the light.
+  Vec3 sample(LightId light, Vec3 p, Vec2 u) const;
+  FiresOnRay along(const Ray& ray) const;
+  /// All fire taken together: where distances along a ray are drawn toward.
+  const LightPlace& place() const { return place_; }
+  std::size_t memory_bytes() const;
+  /// "medium 2 glows: 312 lights", one each.
+  std::vector<std::string> notes(const std::vector<Medium>& media) const;
+
+ private:
+  struct Glow {
+    std::size_t medium;
+    LightId begin;  ///< of its lights, from first_ on
+    EmissiveBricks bricks;
+    Bounds3 reach;  ///< of the groups that bring the medium
+  };
+  const Glow& glow_of(LightId light) const;
+  void find_place();
+
+  std::vector<Glow> media_;
+  LightId first_ = 0;
+  LightPlace place_;
+};
+
+}  // namespace tyndall

@@ -1,0 +1,106 @@
+/// Fire as a light: one picture whether its glow is found by scattered rays alone or sought by next-event estimation.
+#include <doctest/doctest.h>
+
+#include "support/agreement.h"
+#include "support/scene_text.h"
+
+using namespace tyndall;
+using namespace tyndall::test;
+
+namespace {
+
+constexpr Bounds3 kHearth{{-0.5f, -0.9f, -0.4f}, {0.4f, 0.1f, 0.5f}};
+constexpr Bounds3 kRoom{{-1, -1, -1}, {1, 1, 1}};
+constexpr Coefficients kFire{.sigma_a = {2, 2.5f, 3}, .sigma_s = {1, 1, 1}, .g = 0.3f, .Le = {8, 4, 1}};
+
+/// Flames with holes over `box`, of several bricks.
+Grid flames(const Bounds3& box) {
+  Grid grid{box, 20, 22, 18, {}};
+  for (int i = 0; i < 20 * 22 * 18; ++i) {
+    const int x = i % 20, y = i / 20 % 22, z = i / 440;
+    const float v = std::sin(0.9f * x) * std::cos(0.7f * z) + std::sin(0.5f * y + 0.3f * x);
+    grid.density.push_back(v > 0 ? v * (1.2f - 0.04f * y) : 0.0f);
+  }
+  return grid;
+}
+
+std::string fire(const Bounds3& box = kHearth) { return uniform_grid("fire", kFire, flames(box)) + medium_box("fire", "", box); }
+
+std::string smoke(const Coefficients& c) { return homogeneous("smoke", c) + medium_box("smoke", "", kRoom); }
+
+View camera(int depth = 6) { return {.eye = {0.9f, 0.7f, -2.6f}, .look = {0, -0.1f, 0.2f}, .fov_degrees = 45, .resolution = 12, .max_depth = depth}; }
+
+std::string walls() {
+  const std::string grey = "Material \"diffuse\" \"rgb reflectance\" [0.6 0.5 0.4]\n";
+  return diffuse_plane(0.8f, 2, 0.6f) +
+         block(grey + "Shape \"trianglemesh\" \"point3 P\" [-2 -1 -2 2 -1 -2 2 -1 2 -2 -1 2] \"integer indices\" [0 1 2 0 2 3]\n");
+}
+
+constexpr Variant kPaths{.emission = EmissionStrategy::paths};
+
+}  // namespace
+
+TEST_CASE("fire lights a diffuse room, however a brick is chosen") {
+  const std::string scene = view(camera()) + walls() + fire() + point_light({-0.8f, 0.9f, -0.9f}, 0.3f);
+  check_same("fire in a room", {{"paths", scene, kPaths},
+                                {"tree", scene},
+                                {"tree-binary", scene, {.lights = LightStrategy::tree_binary}},
+                                {"power, 3 to 1", scene, {.lights = LightStrategy::power, .candidates = 3}},
+                                {"uniform", scene, {.lights = LightStrategy::uniform}},
+                                {"4 split, all traced", scene, {.candidates = 4, .shadow_rays = 0, .splitting = 0.8f}},
+                                {"exhaustive", scene, {.lights = LightStrategy::exhaustive}},
+                                {"exhaustive paths", scene, {.lights = LightStrategy::exhaustive, .emission = EmissionStrategy::paths}}});
+}
+
+TEST_CASE("fire inside smoke that scatters, by every way of gathering along spans") {
+  const std::string scene = view(camera(4)) + walls() + fire() + smoke({.sigma_a = {0.1f, 0.1f, 0.1f}, .sigma_s = {0.5f, 0.6f, 0.7f}, .g = 0.2f});
+  check_same("fire in smoke", {{"paths", scene, kPaths},
+                               {"vertex", scene, {.media = MediaStrategy::vertex}},
+                               {"product", scene},
+                               {"product, 4 to 2", scene, {.candidates = 4, .shadow_rays = 2}},
+                               {"integral, both", scene, {.media = MediaStrategy::integral, .distance = DistanceStrategy::both}},
+                               {"closest, tracking", scene, {.media = MediaStrategy::closest, .distance = DistanceStrategy::tracking}},
+                               {"equiangular, by power", scene, {.lights = LightStrategy::power, .distance = DistanceStrategy::equiangular}}});
+}
+
+TEST_CASE("fire in smoke that scatters forward, g = 0.9") {
+  const std::string scene = view(camera(5)) + fire() + smoke({.sigma_s = {1.2f, 1, 1.4f}, .g = 0.9f});
+  check_same("fire in forward smoke", {{"paths", scene, kPaths},
+                                       {"vertex", scene, {.media = MediaStrategy::vertex}},
+                                       {"product", scene},
+                                       {"both", scene, {.distance = DistanceStrategy::both}}});
+}
+
+TEST_CASE("the camera in the fire, and a wall in it") {
+  View inside = camera();
+  inside.eye = {0, -0.4f, 0};
+  inside.look = {0.3f, -0.5f, 1};
+  inside.fov_degrees = 80;
+  const std::string wall = block("Material \"diffuse\" \"rgb reflectance\" [0.7 0.7 0.7]\nShape \"disk\" \"float radius\" 0.3\n");
+  const std::string scene = view(inside) + walls() + fire() + block("Translate 0.1 -0.4 0.2\nRotate 40 1 1 0\n" + wall);
+  check_same("within fire", {{"paths", scene, kPaths}, {"product", scene}, {"vertex", scene, {.media = MediaStrategy::vertex}}});
+}
+
+TEST_CASE("bricks beyond the boundary that brings the fire, a group for each half, fire in an unbounded fog") {
+  const Grid grid = flames(kHearth);
+  const Bounds3 left{kHearth.min, {-0.1f, 0.05f, 0.3f}}, right{{0.1f, -0.9f, -0.4f}, kHearth.max};
+  const std::string scene = view(camera()) + walls() + uniform_grid("fire", kFire, grid) + medium_box("fire", "", left) + medium_box("fire", "", right);
+  check_same("halves of fire", {{"paths", scene, kPaths}, {"product", scene}, {"vertex", scene, {.media = MediaStrategy::vertex}}});
+
+  View foggy = camera(4);
+  foggy.before_camera = homogeneous("fog", {.sigma_s = {0.1f, 0.1f, 0.1f}, .Le = {}});
+  foggy.medium = "fog";
+  const std::string fog = view(foggy) + walls() + fire();
+  check_same("fire in fog", {{"paths", fog, kPaths}, {"product", fog}});
+}
+
+TEST_CASE("thermal equilibrium with a white wall, the medium's glow sought as a light") {
+  const Coefficients warm{.sigma_a = {1, 2, 0.5f}, .sigma_s = {3, 2, 4}, .g = 0.5f, .Le = Rgb(1.0f)};
+  const std::string scene = view(camera(1000)) + environment(1) + uniform_grid("m", warm, flames(kHearth)) + medium_box("m", "", kHearth) +
+                            diffuse_plane(0.6f, 0.7f, 1);
+  const Agreement furnace{.d = 0.004};
+  check_agrees("equilibrium by spans", scene, {1.0, 1.0, 1.0}, furnace);
+  Agreement vertex = furnace;
+  vertex.variant.media = MediaStrategy::vertex;
+  check_agrees("equilibrium by vertices", scene, {1.0, 1.0, 1.0}, vertex);
+}
