@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "light/selection.h"
+#include "light/wide_light_tree.h"
 #include "light/wide_spread.h"
 #include "light_cases.h"
 #include "math/frame.h"
