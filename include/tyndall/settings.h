@@ -21,7 +21,8 @@ enum class MediaStrategy { vertex, closest, integral, product };
 /// tracking with MediaStrategy::vertex, which knows no other.
 enum class DistanceStrategy { automatic, tracking, equiangular, both, profile };
 /// How the glow of media reaches what it lights: by scattered rays that happen to pass through it, or by next-event
-/// estimation toward it as well, with MIS. The second needs a grid, whose bricks are then lights among the others.
+/// estimation toward it as well, with MIS. The second needs a grid, whose bricks are then lights among the others; it pays
+/// where small fires light surfaces, not where smoke that scatters the glow fills the picture.
 enum class EmissionStrategy { paths, lights };
 /// Estimator of transmittance along shadow rays.
 enum class TransmittanceStrategy { residual, ratio, delta, raymarch };
@@ -47,7 +48,7 @@ struct RenderSettings {
   float splitting = 0.5f;
   MediaStrategy media = MediaStrategy::product;
   DistanceStrategy distance = DistanceStrategy::automatic;
-  EmissionStrategy emission = EmissionStrategy::lights;
+  EmissionStrategy emission = EmissionStrategy::paths;
   TransmittanceStrategy transmittance = TransmittanceStrategy::raymarch;
   std::vector<std::string> aovs{};  ///< names from aov_names()
   std::optional<PixelBounds> crop{};
