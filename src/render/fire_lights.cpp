@@ -112,7 +112,7 @@ std::vector<std::string> FireLights::notes(const std::vector<Medium>& media) con
   std::vector<std::string> notes;
   for (const Glow& glow : media_) {
     notes.push_back("medium \"" + media[glow.medium].name + "\" glows: its " + std::to_string(glow.bricks.size()) +
-                    " emissive bricks are lights");
+                    " emissive bricks are lights with --emission lights");
   }
   return notes;
 }

@@ -40,7 +40,7 @@ class FireLights {
   /// All fire taken together: where distances along a ray are drawn toward.
   const LightPlace& place() const { return place_; }
   std::size_t memory_bytes() const;
-  /// "medium 2 glows: 312 lights", one each.
+  /// A line for each medium that glows.
   std::vector<std::string> notes(const std::vector<Medium>& media) const;
 
  private:
