@@ -57,7 +57,8 @@ struct Brute {
 };
 Brute brute_along(const EmissiveBricks& bricks, const Ray& ray, double length) {
   constexpr int kSteps = 20'000;
-  Brute all{.step = length / kSteps};
+  Brute all;
+  all.step = length / kSteps;
   auto& found = all.bricks;
   for (std::uint32_t i = 0; i < bricks.size(); ++i) {
     BrickOnRay sum{i, 0, 0};
