@@ -28,15 +28,23 @@ std::string fire(const Bounds3& box = kHearth) { return uniform_grid("fire", kFi
 
 std::string smoke(const Coefficients& c) { return homogeneous("smoke", c) + medium_box("smoke", "", kRoom); }
 
-View camera(int depth = 6) { return {.eye = {0.9f, 0.7f, -2.6f}, .look = {0, -0.1f, 0.2f}, .fov_degrees = 45, .resolution = 12, .max_depth = depth}; }
+View camera(int depth = 6) { return {.eye = {0.9f, 0.7f, -2.6f}, .look = {0, -0.1f, 0.2f}, .fov_degrees = 45, .resolution = 32, .max_depth = depth}; }
 
 std::string walls() {
   const std::string grey = "Material \"diffuse\" \"rgb reflectance\" [0.6 0.5 0.4]\n";
   return diffuse_plane(0.8f, 2, 0.6f) +
-         block(grey + "Shape \"trianglemesh\" \"point3 P\" [-2 -1 -2 2 -1 -2 2 -1 2 -2 -1 2] \"integer indices\" [0 1 2 0 2 3]\n");
+         block(grey + "Shape \"trianglemesh\" \"point3 P\" [-2 -1.02 -2 2 -1.02 -2 2 -1.02 2 -2 -1.02 2] \"integer indices\" [0 1 2 0 2 3]\n");
 }
 
 constexpr Variant kPaths{.emission = EmissionStrategy::paths};
+
+/// At 1 % the scenes here take a quarter of an hour on two cores: `paths` finds small fires by chance. Nightly they are held
+/// at its precision; the defects met while this was written were of 6 to 9 %.
+Agreement at(double per_commit) {
+  Agreement how;
+  if (!nightly()) how.d = per_commit;
+  return how;
+}
 
 }  // namespace
 
@@ -47,12 +55,11 @@ TEST_CASE("fire lights a diffuse room, however a brick is chosen") {
                                 {"tree-binary", scene, {.lights = LightStrategy::tree_binary}},
                                 {"power, 3 to 1", scene, {.lights = LightStrategy::power, .candidates = 3}},
                                 {"uniform", scene, {.lights = LightStrategy::uniform}},
-                                {"4 split, all traced", scene, {.candidates = 4, .shadow_rays = 0, .splitting = 0.8f}}});
-  Agreement slow;
-  if (!nightly()) slow.d = 0.03;  // every brick at every vertex
+                                {"4 split, all traced", scene, {.candidates = 4, .shadow_rays = 0, .splitting = 0.8f}}}, at(0.03));
+  if (!nightly()) return;  // every brick at every vertex
   check_same("every brick of a fire in a room", {{"exhaustive", scene, {.lights = LightStrategy::exhaustive}},
                                                  {"exhaustive paths", scene, {.lights = LightStrategy::exhaustive, .emission = EmissionStrategy::paths}},
-                                                 {"paths", scene, kPaths}}, slow);
+                                                 {"paths", scene, kPaths}});
 }
 
 TEST_CASE("fire inside smoke that scatters, by every way of gathering along spans") {
@@ -63,14 +70,14 @@ TEST_CASE("fire inside smoke that scatters, by every way of gathering along span
                                {"product, 4 to 2", scene, {.candidates = 4, .shadow_rays = 2}},
                                {"integral, both", scene, {.media = MediaStrategy::integral, .distance = DistanceStrategy::both}},
                                {"closest, tracking", scene, {.media = MediaStrategy::closest, .distance = DistanceStrategy::tracking}},
-                               {"equiangular, by power", scene, {.lights = LightStrategy::power, .distance = DistanceStrategy::equiangular}}});
+                               {"equiangular, by power", scene, {.lights = LightStrategy::power, .distance = DistanceStrategy::equiangular}}}, at(0.03));
 }
 
 TEST_CASE("fire in smoke that scatters forward, g = 0.9") {
   const std::string scene = view(camera(5)) + fire() + smoke({.sigma_s = {1.2f, 1, 1.4f}, .g = 0.9f});
   check_same("fire in forward smoke", {{"paths", scene, kPaths},
                                        {"vertex", scene, {.media = MediaStrategy::vertex}},
-                                       {"product", scene}});
+                                       {"product", scene}}, at(0.03));
 }
 
 TEST_CASE("the camera in the fire, and a wall in it") {
@@ -80,27 +87,27 @@ TEST_CASE("the camera in the fire, and a wall in it") {
   inside.fov_degrees = 80;
   const std::string wall = block("Material \"diffuse\" \"rgb reflectance\" [0.7 0.7 0.7]\nShape \"disk\" \"float radius\" 0.3\n");
   const std::string scene = view(inside) + walls() + fire() + block("Translate 0.1 -0.4 0.2\nRotate 40 1 1 0\n" + wall);
-  check_same("within fire", {{"paths", scene, kPaths}, {"product", scene}, {"vertex", scene, {.media = MediaStrategy::vertex}}});
+  check_same("within fire", {{"paths", scene, kPaths}, {"product", scene}, {"vertex", scene, {.media = MediaStrategy::vertex}}}, at(0.03));
 }
 
 TEST_CASE("bricks beyond the boundary that brings the fire, a group for each half, fire in an unbounded fog") {
   const Grid grid = flames(kHearth);
   const Bounds3 left{kHearth.min, {-0.1f, 0.05f, 0.3f}}, right{{0.1f, -0.9f, -0.4f}, kHearth.max};
   const std::string scene = view(camera()) + walls() + uniform_grid("fire", kFire, grid) + medium_box("fire", "", left) + medium_box("fire", "", right);
-  check_same("halves of fire", {{"paths", scene, kPaths}, {"product", scene}, {"vertex", scene, {.media = MediaStrategy::vertex}}});
+  check_same("halves of fire", {{"paths", scene, kPaths}, {"product", scene}, {"vertex", scene, {.media = MediaStrategy::vertex}}}, at(0.03));
 
   View foggy = camera(4);
   foggy.before_camera = homogeneous("fog", {.sigma_s = {0.1f, 0.1f, 0.1f}, .Le = {}});
   foggy.medium = "fog";
   const std::string fog = view(foggy) + walls() + fire();
-  check_same("fire in fog", {{"paths", fog, kPaths}, {"product", fog}});
+  check_same("fire in fog", {{"paths", fog, kPaths}, {"product", fog}}, at(0.03));
 }
 
 TEST_CASE("thermal equilibrium with a white wall, the medium's glow sought as a light") {
   const Coefficients warm{.sigma_a = {1, 2, 0.5f}, .sigma_s = {3, 2, 4}, .g = 0.5f, .Le = Rgb(1.0f)};
   const std::string scene = view(camera(1000)) + environment(1) + uniform_grid("m", warm, flames(kHearth)) + medium_box("m", "", kHearth) +
                             diffuse_plane(0.6f, 0.7f, 1);
-  const Agreement furnace{.d = 0.004};
+  const Agreement furnace{.d = nightly() ? 0.004 : 0.012};
   check_agrees("equilibrium by spans", scene, {1.0, 1.0, 1.0}, furnace);
   Agreement vertex = furnace;
   vertex.variant.media = MediaStrategy::vertex;
