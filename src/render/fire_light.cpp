@@ -13,7 +13,7 @@ Rgb line_emission(const LightContext& context, const MediaState& media, const Ra
   const Trace trace = world.geometry.trace(ray, 0, kInfinity);
   Rng rng = sampler.stream();
   Rgb T{1.0f}, sum;
-  SpanWalk walk(world.media_context(), media, trace.crossings, trace.hit ? trace.hit->t : kInfinity);
+  SpanWalk walk(world.media_context(), media, trace.crossings, trace.t_end);
   while (const auto interval = walk.next()) {
     const MediaView view(interval->media.data(), interval->media.size());
     const bool glows = std::any_of(view.begin(), view.end(), [](const ParticipatingMedium* m) { return m->emissive(); });

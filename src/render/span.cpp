@@ -25,7 +25,7 @@ const SpanPart& Span::part_at(float t) const {
 
 Span make_span(const SpanWalk::Context& context, const MediaState& start, const Ray& ray, const Trace& trace,
                std::uint64_t& parity_errors) {
-  Span span{.ray = ray, .t_end = trace.hit ? trace.hit->t : kInfinity, .parts = {}, .end = {}};
+  Span span{.ray = ray, .t_end = trace.t_end, .parts = {}, .end = {}};
   SpanWalk walk(context, start, trace.crossings, span.t_end);
   while (const auto interval = walk.next()) span.parts.push_back({*interval, walk.state(), walk.state().bounds(context.groups)});
   span.end = walk.state();

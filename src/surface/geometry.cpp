@@ -34,8 +34,7 @@ Crossings find_crossings(const GeometryImpl& impl, RTCRayHit ray, GeometryQuery:
   return records.empty() ? Crossings{} : crossings_of(records, world_ray);
 }
 
-/// The t at which the ray is as near to the hit as the origin of a ray that leaves it on the same side: a boundary
-/// beyond (coplanar with the surface, say) belongs to the other side.
+/// The t at which the ray is as near to the hit as the origin of a ray that leaves it on the same side.
 float last_t_before(const SurfaceHit& hit, const Ray& ray) {
   const float slope = std::max(abs_dot(hit.ng, ray.d), 1e-3f * length(ray.d));
   return hit.t - hit.position_error / slope;
@@ -50,16 +49,17 @@ Geometry::Geometry(Geometry&&) noexcept = default;
 Geometry& Geometry::operator=(Geometry&&) noexcept = default;
 
 Trace Geometry::trace(const Ray& ray, float t_min, float t_max) const {
-  Trace trace;
+  Trace trace{.hit = {}, .t_end = t_max, .crossings = {}};
   RTCRayHit r = embree_ray(ray, t_min, t_max);
   if (RTCScene scene = impl_->world().real.get(); scene && traceable(r.ray)) {
     GeometryQuery query = make_query(*impl_, ray);
     rtcIntersect1(scene, &query.context, &r);
     if (r.hit.geomID != RTC_INVALID_GEOMETRY_ID) {
       trace.hit = surface_hit(*impl_, r);
-      r.ray.tfar = last_t_before(*trace.hit, ray);
+      trace.t_end = std::max(last_t_before(*trace.hit, ray), t_min);
     }
   }
+  r.ray.tfar = trace.t_end;
   trace.crossings = find_crossings(*impl_, r, GeometryQuery::Boundaries::of_interfaces, ray);
   return trace;
 }

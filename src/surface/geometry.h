@@ -59,9 +59,11 @@ using Crossings = SmallVector<Crossing, 8>;
 /// neighbours at an edge) count once; what enters and leaves at one t, to rounding, cancels.
 struct Trace {
   std::optional<SurfaceHit> hit;  ///< nearest surface that is not of interface material
-  /// Of interface boundaries in (t_min, t_max), up to where offset_origin() starts on the near side of the hit: one that
-  /// is coplanar with the hit surface belongs to its far side.
-  Crossings crossings;
+  /// Where the way through media ends: as near to the hit as offset_origin() on its near side, at t_min or beyond; t_max
+  /// without a hit. A boundary farther on (coplanar with the surface, say) belongs to the far side, so nothing may happen
+  /// between here and the hit: it would be on the wrong side of that boundary.
+  float t_end;
+  Crossings crossings;  ///< of interface boundaries in (t_min, t_end)
 };
 
 /// Immutable after construction; every query may be made from any number of threads.

@@ -49,6 +49,33 @@ TEST_CASE("a job gives the same picture however it is advanced, and the one that
   CHECK(one.report().paths == many.report().paths);
 }
 
+TEST_CASE("a path that scatters between a boundary and a surface right behind it keeps its place") {
+  // The gap is less than the surface's place is known to, for its size. Who scatters in it is on the wrong side of the
+  // boundary, enters the medium a second time on the way back, and never leaves it.
+  constexpr const char* kSlab = R"(
+Film "rgb" "integer xresolution" 16 "integer yresolution" 16
+LookAt 0 0 .05 0 0 0 0 1 0
+Camera "orthographic" "float screenwindow" [-.1 .1 -.1 .1]
+Integrator "volpath" "integer maxdepth" 1000
+WorldBegin
+LightSource "infinite" "rgb L" [1 1 1]
+MakeNamedMedium "m" "string type" "homogeneous" "rgb sigma_a" [0 0 0] "rgb sigma_s" [1 1 1]
+AttributeBegin
+MediumInterface "m" ""
+Material "interface"
+Shape "trianglemesh" "integer indices" [0 2 1 0 3 2 4 5 6 4 6 7 0 1 5 0 5 4 1 2 6 1 6 5 2 3 7 2 7 6 3 0 4 3 4 7]
+ "point3 P" [-200 -200 -1 200 -200 -1 200 200 -1 -200 200 -1 -200 -200 0 200 -200 0 200 200 0 -200 200 0]
+AttributeEnd
+Material "diffuse" "rgb reflectance" [0 0 0]
+Shape "trianglemesh" "point3 P" [-3000 -3000 -1.001 3000 -3000 -1.001 3000 3000 -1.001 -3000 3000 -1.001] "integer indices" [0 1 2 0 2 3]
+)";
+  const World world = build(read_scene_text(kSlab, "slab.pbrt").scene, {.threads = 1});
+  RenderJob job(world, settings_of(1));
+  job.advance(64);
+  CHECK(job.report().rays > 10'000);
+  CHECK(job.report().parity_errors == 0);
+}
+
 TEST_CASE("a pass can be given up") {
   const World world = world_of();
   RenderJob job(world, settings_of(1));

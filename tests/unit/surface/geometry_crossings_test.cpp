@@ -219,6 +219,9 @@ TEST_CASE("a boundary coplanar with the surface that is hit belongs to the far s
     if (!trace.hit) continue;
     ++hits;
     CHECK(trace.crossings.empty());
+    CHECK(trace.t_end < trace.hit->t);
+    // Nor may anything happen on the near side beyond it.
+    CHECK(sum_of(geometry.trace_all({ray.at(trace.t_end), -ray.d}, 0, kInfinity)) == -1);
     const Vec3 up = normalize(inside - foot);
     CHECK(sum_of(geometry.trace_all({geometry.offset_origin(*trace.hit, up), up}, 0, kInfinity)) == -1);
   }
