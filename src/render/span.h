@@ -19,7 +19,7 @@ struct SpanPart : Interval {
 
 struct Span {
   Ray ray;
-  float t_end = 0;              ///< Trace::t_end: just before what stops the ray; else infinite
+  float t_end = 0;              ///< Trace::t_end: infinite where nothing stops the ray
   std::vector<SpanPart> parts;  ///< in order, those without a medium left out
   MediaState end;               ///< membership at t_end
 

@@ -40,6 +40,15 @@ float last_t_before(const SurfaceHit& hit, const Ray& ray) {
   return hit.t - hit.position_error / slope;
 }
 
+/// Drops the crossings beyond `last`. Nothing may happen past the first of them.
+void leave_to_far_side(Trace& trace, float last) {
+  std::size_t near = 0;
+  while (near < trace.crossings.size() && trace.crossings[near].t < last) ++near;
+  if (near == trace.crossings.size()) return;
+  trace.t_end = trace.crossings[near].t;
+  trace.crossings.truncate(near);
+}
+
 }  // namespace
 
 Geometry::Geometry(const Scene& scene, const Textures* textures, int threads)
@@ -56,11 +65,12 @@ Trace Geometry::trace(const Ray& ray, float t_min, float t_max) const {
     rtcIntersect1(scene, &query.context, &r);
     if (r.hit.geomID != RTC_INVALID_GEOMETRY_ID) {
       trace.hit = surface_hit(*impl_, r);
-      trace.t_end = std::max(last_t_before(*trace.hit, ray), t_min);
+      trace.t_end = trace.hit->t;
     }
   }
   r.ray.tfar = trace.t_end;
   trace.crossings = find_crossings(*impl_, r, GeometryQuery::Boundaries::of_interfaces, ray);
+  if (trace.hit) leave_to_far_side(trace, last_t_before(*trace.hit, ray));
   return trace;
 }
 

@@ -59,9 +59,9 @@ using Crossings = SmallVector<Crossing, 8>;
 /// neighbours at an edge) count once; what enters and leaves at one t, to rounding, cancels.
 struct Trace {
   std::optional<SurfaceHit> hit;  ///< nearest surface that is not of interface material
-  /// Where the way through media ends: as near to the hit as offset_origin() on its near side, at t_min or beyond; t_max
-  /// without a hit. A boundary farther on (coplanar with the surface, say) belongs to the far side, so nothing may happen
-  /// between here and the hit: it would be on the wrong side of that boundary.
+  /// Where the way through media ends: at the hit, or t_max. A boundary that is nearer to the hit than offset_origin() on
+  /// its near side (coplanar with the surface, say) belongs to the far side: the way then ends there, since what happened
+  /// past it would be on the wrong side of it.
   float t_end;
   Crossings crossings;  ///< of interface boundaries in (t_min, t_end)
 };
