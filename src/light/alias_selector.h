@@ -1,4 +1,4 @@
-/// Choices that do not look at the point or segment: uniform, by power, and all lights at once.
+/// Choices that do not look at the point or segment: uniform, by power, all lights at once, and where there is no choice.
 #pragma once
 
 #include "light/selection.h"
@@ -33,6 +33,21 @@ class ExhaustiveSelector final : public AliasSelector {
   float pmf(const PointQuery&, LightId) const override { return 1; }
   float pmf(const SegmentQuery&, LightId) const override { return 1; }
   bool exhaustive() const override { return true; }
+};
+
+/// There is one light only.
+class OnlyLight final : public LightSelector {
+ public:
+  explicit OnlyLight(LightId light) : light_(light) {}
+
+  std::optional<SelectedLight> select(const PointQuery&, double) const override { return SelectedLight{light_, 1}; }
+  std::optional<SelectedLight> select(const SegmentQuery&, double) const override { return SelectedLight{light_, 1}; }
+  float pmf(const PointQuery&, LightId light) const override { return light == light_ ? 1.0f : 0.0f; }
+  float pmf(const SegmentQuery&, LightId light) const override { return light == light_ ? 1.0f : 0.0f; }
+  std::size_t memory_bytes() const override { return sizeof(*this); }
+
+ private:
+  LightId light_;
 };
 
 }  // namespace tyndall

@@ -21,13 +21,22 @@ LightCut all_as_one(const CutSettings& settings) {
   return whole;
 }
 
+/// The cut is all lights as one.
 template <typename Query>
 LightCandidates one_by_one(const LightSelector& selector, const LightCut& cut, const Query& query, double u) {
   LightCandidates drawn;
   for_each_candidate(cut, u, [&](int, const LightCluster& cluster, double below) {
-    if (const auto s = selector.select_in(cluster, query, below)) drawn.push_back({s->light, s->pmf * cluster.candidates});
+    if (const auto s = selector.select(query, below)) drawn.push_back({s->light, s->pmf * cluster.candidates});
   });
   return drawn;
+}
+
+/// The light that has power, where no other has.
+std::optional<LightId> only_light(const std::vector<double>& power) {
+  const auto has_power = [](double w) { return w > 0; };
+  const auto first = std::find_if(power.begin(), power.end(), has_power);
+  if (first == power.end() || std::any_of(first + 1, power.end(), has_power)) return std::nullopt;
+  return static_cast<LightId>(first - power.begin());
 }
 
 }  // namespace
@@ -38,13 +47,6 @@ bool uses_bounds(LightStrategy strategy) {
 
 LightCut LightSelector::cut(const PointQuery&, const CutSettings& settings) const { return all_as_one(settings); }
 LightCut LightSelector::cut(const SegmentQuery&, const CutSettings& settings) const { return all_as_one(settings); }
-
-std::optional<SelectedLight> LightSelector::select_in(const LightCluster&, const PointQuery& query, double u) const {
-  return select(query, u);
-}
-std::optional<SelectedLight> LightSelector::select_in(const LightCluster&, const SegmentQuery& query, double u) const {
-  return select(query, u);
-}
 
 LightCandidates LightSelector::draw(const LightCut& cut, const PointQuery& query, double u) const {
   return one_by_one(*this, cut, query, u);
@@ -61,6 +63,8 @@ float LightSelector::expected(const LightCut& cut, const SegmentQuery& query, Li
 }
 
 std::unique_ptr<const LightSelector> make_selector(LightStrategy strategy, SelectionInput input) {
+  const auto only = only_light(input.power);
+  if (only && strategy != LightStrategy::exhaustive) return std::make_unique<OnlyLight>(*only);
   switch (strategy) {
     case LightStrategy::uniform:
       return std::make_unique<AliasSelector>(equal_weights(std::move(input.power)));

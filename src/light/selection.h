@@ -27,8 +27,6 @@ class LightSelector {
   virtual float pmf(const PointQuery& query, LightId light) const = 0;
   /// The clusters that a vertex draws its candidates from. Unless a strategy can tell better: all lights as one.
   virtual LightCut cut(const PointQuery& query, const CutSettings& settings) const;
-  /// One light of a cluster of the query's cut, as select(); its pmf is that within the cluster.
-  virtual std::optional<SelectedLight> select_in(const LightCluster& cluster, const PointQuery& query, double u) const;
   /// All candidates of the query's cut by one number as of select(); fewer where no light is known to contribute.
   virtual LightCandidates draw(const LightCut& cut, const PointQuery& query, double u) const;
   /// How often the candidates of the cut are `light`, on average; exhaustive: 1.
@@ -38,7 +36,6 @@ class LightSelector {
   virtual std::optional<SelectedLight> select(const SegmentQuery& query, double u) const = 0;
   virtual float pmf(const SegmentQuery& query, LightId light) const = 0;
   virtual LightCut cut(const SegmentQuery& query, const CutSettings& settings) const;
-  virtual std::optional<SelectedLight> select_in(const LightCluster& cluster, const SegmentQuery& query, double u) const;
   virtual LightCandidates draw(const LightCut& cut, const SegmentQuery& query, double u) const;
   virtual float expected(const LightCut& cut, const SegmentQuery& query, LightId light) const;
 

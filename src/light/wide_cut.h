@@ -9,8 +9,9 @@
 namespace tyndall {
 
 /// Clusters by their NodeRef. Clusters that cannot contribute are left out. Those with the largest predicted deviation
-/// are split first, as long as one has a score below `settings.splitting` and its children fit into
-/// `settings.candidates`; what candidates are left then go to the clusters by importance.
+/// are split first, as long as one has a score below `settings.splitting` and there is room: for as many clusters as
+/// candidates, and for 15 at least. Every cluster has a candidate if there are enough, and the rest goes by importance;
+/// else all do, as fractions that sum to `settings.candidates`.
 LightCut wide_cut(const WideLightTree& tree, const PointQuery& query, const CutSettings& settings);
 LightCut wide_cut(const WideLightTree& tree, const Segment& query, const CutSettings& settings);
 

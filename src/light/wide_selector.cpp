@@ -20,12 +20,6 @@ const LightCluster* find(const LightCut& cut, std::uint32_t ref) {
   return it == cut.end() ? nullptr : it;
 }
 
-template <typename Choice>
-std::optional<SelectedLight> answer(const std::optional<Choice>& choice) {
-  if (!choice) return std::nullopt;
-  return SelectedLight{choice->light, static_cast<float>(choice->pmf)};
-}
-
 }  // namespace
 
 template <typename Query>
@@ -34,10 +28,11 @@ LightCut WideSelector::split(const Query& query, int candidates, float splitting
   LightCut cut;
   if (share.near > 0) cut = wide_cut(tree(), query, {candidates, splitting});
   if (!(share.far > 0)) return cut;
+  const double far = cut.empty() ? 1 : share.far;  // the tree as a whole may promise what none of its lights keeps
   if (candidates > 0) {
     for (LightCluster& c : cut) c.candidates *= static_cast<float>(share.near);
   }
-  cut.push_back({kFarCluster, candidates > 0 ? static_cast<float>(share.far * candidates) : 1.0f});
+  cut.push_back({kFarCluster, candidates > 0 ? static_cast<float>(far * candidates) : 1.0f});
   return cut;
 }
 
@@ -46,12 +41,6 @@ LightCut WideSelector::cut(const PointQuery& query, const CutSettings& settings)
 }
 LightCut WideSelector::cut(const SegmentQuery& query, const CutSettings& settings) const {
   return split(Segment(query), settings.candidates.value_or(1), settings.splitting);
-}
-
-template <typename Query>
-std::optional<SelectedLight> WideSelector::draw_in(const LightCluster& cluster, const Query& query, double u) const {
-  if (cluster.ref == kFarCluster) return answer(far().select(query, u));
-  return answer(tree().select_below(cluster.ref, tree().localize(query), u));
 }
 
 template <typename Query>
@@ -93,13 +82,6 @@ float WideSelector::tries(const LightCut& cut, const Query& query, LightId light
   if (slot < kFar) return static_cast<float>(expected_near(cut, query, slot));
   const LightCluster* c = find(cut, kFarCluster);
   return c ? static_cast<float>(c->candidates * far().pmf(query, slot - kFar)) : 0.0f;
-}
-
-std::optional<SelectedLight> WideSelector::select_in(const LightCluster& cluster, const PointQuery& query, double u) const {
-  return draw_in(cluster, query, u);
-}
-std::optional<SelectedLight> WideSelector::select_in(const LightCluster& cluster, const SegmentQuery& query, double u) const {
-  return draw_in(cluster, Segment(query), u);
 }
 
 LightCandidates WideSelector::draw(const LightCut& cut, const PointQuery& query, double u) const { return draw_all(cut, query, u); }

@@ -11,8 +11,6 @@ class WideSelector final : public TreeSelector<WideLightTree> {
 
   LightCut cut(const PointQuery& query, const CutSettings& settings) const override;
   LightCut cut(const SegmentQuery& query, const CutSettings& settings) const override;
-  std::optional<SelectedLight> select_in(const LightCluster& cluster, const PointQuery& query, double u) const override;
-  std::optional<SelectedLight> select_in(const LightCluster& cluster, const SegmentQuery& query, double u) const override;
   LightCandidates draw(const LightCut& cut, const PointQuery& query, double u) const override;
   LightCandidates draw(const LightCut& cut, const SegmentQuery& query, double u) const override;
   float expected(const LightCut& cut, const PointQuery& query, LightId light) const override;
@@ -21,8 +19,6 @@ class WideSelector final : public TreeSelector<WideLightTree> {
  private:
   template <typename Query>
   LightCut split(const Query& query, int candidates, float splitting) const;
-  template <typename Query>
-  std::optional<SelectedLight> draw_in(const LightCluster& cluster, const Query& query, double u) const;
   template <typename Query>
   LightCandidates draw_all(const LightCut& cut, const Query& query, double u) const;
   template <typename Query>

@@ -100,6 +100,32 @@ TEST_CASE("every strategy: probabilities sum to at most 1, and draws follow them
   }
 }
 
+TEST_CASE("where one light alone has power nothing is asked: it is chosen, from everywhere") {
+  SelectionInput input;
+  input.power = {0, 0, 5, 0};
+  input.near.push_back({test::point_bounds({1, 2, 3}, 5), 2});
+  for (const LightStrategy strategy : kStrategies) {
+    CAPTURE(name_of(strategy));
+    const auto selector = make_selector(strategy, input);
+    CHECK(selector->memory_bytes() < 100);
+    for (const PointQuery& q : queries()) {
+      const LightCut cut = selector->cut(q, {.candidates = 3, .splitting = 0.5f});
+      const LightCandidates drawn = selector->draw(cut, q, 0.4);
+      REQUIRE(drawn.size() == 3);
+      for (const LightCandidate& c : drawn) {
+        CHECK(c.light == 2);
+        CHECK(c.tries == 3);
+      }
+      CHECK(selector->expected(cut, q, 2) == 3);
+      CHECK(selector->expected(cut, q, 1) == 0);
+    }
+    for (const SegmentQuery& q : segments()) {
+      CHECK(selector->select(q, 0.9)->light == 2);
+      CHECK(selector->pmf(q, 2) == 1);
+    }
+  }
+}
+
 TEST_CASE("lights at infinity along a segment: by irradiance, length, and what the medium makes of it") {
   const FarLight lights[] = {sun(0, {1, 0, 0}, 2), sun(1, {-1, 0, 0}, 1), upper_sky(2, 0.5f, true)};
   const FarLights far(lights);

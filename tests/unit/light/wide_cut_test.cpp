@@ -59,6 +59,33 @@ std::vector<PointQuery> queries() {
   return all;
 }
 
+TEST_CASE("where no light of the tree keeps what their common bounds promise, the sun has all candidates") {
+  // Bundles of narrow spots around the point. In each one the spots look past it to all sides: together they may shine
+  // anywhere, and none does.
+  SelectionInput input;
+  const auto add_near = [&input](Vec3 p, Vec3 axis) {
+    input.near.push_back({test::spot_bounds(p, axis, 0.1f, 0.2f, 1e6f), static_cast<LightId>(input.power.size())});
+    input.power.push_back(1);
+  };
+  for (int i = 0; i < 12; ++i) {
+    const float a = static_cast<float>(i) * kPi / 6;
+    const Vec3 out{std::cos(a), std::sin(a), 0}, along{-out.y, out.x, 0};
+    for (const Vec3 axis : {along, -along, Vec3{0, 0, 1}, Vec3{0, 0, -1}}) add_near(out * 10, normalize(axis + out * 0.5f));
+  }
+  const auto sun = static_cast<LightId>(input.power.size());
+  input.far.push_back({{{DirectionCone::around({0, 0, 1}), {0, 0, 1}, 1e-3f, 1e-3f}}, sun});
+  input.power.push_back(1e-3);
+  const auto selector = make_selector(LightStrategy::tree, input);
+  PointQuery q{};
+  q.n = {0, 0, 1};
+  for (const int n : {1, 4}) {
+    const LightCut cut = selector->cut(q, {.candidates = n, .splitting = 0.9f});
+    CHECK(total(cut) == doctest::Approx(n));
+    CHECK(selector->expected(cut, q, sun) == doctest::Approx(n));
+    CHECK(selector->draw(cut, q, 0.3).size() == static_cast<std::size_t>(n));
+  }
+}
+
 TEST_CASE("a cut keeps to its candidates, and its clusters hold each light once") {
   for (const bool sun : {false, true}) {
     const auto selector = make_selector(LightStrategy::tree, lights_of(300, sun));
