@@ -64,8 +64,7 @@ Rgb collision_light(const LightContext& context, const Vertex& vertex, const Spa
   for (const Survivor& s : survivors) {
     const LightSample& light = candidates[s.index].light;
     const MediaState media = vertex.media_toward(context.world.geometry, light.wi);
-    sum += candidates[s.index].contribution * s.scale *
-           arriving(context, media, vertex.p(), light, sampler);
+    sum += candidates[s.index].contribution * s.scale * arriving(context, media, vertex.p(), light, sampler);
   }
   return sum;
 }

@@ -18,6 +18,7 @@ constexpr int kCandidates = 8, kLaterCandidates = 4;
 /// Transmittances below this do not count as less in choices: the medium may be thinner than it looks.
 constexpr float kLeastTransmittance = 1e-3f;
 constexpr int kShadowReads = 4;
+
 /// What the media do at a point of a span.
 struct Scattering {
   Rgb sigma_s;
@@ -27,10 +28,10 @@ struct Scattering {
   static Scattering at(const SpanPart& part, Vec3 p) {
     Scattering s;
     for (const ParticipatingMedium* medium : part.media) {
-      const Coefficients c = medium->at(p);
-      s.sigma_s += c.sigma_s;
-      s.sigma_t += mean(c.sigma_t());
-      s.phase.add(c.sigma_s, c.g);
+      const auto [sigma_a, sigma_s, g] = medium->optics_at(p);
+      s.sigma_s += sigma_s;
+      s.sigma_t += mean(sigma_a + sigma_s);
+      s.phase.add(sigma_s, g);
     }
     return s;
   }
@@ -155,8 +156,7 @@ Rgb evaluate(const LightContext& context, const Span& span, const Pairs& pairs, 
     const Rgb T = walk.to(pair.t);
     if (is_black(T)) continue;
     const Vec3 p = span.ray.at(pair.t);
-    sum += pair.contribution * T * s.scale *
-           arriving(context, pair.part->state, p, pair.light, sampler);
+    sum += pair.contribution * T * s.scale * arriving(context, pair.part->state, p, pair.light, sampler);
   }
   return sum;
 }

@@ -12,13 +12,15 @@ constexpr int kBins = SpanProfile::kBins;
 constexpr int kFirstLook = 12;  ///< reads by which the bins are placed
 /// Optical depth at which a span without end is taken to be over.
 constexpr float kDeep = 16;
+/// A medium so thin that it is this wide has nothing to show: squares of distances must stay finite.
+constexpr float kFarthest = 1e18f;
 /// Share of the bins that lie evenly, whatever is scattered where.
 constexpr float kEvenShare = 0.25f;
 
 /// (1 - exp(-x)) / x: the mean of exp over [0, x].
 float mean_exponential(float x) { return x > 1e-3f ? (1 - std::exp(-x)) / x : 1 - 0.5f * x; }
 
-/// Where the span's media can be anything but empty.
+/// Where the span's media can scatter.
 struct Extent {
   float begin = kInfinity, end = 0;
   bool uniform = true;  ///< one part, and the same everywhere in it
@@ -27,12 +29,18 @@ struct Extent {
 Extent extent_of(const Span& span) {
   Extent e;
   for (const SpanPart& part : span.parts) {
-    const auto range = coarse_extent(part.view(), span.ray, part.t0, part.t1);
-    if (!range) continue;
-    if (e.begin < kInfinity) e.uniform = false;
-    e.begin = std::min(e.begin, range->first);
-    e.end = std::max(e.end, range->second);
-    for (const ParticipatingMedium* medium : part.media) e.uniform = e.uniform && medium->homogeneous();
+    bool scatters = false, homogeneous = true;
+    const float passed = e.end;
+    for (const ParticipatingMedium* medium : part.media) {
+      homogeneous = homogeneous && medium->homogeneous();
+      if (!medium->scatters()) continue;
+      const auto range = coarse_extent({&medium, 1}, span.ray, part.t0, part.t1);
+      if (!range) continue;
+      scatters = true;
+      e.begin = std::min(e.begin, range->first);
+      e.end = std::max(e.end, range->second);
+    }
+    if (scatters) e.uniform = homogeneous && passed == 0;
   }
   return e;
 }
@@ -51,7 +59,8 @@ float last_distance(const Span& span, const Extent& e) {
   float sigma_t = 0, settled = from;
   for (const ParticipatingMedium* medium : last.media) {
     if (medium->homogeneous()) {
-      sigma_t += mean(medium->at(span.ray.o).sigma_t());
+      const auto [sigma_a, sigma_s, g] = medium->optics_at(span.ray.o);
+      sigma_t += mean(sigma_a + sigma_s);
     } else if (const auto range = coarse_extent({&medium, 1}, span.ray, last.t0, last.t1)) {
       settled = std::max(settled, range->second);
     }
@@ -120,11 +129,12 @@ std::optional<SpanProfile> SpanProfile::of(const Span& span) {
   SpanProfile profile;
   if (extent.uniform) {
     const CoarseOptics o = optics_at(span, extent.begin);
-    if (!(o.sigma_s > 0)) return std::nullopt;
+    if (!(o.sigma_s > 0) || !(kDeep / o.sigma_t < kFarthest)) return std::nullopt;
     profile.edge_ = uniform_edges(extent.begin, extent.end, o.sigma_t);
     profile.fill([o](float) { return o; });
   } else {
     const float last = last_distance(span, extent);
+    if (!(last < kFarthest)) return std::nullopt;
     profile.edge_ = look_for_edges(span, extent.begin, last);
     profile.fill([&span](float t) { return optics_at(span, t); });
     profile.edge_.back() = extent.end;

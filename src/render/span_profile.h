@@ -16,7 +16,7 @@ class SpanProfile {
   static constexpr int kBins = 24;
   static_assert(kBins % SegmentProfile::kBins == 0);
 
-  /// Nothing where the span's media do not scatter.
+  /// Nothing where the span's media do not scatter, or so little that it takes 1e18 units to see it.
   static std::optional<SpanProfile> of(const Span& span);
 
   float begin() const { return edge_.front(); }  ///< distances between which light is scattered

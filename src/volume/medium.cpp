@@ -36,27 +36,26 @@ ParticipatingMedium& ParticipatingMedium::operator=(ParticipatingMedium&&) noexc
 ParticipatingMedium::~ParticipatingMedium() = default;
 
 Coefficients ParticipatingMedium::at(Vec3 p) const {
+  const auto [sigma_a, sigma_s, g] = optics_at(p);
+  return {.sigma_a = sigma_a, .sigma_s = sigma_s, .Le = is_black(sigma_a) ? Rgb() : data_->emission.at(p), .g = g};
+}
+
+MediumOptics ParticipatingMedium::optics_at(Vec3 p) const {
   const MediumData& m = *data_;
-  Coefficients result;
-  result.g = m.optics.g;
-  if (m.kind == MediumData::Kind::homogeneous) {
-    result.sigma_a = m.optics.sigma_a;
-    result.sigma_s = m.optics.sigma_s;
+  if (m.kind == MediumData::Kind::homogeneous) return m.optics;
+  MediumOptics result{.sigma_a = Rgb(), .sigma_s = Rgb(), .g = m.optics.g};
+  const Vec3d local = m.density.to_local.point(p);
+  if (!m.clip.contains(local)) return result;
+  if (m.kind == MediumData::Kind::cloud) {
+    const float d =
+        cloud_density(m.cloud, {static_cast<float>(local[0]), static_cast<float>(local[1]), static_cast<float>(local[2])});
+    result.sigma_a = m.optics.sigma_a * d;
+    result.sigma_s = m.optics.sigma_s * d;
   } else {
-    const Vec3d local = m.density.to_local.point(p);
-    if (!m.clip.contains(local)) return result;
-    if (m.kind == MediumData::Kind::cloud) {
-      const float d =
-          cloud_density(m.cloud, {static_cast<float>(local[0]), static_cast<float>(local[1]), static_cast<float>(local[2])});
-      result.sigma_a = m.optics.sigma_a * d;
-      result.sigma_s = m.optics.sigma_s * d;
-    } else {
-      float values[kMaxChannels];
-      m.density.grid.lookup(local, values);
-      m.scale_by(values, result.sigma_a, result.sigma_s);
-    }
+    float values[kMaxChannels];
+    m.density.grid.lookup(local, values);
+    m.scale_by(values, result.sigma_a, result.sigma_s);
   }
-  result.Le = m.emission.at(p);
   return result;
 }
 

@@ -39,6 +39,8 @@ class ParticipatingMedium {
 
   /// At world-space `p`; grids are interpolated trilinearly.
   Coefficients at(Vec3 p) const;
+  /// The same without emission, whose grids are not read.
+  MediumOptics optics_at(Vec3 p) const;
   bool emissive() const;
   bool scatters() const;  ///< false: sigma_s is 0 everywhere
   bool homogeneous() const;

@@ -53,10 +53,15 @@ scene "" >bare.pbrt
 scene "$(medium '"string type" "homogeneous"')" >fog.pbrt
 scene "$(medium "$grid \"float density\" [1 2 3 4 5 6 7 8]")" >smoke.pbrt
 scene "$(medium "$grid \"float density\" [1 2 3 4 5 6 7 8] \"float temperature\" [900 900 2000 900 900 900 900 900]")" >fire.pbrt
-for name in bare fog smoke fire; do ran $name; done
+{ scene ""; echo 'LightSource "point" "point3 from" [0 2 0] "rgb I" [1 1 1]'; } >two.pbrt
+for name in bare two fog smoke fire; do ran $name; done
 
 absent "$(of_volume bare)" "a scene without media executes"
 present "$(of_volume fog)" "a scene with fog executes nothing of src/volume"
+
+tree='LightTree|WideSelector|TreeSelector|WideNode|wide_cut|CutBuilder|child_importance'
+absent "$(grep -E "$tree" bare.txt fog.txt smoke.txt)" "one light is sought in a tree"
+present "$(grep -E "$tree" two.txt)" "two lights are not sought in a tree"
 
 tracking='with_walk|MediumWalk|MergedWalk|BrickReader|GridRay|BrickGrid::lookup'
 absent "$(grep -E "$tracking" fog.txt)" "homogeneous media are tracked"

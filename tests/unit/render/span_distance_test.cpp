@@ -130,6 +130,29 @@ void check_sampler(const SpanProfile& profile, const DistanceSampler& sampler, f
 
 }  // namespace
 
+TEST_CASE("a profile is of what scatters: not of clear stretches, nor of fog without coefficients") {
+  Case c;
+  for (const float sigma : {0.5f, 0.0f}) c.media.push_back(homogeneous(sigma));
+  c.span.ray = {{0, 0, 0}, {0, 0, 1}};
+  c.span.t_end = kInfinity;
+  for (std::size_t i = 0; i < 2; ++i) {
+    SpanPart part{};
+    part.t0 = i == 0 ? 1 : 4;
+    part.t1 = i == 0 ? 4 : kInfinity;
+    part.media.push_back(&c.media[i]);
+    c.span.parts.push_back(part);
+  }
+  const auto profile = SpanProfile::of(c.span);
+  REQUIRE(profile);
+  CHECK(profile->begin() == 1);
+  CHECK(profile->end() == 4);
+  for (const float edge : profile->edges()) CHECK(std::isfinite(edge));
+  c.span.parts.erase(c.span.parts.begin());
+  CHECK_FALSE(SpanProfile::of(c.span));
+  CHECK_FALSE(SpanProfile::of(endless(1e-40f).span));
+  CHECK(SpanProfile::of(endless(1e-15f).span));
+}
+
 TEST_CASE("distances toward lights follow their density") {
   const std::vector<LightPlace> places{{Vec3(0.3f, 0, 2), 0}, {Vec3(0, 0.01f, 6), 0}, {Vec3(40, 0, 3), 0.5f}, {Vec3(0, 0, 5.5f), 0},
                                        {Vec3(2, 1, -30), 0}, {std::nullopt, 0}};
