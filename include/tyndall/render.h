@@ -18,6 +18,7 @@ namespace tyndall {
 
 struct BuildSettings {
   std::vector<LightStrategy> lights{LightStrategy::tree};  ///< those that will be rendered with
+  bool fire = false;      ///< glowing media can be sought as lights: what EmissionStrategy::lights needs
   bool sanitize = false;  ///< NaN and infinite voxels become 0 instead of an error
   int threads = 0;        ///< 0: all cores
   /// Bytes: a scene that is estimated to need more, film and volumes included, is refused before anything is built.

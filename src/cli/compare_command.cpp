@@ -22,7 +22,9 @@ constexpr std::uint64_t kReferenceSeed = 0x7265666572656e63;  ///< apart from an
 
 World build_for(Scene scene, const ComparePlan& plan, const RenderSettings& base, const CompareOptions& o) {
   BuildSettings settings{.lights = {base.lights}, .sanitize = o.picture.sanitize, .threads = base.threads};
+  settings.fire = base.emission == EmissionStrategy::lights;
   for (const CompareVariant& v : plan.variants) {
+    settings.fire = settings.fire || v.settings.emission == EmissionStrategy::lights;
     auto& known = settings.lights;
     if (std::find(known.begin(), known.end(), v.settings.lights) == known.end()) known.push_back(v.settings.lights);
   }

@@ -64,8 +64,11 @@ int run_render(const RenderOptions& options) {
 
   std::optional<Reference> reference;
   if (!options.reference.empty()) reference = read_reference(options.reference);
-  const World world = build(std::move(file.scene), {.lights = {settings.lights}, .sanitize = options.picture.sanitize,
-                                                    .threads = settings.threads, .max_memory = memory_limit(options.max_memory)});
+  const World world = build(std::move(file.scene), {.lights = {settings.lights},
+                                                    .fire = settings.emission == EmissionStrategy::lights,
+                                                    .sanitize = options.picture.sanitize,
+                                                    .threads = settings.threads,
+                                                    .max_memory = memory_limit(options.max_memory)});
   summary.build = world.summary();
   summary.build_seconds = watch.lap();
   if (!options.quiet) print_notes(file, world);

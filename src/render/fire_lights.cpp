@@ -21,6 +21,30 @@ float third(Vec2 u) {
   return static_cast<float>(hash(bits) >> 40) * 0x1p-24f;
 }
 
+/// Mean and standard deviation of where the fire is.
+LightPlace place_of(const std::vector<VolumeEmitter>& emitters) {
+  double total = 0;
+  std::array<double, 3> sum{}, squares{};
+  for (const VolumeEmitter& e : emitters) {
+    const Vec3 p = e.box.center();
+    total += double{e.intensity};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double x = p[static_cast<int>(i)];
+      sum[i] += e.intensity * x;
+      squares[i] += e.intensity * x * x;
+    }
+  }
+  if (!(total > 0)) return {};
+  Vec3 center;
+  double variance = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double mean = sum[i] / total;
+    center[static_cast<int>(i)] = static_cast<float>(mean);
+    variance += squares[i] / total - mean * mean;
+  }
+  return {center, static_cast<float>(std::sqrt(std::max(variance, 0.0)))};
+}
+
 }  // namespace
 
 FireLights::FireLights(const std::vector<ParticipatingMedium>& media, const std::vector<BoundaryGroup>& groups,
@@ -40,7 +64,7 @@ FireLights::FireLights(const std::vector<ParticipatingMedium>& media, const std:
     media_.push_back({i, next, std::move(bricks), reach});
     next += count;
   }
-  find_place();
+  place_ = place_of(emitters());
 }
 
 std::vector<VolumeEmitter> FireLights::emitters() const {
@@ -52,30 +76,6 @@ std::vector<VolumeEmitter> FireLights::emitters() const {
     }
   }
   return all;
-}
-
-/// Mean and standard deviation of where the fire is.
-void FireLights::find_place() {
-  double total = 0;
-  std::array<double, 3> sum{}, squares{};
-  for (const VolumeEmitter& e : emitters()) {
-    const Vec3 p = e.box.center();
-    total += double{e.intensity};
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double x = p[static_cast<int>(i)];
-      sum[i] += e.intensity * x;
-      squares[i] += e.intensity * x * x;
-    }
-  }
-  if (!(total > 0)) return;
-  Vec3 center;
-  double variance = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double mean = sum[i] / total;
-    center[static_cast<int>(i)] = static_cast<float>(mean);
-    variance += squares[i] / total - mean * mean;
-  }
-  place_ = {center, static_cast<float>(std::sqrt(std::max(variance, 0.0)))};
 }
 
 const FireLights::Glow& FireLights::glow_of(LightId light) const {

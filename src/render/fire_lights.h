@@ -51,7 +51,6 @@ class FireLights {
     Bounds3 reach;  ///< of the groups that bring the medium
   };
   const Glow& glow_of(LightId light) const;
-  void find_place();
 
   std::vector<Glow> media_;
   LightId first_ = 0;

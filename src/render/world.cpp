@@ -145,7 +145,8 @@ World::Parts::Parts(UnitScene unit_scene, const BuildSettings& settings, std::si
       materials(scene, textures),
       geometry(build_geometry(scene, textures, settings.threads, summary)),
       media(build_media(scene, settings, volume_memory, summary)),
-      fire(media, geometry.groups(), scene.camera.medium),
+      fire(settings.fire ? FireLights(media, geometry.groups(), scene.camera.medium) : FireLights()),
+      has_fire(settings.fire),
       camera(scene.camera, scene.film),
       filter(scene.filter) {
   const Stopwatch watch;

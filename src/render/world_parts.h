@@ -31,7 +31,8 @@ struct World::Parts {
   Materials materials;
   Geometry geometry;
   std::vector<ParticipatingMedium> media;
-  FireLights fire;
+  FireLights fire;  ///< empty unless asked for
+  bool has_fire;    ///< it was
   Lights lights;
   std::vector<LightId> first_light;  ///< by placed shape; kNone where it does not emit
   CameraRays camera;

@@ -17,7 +17,7 @@ double required_precision();
 struct Agreement {
   std::optional<double> d = std::nullopt;  ///< required_precision() when absent
   double rounding = 0;                     ///< of the expected value as printed: half its last digit
-  double seconds = 120;                    ///< for a scene; too long is a failure (40 times that nightly)
+  double seconds = 120;                    ///< for a scene, on idle cores; too long is a failure (40 times that nightly)
   Variant variant = {};
 };
 

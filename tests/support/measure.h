@@ -49,7 +49,7 @@ class Subject {
 struct Goal {
   /// Called with all renders so far: the factor by which their variance is still too large; at most 1: done.
   std::function<double(const MeanImage&)> excess;
-  double seconds = 60;           ///< give up after this long
+  double seconds = 60;           ///< of all cores' processor time: give up after this long
   int first_spp = 16;            ///< samples a pixel of the first renders
   int max_spp = 1 << 20;         ///< samples a pixel in all
   /// Measurements of different streams use different seeds: to be compared, they must be independent.
@@ -60,7 +60,7 @@ struct Measured {
   MeanImage image;
   int renders = 0;
   double spp = 0;  ///< a pixel, in all
-  double seconds = 0;
+  double seconds = 0;  ///< as Goal::seconds
   bool reached = false;  ///< the goal, before time and samples ran out
 };
 
