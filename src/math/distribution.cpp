@@ -93,7 +93,7 @@ PiecewiseConstant1D::Sample PiecewiseConstant1D::sample(float u) const {
 
   // Rounding must not carry x out of its cell, whose density is the one returned.
   const auto n = static_cast<float>(size());
-  float x = (static_cast<float>(cell) + within) / n;
+  float x = std::min((static_cast<float>(cell) + within) / n, kOneMinusEpsilon);
   while (cell_of(x, size()) > cell) x = std::nextafter(x, 0.0f);
   while (cell_of(x, size()) < cell) x = std::nextafter(x, 1.0f);
   return {x, density_[cell], static_cast<std::uint32_t>(cell)};

@@ -21,8 +21,9 @@ struct Frame {
   static Frame around(Vec3 n, Vec3 tangent) {
     const Vec3 t = tangent - n * dot(n, tangent);
     const float l = length(t);
-    if (!(l > 1e-8f * length(tangent))) return around(n);
-    const Vec3 x = t / l;
+    if (!(l > 1e-6f * length(tangent))) return around(n);
+    // Near n little but rounding is left of the tangent, and not perpendicular: a second time makes it so.
+    const Vec3 once = t / l, x = normalize(once - n * dot(n, once));
     return {x, cross(n, x), n};
   }
 

@@ -12,7 +12,7 @@ SphericalTriangle::SphericalTriangle(Vec3d a, Vec3d b, Vec3d c) : a_(a), b_(b), 
   volume_ = std::abs(dot(a, normal_));
   const double la = length(a), lb = length(b), lc = length(c);
   const double denominator = la * lb * lc + dot(a, b) * lc + dot(a, c) * lb + dot(b, c) * la;
-  solid_angle_ = 2 * std::atan2(volume_, denominator);
+  solid_angle_ = la * lb * lc > 0 ? 2 * std::atan2(volume_, denominator) : 0;  // at a vertex all that is rounding
 }
 
 namespace {
@@ -87,7 +87,8 @@ SphericalRectangle::Sample SphericalRectangle::sample(Vec2 u) const {
   const double fu = (std::cos(au) * b0_ - b1_) / std::sin(au);
   const double cu = std::copysign(1 / std::sqrt(fu * fu + b0_ * b0_), fu);
   const double c = std::clamp(cu, -1.0, 1.0);
-  const double x = std::clamp(-c * z0_ / std::sqrt(std::max(1e-300, (1 - c) * (1 + c))), x0_, x1_);
+  double x = std::clamp(-c * z0_ / std::sqrt(std::max(1e-300, (1 - c) * (1 + c))), x0_, x1_);
+  if (std::isnan(x)) x = std::lerp(x0_, x1_, double{u.x});  // seen so obliquely that its angles say nothing
 
   // y: along the line x = const, the sine of the elevation is uniform.
   const double d2 = x * x + z0_ * z0_;
@@ -95,7 +96,8 @@ SphericalRectangle::Sample SphericalRectangle::sample(Vec2 u) const {
   const double h = h0 + u.y * (h1 - h0);
   const double y = std::clamp(h * std::sqrt(d2) / std::sqrt(std::max(1e-300, (1 - h) * (1 + h))), y0_, y1_);
 
-  return {x_ * x + y_ * y + z_ * z0_, {static_cast<float>((x - x0_) / length_x_), static_cast<float>((y - y0_) / length_y_)}};
+  const auto share = [](double length, double whole) { return static_cast<float>(std::clamp(length / whole, 0.0, 1.0)); };
+  return {x_ * x + y_ * y + z_ * z0_, {share(x - x0_, length_x_), share(y - y0_, length_y_)}};
 }
 
 std::optional<double> sphere_cone_height(double distance, double radius) {

@@ -28,7 +28,9 @@ float Ggx::shadowing(Vec3 wo, Vec3 wi) const {
 Vec3 Ggx::sample_visible(Vec3 w, Vec2 u) const {
   // Stretch until the surface is a hemisphere, seen along wh.
   const Vec3 wh = normalize(Vec3{ax_ * w.x, ay_ * w.y, w.z});
-  const Vec3 t1 = wh.z < 0.99999f ? normalize(cross(Vec3{0, 0, 1}, wh)) : Vec3{1, 0, 0};
+  // Perpendicular to wh however near the pole it is: an error here is as large as the lobe of a small alpha.
+  const float across = std::hypot(wh.x, wh.y);
+  const Vec3 t1 = across > 1e-15f ? Vec3{-wh.y / across, wh.x / across, 0} : Vec3{1, 0, 0};
   const Vec3 t2 = cross(wh, t1);
 
   // A point of its projection: a full disk whose lower half is squeezed by the tilt.

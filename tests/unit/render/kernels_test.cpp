@@ -1,0 +1,56 @@
+/// Numeric kernels of src/render against their promises, at their worst.
+#include <span>
+
+#include "render/direct_light.h"
+#include "render/resampling.h"
+#include "support/adversarial.h"
+
+using namespace tyndall;
+using namespace tyndall::test;
+
+namespace {
+
+/// A density: zero, ordinary, or as extreme as floats are.
+float density(Adversary& any) { return any.below(8) == 0 ? 0.0f : any.positive(120); }
+
+struct Weighted {
+  float weight;
+};
+
+}  // namespace
+
+TEST_CASE("kernels: weights of multiple importance sampling sum to 1") {
+  check_kernel("two techniques", [](Adversary& any) {
+    const float a = density(any), b = density(any);
+    if (a == 0 && b == 0) return Fault();
+    const float wa = mis_weight(a, b), wb = mis_weight(b, a);
+    return holds(wa >= 0 && wb >= 0 && std::abs(wa + wb - 1) < 1e-6f, a, b, wa, wb);
+  });
+  check_kernel("three techniques", [](Adversary& any) {
+    const float a = density(any), b = density(any), c = density(any);
+    if (a == 0 && b == 0 && c == 0) return Fault();
+    const float wa = mis_weight(a, b, c), wb = mis_weight(b, c, a), wc = mis_weight(c, a, b);
+    return holds(wa >= 0 && wb >= 0 && wc >= 0 && std::abs(wa + wb + wc - 1) < 1e-6f, a, b, c, wa + wb + wc);
+  });
+}
+
+TEST_CASE("kernels: resampling") {
+  check_kernel("survivors", [](Adversary& any) {
+    std::array<Weighted, 6> weights{};
+    const auto n = 1 + any.below(6);
+    double total = 0;
+    for (std::uint32_t i = 0; i < n; ++i) total += weights[i].weight = any.positive(60);
+    const std::span<const Weighted> candidates(weights.data(), n);
+    const int count = static_cast<int>(any.below(4));
+    const Survivors survivors = resample(candidates, count, any.unit());
+    const std::size_t expected = count == 0 || n <= static_cast<std::uint32_t>(count) ? n : static_cast<std::size_t>(count);
+    if (survivors.size() != expected) return holds(false, n, count, survivors.size());
+    for (const Survivor& s : survivors) {
+      // The scaled weight of one that was drawn is its share of the whole, whichever it is.
+      const double scaled = s.index < n ? double(s.scale) * weights[s.index].weight : -1;
+      const double wanted = expected == n ? weights[s.index].weight : total / count;
+      if (!(std::abs(scaled - wanted) <= 1e-6 * wanted)) return holds(false, n, count, s.index, s.scale);
+    }
+    return Fault();
+  });
+}
