@@ -6,6 +6,7 @@
 #include "cli/command.h"
 #include "cli/compare_options.h"
 #include "cli/log.h"
+#include "cli/memory.h"
 #include "cli/output_paths.h"
 #include "cli/print.h"
 #include "cli/progress_display.h"
@@ -21,7 +22,8 @@ namespace {
 constexpr std::uint64_t kReferenceSeed = 0x7265666572656e63;  ///< apart from any seed that a run is likely to have
 
 World build_for(Scene scene, const ComparePlan& plan, const RenderSettings& base, const CompareOptions& o) {
-  BuildSettings settings{.lights = {base.lights}, .sanitize = o.picture.sanitize, .threads = base.threads};
+  BuildSettings settings{.lights = {base.lights}, .sanitize = o.picture.sanitize, .threads = base.threads,
+                         .max_memory = memory_limit(o.max_memory)};
   settings.fire = base.emission == EmissionStrategy::lights;
   for (const CompareVariant& v : plan.variants) {
     settings.fire = settings.fire || v.settings.emission == EmissionStrategy::lights;

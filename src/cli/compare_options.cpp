@@ -35,6 +35,7 @@ void declare(CLI::App& command, CompareOptions& o) {
   command.add_option("--threads", o.threads, "threads [the Integrator's, else 0: one a core]; --threads 2")->check(CLI::Range(0, 4096));
   declare(command, o.methods);
   declare(command, o.picture);
+  declare_memory(command, o.max_memory);
   declare_progress(command, o.progress);
   command.add_flag("--quiet", o.quiet, "no progress, notes or table; errors only");
   command.add_flag("--json", o.json, "results.json on stdout too");

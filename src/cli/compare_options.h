@@ -13,7 +13,7 @@ namespace tyndall::cli {
 struct CompareOptions {
   std::string scene, folder = "compare-report", reference, progress = "auto";
   std::vector<std::string> variants;
-  std::optional<double> time, reference_time;
+  std::optional<double> time, reference_time, max_memory;
   std::optional<int> spp;
   double reference_error = 1e-3;
   int seeds = 5;

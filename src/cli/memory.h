@@ -6,7 +6,7 @@
 
 namespace tyndall::cli {
 
-/// Bytes: `gigabytes` of --max-memory if given, else what the machine has.
+/// Bytes: `gigabytes` of --max-memory if given, else what the process may hold.
 std::size_t memory_limit(std::optional<double> gigabytes);
 
 }  // namespace tyndall::cli

@@ -6,6 +6,7 @@
 
 #include "cli/command.h"
 #include "cli/log.h"
+#include "cli/memory.h"
 #include "cli/output_paths.h"
 #include "cli/print.h"
 #include "cli/stop_signal.h"
@@ -23,6 +24,7 @@ namespace fs = std::filesystem;
 
 struct RegressOptions {
   std::string suite, report, junit;
+  std::optional<double> max_memory;
   RegressSettings settings;
   bool json = false;
 };
@@ -127,6 +129,7 @@ int run_regress(RegressOptions options) {
   const ScratchFolder scratch;
   options.settings.work_folder = scratch.path();
   options.settings.program = own_path();
+  options.settings.max_memory = memory_limit(options.max_memory);
   catch_stop_signals("stopping; what is complete is reported; press again to quit at once\n");
 
   const Display display(options, longest_name(suite));
@@ -161,6 +164,8 @@ void add_regress(CLI::App& app, int& exit_code) {
   command->add_flag("--update", s.update, "render the references anew, say what changed, and replace them");
   command->add_option("--jobs,--threads", s.jobs, "renders side by side, of one thread each [0: one a core]; --jobs 2")
       ->check(whole_number(0, 4096));
+  command->add_option("--max-memory", options->max_memory, "GB for all renders at a time: each gets its share, and a case that is estimated to need more is an error [what the machine, or a container's limit, allows]; --max-memory 8")
+      ->check(positive());
   command->add_option("--level", s.family_level, "chance of a false alarm in a run of the whole suite [0.001]; --level 0.01")
       ->check(number_between(1e-12, 0.5));
   command->add_option("--junit", options->junit, "JUnit XML to write, for CI [none]; --junit regress.xml");

@@ -104,6 +104,11 @@ void declare_progress(CLI::App& command, std::string& progress) {
       ->check(CLI::IsMember({"auto", "bar", "line", "json", "none"}));
 }
 
+void declare_memory(CLI::App& command, std::optional<double>& max_memory) {
+  command.add_option("--max-memory", max_memory, "GB: a scene that is estimated to need more is refused before it is built [what the machine, or a container's limit, allows]; --max-memory 8")
+      ->check(positive());
+}
+
 void declare_scene(CLI::App& command, std::string& scene) {
   command.add_option("scene", scene, "scene file, .pbrt or .pbrt.gz")->required();
 }
@@ -128,8 +133,7 @@ void declare(CLI::App& command, RenderOptions& o) {
   command.add_option("--checkpoint", o.checkpoint, "seconds between saves to OUTPUT.checkpoint, which --resume goes on from; removed when the render is complete [none]; --checkpoint 60")
       ->check(positive());
   command.add_flag("--resume", o.resume, "go on from OUTPUT.checkpoint if there is one: the same bits as an unbroken render");
-  command.add_option("--max-memory", o.max_memory, "GB: a scene that is estimated to need more is refused before it is built [what the machine has]; --max-memory 8")
-      ->check(positive());
+  declare_memory(command, o.max_memory);
   command.add_flag("--reproducible", o.reproducible, "leave dates and times out of the image header");
   declare_progress(command, o.progress);
   command.add_flag("--quiet", o.quiet, "no progress, notes or summary; errors only");

@@ -42,6 +42,7 @@ void declare(CLI::App& command, MethodOptions& options);
 void declare(CLI::App& command, PictureOptions& options);
 void declare(CLI::App& command, RenderOptions& options);  ///< these and the rest
 void declare_progress(CLI::App& command, std::string& progress);
+void declare_memory(CLI::App& command, std::optional<double>& max_memory);
 void declare_scene(CLI::App& command, std::string& scene);
 
 /// Override what the scene says: its settings and its film. Throw Error (usage).

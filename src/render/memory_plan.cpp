@@ -1,12 +1,11 @@
 #include "render/memory_plan.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <set>
 #include <utility>
 
+#include "math/process_memory.h"
 #include "render/film_buffer.h"
 #include "tyndall/error.h"
 #include "tyndall/io.h"
@@ -130,16 +129,6 @@ std::size_t plan_volumes(const Scene& scene) {
   return sum.bytes();
 }
 
-/// Bytes of memory that this process holds.
-std::size_t resident() {
-  unsigned long all = 0, held = 0;
-  if (std::FILE* file = std::fopen("/proc/self/statm", "r")) {
-    if (std::fscanf(file, "%lu %lu", &all, &held) != 2) held = 0;
-    std::fclose(file);
-  }
-  return held * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
-}
-
 std::string gigabytes(std::size_t bytes) {
   char text[32];
   std::snprintf(text, sizeof text, bytes < 1'000'000'000 ? "%.3f" : "%.1f", static_cast<double>(bytes) * 1e-9);
@@ -161,7 +150,7 @@ std::string MemoryPlan::str() const {
 }
 
 MemoryPlan plan_memory(const Scene& scene) {
-  return {resident(),
+  return {process_memory().resident,
           {{"film", plan_film(scene)},
            {"geometry", plan_geometry(scene)},
            {"lights", plan_lights(scene)},

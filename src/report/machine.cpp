@@ -1,12 +1,13 @@
 #include "report/machine.h"
 
 #include <sys/utsname.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <fstream>
 #include <string>
 #include <thread>
+
+#include "tyndall/memory.h"
 
 namespace tyndall {
 namespace {
@@ -22,8 +23,7 @@ std::string cpu_model() {
 }
 
 double memory_gib() {
-  const double bytes = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
-  return std::round(bytes / (1 << 30) * 10) / 10;
+  return std::round(static_cast<double>(physical_memory()) / (1 << 30) * 10) / 10;
 }
 
 std::string system_name() {

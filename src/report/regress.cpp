@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <fstream>
 #include <set>
-#include <thread>
 
 #include "report/regress_plan.h"
 #include "report/regress_reference.h"
@@ -190,10 +189,6 @@ class Verdict {
 RegressProgress progress(std::size_t done, std::size_t all, double seconds) {
   const double fraction = static_cast<double>(done) / static_cast<double>(all);
   return {fraction, seconds, done > 0 ? seconds * (1 - fraction) / fraction : 0};
-}
-
-int jobs_of(const RegressSettings& settings) {
-  return settings.jobs > 0 ? settings.jobs : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
 /// A suite on its way.

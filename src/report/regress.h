@@ -21,6 +21,7 @@ struct RegressSettings {
   std::uint64_t seed = 0;      ///< another one gives other noise
   bool update = false;         ///< render the references instead
   int jobs = 0;                ///< renders side by side, of one thread each; 0: one a core
+  std::size_t max_memory = 0;  ///< bytes, shared by these renders; 0: no limit
   double family_level = 1e-3;  ///< chance that a whole suite without a fault raises an alarm
 };
 

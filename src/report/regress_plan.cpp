@@ -1,9 +1,13 @@
 #include "report/regress_plan.h"
 
+#include <fmt/core.h>
+
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <thread>
 
 namespace tyndall {
 namespace {
@@ -61,7 +65,18 @@ std::string last_words(const std::string& log) {
   return words.size() > kLength ? "..." + words.substr(words.size() - kLength) : words;
 }
 
+/// Of all that render at a time; --max-memory takes GB.
+void share_memory(std::size_t bytes, int jobs, std::vector<Run>& runs) {
+  const auto at_a_time = std::clamp<std::size_t>(runs.size(), 1, static_cast<std::size_t>(jobs));
+  const std::string share = fmt::format("{}", static_cast<double>(bytes / at_a_time) * 1e-9);
+  for (Run& run : runs) run.command.arguments.insert(run.command.arguments.end(), {"--max-memory", share});
+}
+
 }  // namespace
+
+int jobs_of(const RegressSettings& settings) {
+  return settings.jobs > 0 ? settings.jobs : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
 
 std::vector<Run> plan_runs(const RegressSuite& suite, const RegressSettings& settings) {
   std::vector<Run> runs;
@@ -79,6 +94,7 @@ std::vector<Run> plan_runs(const RegressSuite& suite, const RegressSettings& set
     runs.push_back(planner.run("bytes", c.seed));
     runs.back().bytes = true;
   }
+  if (settings.max_memory > 0) share_memory(settings.max_memory, jobs_of(settings), runs);
   return runs;
 }
 

@@ -19,7 +19,10 @@ struct Run {
   ChildResult result{};
 };
 
-/// The runs of all chosen cases without a fault, those of a case in a row.
+/// Renders side by side: settings.jobs, or one a core.
+int jobs_of(const RegressSettings& settings);
+
+/// The runs of all chosen cases without a fault, those of a case in a row. Each may take its share of settings.max_memory.
 std::vector<Run> plan_runs(const RegressSuite& suite, const RegressSettings& settings);
 
 /// What is wrong with how a run ended; status pass when nothing is.

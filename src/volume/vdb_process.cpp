@@ -13,9 +13,9 @@
 #include <cerrno>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 
+#include "math/process_memory.h"
 #include "tyndall/error.h"
 
 // The address sanitizer reserves terabytes of address space for itself: a limit on it would end the process at once.
@@ -41,17 +41,6 @@ void limit(int resource, std::uint64_t soft, std::uint64_t hard) {
   setrlimit(static_cast<__rlimit_resource_t>(resource), &lower);
 }
 
-/// Bytes of address space that this process has.
-std::uint64_t address_space() {
-  std::uint64_t pages = 0;
-  if (std::FILE* file = std::fopen("/proc/self/statm", "r")) {
-    unsigned long value = 0;
-    if (std::fscanf(file, "%lu", &value) == 1) pages = value;
-    std::fclose(file);
-  }
-  return pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
-}
-
 void submit_to(const ProcessLimits& limits, pid_t parent) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // never outlives who waits for it
   if (getppid() != parent) _exit(1);
@@ -59,7 +48,7 @@ void submit_to(const ProcessLimits& limits, pid_t parent) {
   const auto seconds = static_cast<std::uint64_t>(std::ceil(limits.cpu_seconds));
   limit(RLIMIT_CPU, seconds, seconds + 1);
 #ifndef TYNDALL_SANITIZED
-  const std::uint64_t most = address_space() + limits.memory;
+  const std::uint64_t most = process_memory().address_space + limits.memory;
   limit(RLIMIT_AS, most, most);
 #endif
   // A library that aborts explains itself at length; the other side says it in one line.
@@ -70,10 +59,6 @@ void submit_to(const ProcessLimits& limits, pid_t parent) {
 }
 
 }  // namespace
-
-std::size_t physical_memory() {
-  return static_cast<std::size_t>(sysconf(_SC_PHYS_PAGES)) * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
-}
 
 // ------------------------------------------------------------------------------------------------ ProcessChannel
 

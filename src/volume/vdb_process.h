@@ -18,9 +18,6 @@ struct ProcessLimits {
   double cpu_seconds = 0;   ///< of computing
 };
 
-/// Bytes of memory that the machine has.
-std::size_t physical_memory();
-
 /// The other side is gone, or said something that cannot be. what(): how it ended, to follow "the file ".
 struct ProcessEnded : std::runtime_error {
   using std::runtime_error::runtime_error;

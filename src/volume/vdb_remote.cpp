@@ -8,6 +8,7 @@
 #include <mutex>
 
 #include "tyndall/error.h"
+#include "tyndall/memory.h"
 
 namespace tyndall {
 namespace {
@@ -27,7 +28,7 @@ ProcessLimits limits_for(const std::string& path, std::size_t most_memory) {
   std::error_code code;
   const std::uintmax_t size = std::filesystem::file_size(path, code);
   const std::size_t bytes = code ? 0 : std::min<std::size_t>(size, std::size_t{1} << 48);
-  const std::size_t fair = std::min(kBaseMemory + kUnfolding * bytes, physical_memory());
+  const std::size_t fair = std::min(kBaseMemory + kUnfolding * bytes, usable_memory());
   return {std::min(fair, most_memory), kBaseSeconds + static_cast<double>(bytes) / kBytesPerSecond};
 }
 

@@ -64,6 +64,8 @@ expect 3 "$T" render good.pbrt --quiet --max-memory 0.001 -o none.exr
 says 'estimated to need' err.txt
 expect 3 "$T" render good.pbrt --quiet --resolution 65536x65536 --max-memory 4 -o none.exr
 says 'film' err.txt
+expect 3 "$T" compare good.pbrt --quiet --max-memory 0.001 -o report
+says 'estimated to need' err.txt
 scene_with "$TYNDALL_SOURCE_DIR/volumes/plume_hall/plume.vdb" >volume.pbrt
 expect 0 "$T" render volume.pbrt --quiet --spp 1 --max-memory 1 -o none.exr
 finish

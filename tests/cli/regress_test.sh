@@ -30,6 +30,10 @@ grep -q fog out.txt && fail "--filter lets another case through"
 expect 2 "$T" regress suite --filter nothing
 says 'fog, lamp' err.txt
 
+# Renders side by side share the memory that there is.
+expect 7 "$T" regress suite --filter lamp --max-memory 0.002 --jobs 2
+says 'more than the limit of 0.001;' out.txt
+
 # The report.
 for text in '"what": "Albedo"' '"what": "Z"' '"what": "bytes"' '"what": "health"' '"seed": 7' '"passed": 2'; do says "$text" report/results.json; done
 [ -s report/index.html ] || fail "no report/index.html"

@@ -80,6 +80,19 @@ TEST_CASE("tests of one seed, of another and references share no random numbers;
   CHECK(all.size() == count);
 }
 
+TEST_CASE("renders share the memory with those that run at the same time") {
+  RegressSettings s = settings();
+  CHECK(argument_after(plan_runs(two_cases(), s).front(), "--max-memory").empty());
+  s.max_memory = 6'000'000'000;
+  const auto share = [&](int jobs) {
+    s.jobs = jobs;
+    return std::stod(argument_after(plan_runs(two_cases(), s).back(), "--max-memory"));
+  };
+  CHECK(share(1) == doctest::Approx(6));
+  CHECK(share(4) == doctest::Approx(1.5));
+  CHECK(share(100) == doctest::Approx(6.0 / 8));  // there are no more than 8
+}
+
 TEST_CASE("how a run ended") {
   CHECK(fault_of(ended(End::exited, 0, "", "note: all is well\n")).status == CaseStatus::pass);
   const RunFault error = fault_of(ended(End::exited, 3, "", "one\ntwo\n\nthree\nx.pbrt:3:1: unknown\n"));
