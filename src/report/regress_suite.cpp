@@ -134,6 +134,9 @@ Json read_object(const std::string& path) {
     settings = Json::parse(text, see_key);
   } catch (const Json::parse_error& e) {
     bad(place(path, text, e.byte), "is no JSON from here on; write settings as {\"spp\": 64, \"aovs\": [\"N\"]}");
+  } catch (const Json::exception& e) {  // "[json.exception.out_of_range.406] number overflow parsing '1e999'"
+    const std::string_view what = e.what();
+    bad(path, "cannot be read: " + std::string(what.substr(what.find("] ") + 2)) + "; give a number that the setting can have");
   }
   if (!settings.is_object()) bad(path, "is no JSON object; write settings as {\"spp\": 64}");
   if (!twice.empty()) bad(path, "\"" + twice + "\" is there twice; keep one");

@@ -70,6 +70,8 @@ TEST_CASE("settings that cannot be meant are errors that name the file and the k
   CHECK(mentions(message_for("[1]"), "no JSON object"));
   CHECK(mentions(message_for("{\n  \"spp\": 8,\n  \"runs\" 4}"), "a.json:3:10: is no JSON from here on"));
   CHECK(mentions(message_for(""), "a.json:1:1: is no JSON"));
+  CHECK(mentions(message_for(R"({"spp": 1e999})"), "a.json: cannot be read: number overflow"));
+  CHECK(mentions(message_for(R"({"timeout": -1e999})"), "'-1e999'"));
   CHECK(mentions(message_for(R"({"spp": 8, "runs": 2, "spp": 9})"), "a.json: \"spp\" is there twice"));
   CHECK(mentions(message_for(R"({"options": "--max-depth 3"})"), "[\"--max-depth\", \"8\"]"));
   CHECK(message_for("{}").empty());
