@@ -107,14 +107,19 @@ class Pictures {
   double largest_ = 0;
 };
 
+void add_pictures(const std::vector<Shape>& shapes, Pictures& pictures) {
+  for (const Shape& shape : shapes)
+    if (shape.emission) pictures.add(shape.emission->path, kTexel);
+}
+
 std::size_t plan_pictures(const Scene& scene) {
   Pictures pictures;
   for (const Texture& texture : scene.textures)
     if (const auto* image = std::get_if<ImageTexture>(&texture.kind)) pictures.add(image->path, kTexel);
   for (const Light& light : scene.lights)
     if (const auto* sky = std::get_if<InfiniteLight>(&light.kind)) pictures.add(sky->path, kTexelOfSky);
-  for (const Shape& shape : scene.shapes)
-    if (shape.emission) pictures.add(shape.emission->path, kTexel);
+  add_pictures(scene.shapes, pictures);
+  for (const Object& object : scene.objects) add_pictures(object.shapes, pictures);
   return pictures.bytes();
 }
 

@@ -1,0 +1,41 @@
+#include "render/memory_plan.h"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "support/scratch.h"
+#include "tyndall/io.h"
+
+namespace tyndall {
+namespace {
+
+std::size_t part(const MemoryPlan& plan, const std::string& name) {
+  const auto found = std::find_if(plan.parts.begin(), plan.parts.end(), [&](const auto& p) { return p.first == name; });
+  REQUIRE(found != plan.parts.end());
+  return found->second;
+}
+
+TEST_CASE("pictures that shine are planned wherever they hang, and once") {
+  const test::Scratch folder;
+  Image image{.data = {0, 0, 64, 32}, .display = {0, 0, 64, 32}, .channels = {}, .attributes = {}, .chromaticities = {}};
+  for (const char* name : {"R", "G", "B"}) image.add_channel(name);
+  write_exr(image, folder / "sign.exr");
+  AreaLight light;
+  light.path = folder / "sign.exr";
+  const Shape sign{.kind = Sphere{.radius = 1}, .emission = light};
+
+  Scene bare, alone, in_object, both;
+  alone.shapes.push_back(sign);
+  in_object.objects.push_back({.name = "sign", .shapes = {sign}});
+  both.shapes = alone.shapes;
+  both.objects = in_object.objects;
+  CHECK(part(plan_memory(bare), "textures") == 0);
+  const std::size_t bytes = part(plan_memory(alone), "textures");
+  CHECK(bytes >= 64 * 32 * 16);
+  CHECK(part(plan_memory(in_object), "textures") == bytes);
+  CHECK(part(plan_memory(both), "textures") == bytes);
+}
+
+}  // namespace
+}  // namespace tyndall
