@@ -49,7 +49,7 @@ std::string common_options(const CompareOptions& o) {
   };
   for (std::size_t i = 0; i < strategy_axes().size(); ++i) add(std::string(strategy_axes()[i].option), o.methods.strategies[i]);
   if (o.methods.candidates) add("candidates", std::to_string(*o.methods.candidates));
-  if (o.methods.splitting) add("splitting", fmt::format("{:g}", *o.methods.splitting));
+  if (o.methods.splitting) add("splitting", fmt::format("{}", *o.methods.splitting));
   if (o.methods.shadow_rays) add("shadow-rays", std::to_string(*o.methods.shadow_rays));
   add("crop", o.picture.crop);
   add("resolution", o.picture.resolution);

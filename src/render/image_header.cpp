@@ -1,6 +1,6 @@
 #include "render/image_header.h"
 
-#include <cstdio>
+#include <charconv>
 #include <ctime>
 
 #include "render/scene_hash.h"
@@ -8,16 +8,23 @@
 
 namespace tyndall {
 
+namespace {
+
+/// The shortest decimal number that is read back as `value`.
+std::string exact(float value) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+}  // namespace
+
 std::string options_text(const RenderSettings& settings) {
   std::string text = "--max-depth " + std::to_string(settings.max_depth);
   for (const StrategyAxis& axis : strategy_axes()) {
     text += " --" + std::string(axis.option) + " " + std::string(axis.get(settings));
   }
   if (settings.candidates) text += " --candidates " + std::to_string(*settings.candidates);
-  char numbers[64];
-  std::snprintf(numbers, sizeof numbers, " --splitting %g --shadow-rays %d", static_cast<double>(settings.splitting),
-                settings.shadow_rays);
-  return text + numbers;
+  return text + " --splitting " + exact(settings.splitting) + " --shadow-rays " + std::to_string(settings.shadow_rays);
 }
 
 namespace {

@@ -5,7 +5,8 @@
 
 namespace tyndall {
 
-/// Every option of the command line that chooses a method, with its value: "--max-depth 5 --lights tree ...".
+/// Every option of the command line that chooses a method, with its value: "--max-depth 5 --lights tree ...". Settings that
+/// differ give texts that differ.
 std::string options_text(const RenderSettings& settings);
 
 /// Add camera matrices, the scene's hash, samples, seed, options, version and (unless reproducible) date and time taken.
