@@ -68,8 +68,8 @@ World build(Scene scene, const BuildSettings& settings = {});
 /// Where a render stands.
 struct Progress {
   int samples_done = 0;      ///< per pixel
-  double fraction = 0;       ///< of the whole, [0, 1]
-  double seconds = 0;        ///< since the start
+  double fraction = 0;       ///< of the whole, [0, 1]; with what RenderControl::begin restored
+  double seconds = 0;        ///< since the start, of this process
   double remaining = 0;      ///< estimated
 };
 

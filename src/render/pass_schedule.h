@@ -18,13 +18,13 @@ class PassSchedule {
 
   static bool is_checkpoint(int samples) { return samples > 0 && (samples & (samples - 1)) == 0; }
 
-  /// Samples a pixel in the next pass; 0 when the render is complete.
+  /// Samples a pixel in the next pass, which begins now; 0 when the render is complete.
   int next_pass(const RenderJob& job);
   /// One of the settings' ends is reached.
   bool complete(const RenderJob& job) const;
 
-  /// Where the render stands when the running pass has done `pass_samples` samples a pixel; nothing when the last
-  /// report is too fresh.
+  /// Where the render stands when the running pass has done `pass_samples` samples a pixel, 0 when it has ended; nothing
+  /// before the first pass, or when the last report is too fresh.
   std::optional<Progress> progress(const RenderJob& job, double pass_samples);
 
  private:
@@ -32,8 +32,18 @@ class PassSchedule {
   double fraction(double samples, double seconds) const;
 
   using Clock = std::chrono::steady_clock;
+  static double since(Clock::time_point then) { return std::chrono::duration<double>(Clock::now() - then).count(); }
+
+  /// The job as the first pass found it: empty, or resumed.
+  struct Begun {
+    Clock::time_point when;
+    int samples;
+    double seconds;
+  };
+
   RenderSettings settings_;
-  Clock::time_point start_ = Clock::now();
+  std::optional<Begun> begun_;
+  Clock::time_point pass_begin_;
   bool checkpoints_;
   double samples_needed_ = 0;  ///< for settings.error, as far as is known; 0: not known
   double last_report_ = -1;

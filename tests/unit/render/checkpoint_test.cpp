@@ -5,22 +5,14 @@
 #include <thread>
 
 #include "math/rng.h"
-#include "tyndall/io.h"
-#include "tyndall/render.h"
+#include "unit/render/sphere_scene.h"
 
 namespace tyndall {
 namespace {
 
-constexpr const char* kScene = R"(
-Film "rgb" "integer xresolution" 40 "integer yresolution" 36
-Camera "perspective" "float fov" 50
-WorldBegin
-LightSource "point" "rgb I" [ 1 2 3 ] "point3 from" [ 1 1 2 ]
-Translate 0 0 4
-Shape "sphere" "float radius" 1.5
-)";
+const std::string kScene = test::sphere_scene(40, 36);
 
-World world_of(const std::string& text = kScene) { return build(read_scene_text(text, "test.pbrt").scene, {.threads = 2}); }
+World world_of(const std::string& text = kScene) { return test::world_of(text, {.threads = 2}); }
 
 RenderSettings settings_of(int spp = 8) {
   RenderSettings s;

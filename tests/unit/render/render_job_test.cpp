@@ -2,23 +2,13 @@
 
 #include <cmath>
 
-#include "tyndall/io.h"
-#include "tyndall/render.h"
+#include "unit/render/sphere_scene.h"
 
 namespace tyndall {
 namespace {
 
-constexpr const char* kScene = R"(
-Film "rgb" "integer xresolution" 24 "integer yresolution" 16
-Camera "perspective" "float fov" 50
-WorldBegin
-LightSource "point" "rgb I" [ 1 2 3 ] "point3 from" [ 1 1 2 ]
-Translate 0 0 4
-Shape "sphere" "float radius" 1.5
-)";
-
 World world_of(std::vector<LightStrategy> strategies = {LightStrategy::tree}) {
-  return build(read_scene_text(kScene, "test.pbrt").scene, {.lights = std::move(strategies), .threads = 1});
+  return test::world_of(test::sphere_scene(24, 16), {.lights = std::move(strategies), .threads = 1});
 }
 
 RenderSettings settings_of(int spp) {
