@@ -1,14 +1,11 @@
 #include "render/checkpoint.h"
 
 #include <cmath>
-#include <cstdio>
 #include <cstring>
-#include <memory>
 #include <type_traits>
 
 #include "math/stream_hash.h"
 #include "tyndall/error.h"
-#include "tyndall/version.h"
 
 namespace tyndall {
 namespace {
@@ -148,21 +145,6 @@ CheckpointState decode_checkpoint(std::string_view bytes, const std::string& nam
   if (!body.at_end()) body.fail("is a damaged checkpoint; remove it to begin anew");
   std::memcpy(sums.data(), values.data(), values.size());
   return state;
-}
-
-const std::string& build_id() {
-  static const std::string id = [] {
-    StreamHash hash;
-    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen("/proc/self/exe", "rb"), [](std::FILE* f) {
-      return f ? std::fclose(f) : 0;
-    });
-    std::vector<char> buffer(std::size_t{1} << 18);
-    while (const std::size_t got = file ? std::fread(buffer.data(), 1, buffer.size(), file.get()) : 0) hash.add(buffer.data(), got);
-    char text[40];
-    std::snprintf(text, sizeof text, "%s-%016llx", kVersion, static_cast<unsigned long long>(hash.value()));
-    return std::string(text);
-  }();
-  return id;
 }
 
 }  // namespace tyndall

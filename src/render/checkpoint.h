@@ -30,7 +30,4 @@ std::string encode_checkpoint(const CheckpointIdentity& identity, const Checkpoi
 CheckpointState decode_checkpoint(std::string_view bytes, const std::string& name, const CheckpointIdentity& identity,
                                   std::span<double> sums);
 
-/// Stands for the program that runs: a hash of its file. A changed program may give other bits.
-const std::string& build_id();
-
 }  // namespace tyndall

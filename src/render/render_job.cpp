@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "math/parallel.h"
+#include "render/build_id.h"
 #include "render/checkpoint.h"
 #include "render/film_buffer.h"
 #include "render/image_header.h"

@@ -31,6 +31,7 @@ BEGIN {
   door("^(CLI|spdlog)/", "^src/cli/")
   # Not libraries: the compiler and the operating system.
   door("^[a-z]*intrin\\.h$", "^src/")
+  door("^(elf|link)\\.h$", "^src/render/build_id\\.cpp$")
   door("^experimental/simd$", "^src/math/simd\\.h$")
   door("^(unistd\\.h|fcntl\\.h|fnmatch\\.h|signal\\.h|sys/[a-z]*\\.h)$", "^src/")
 }
