@@ -11,12 +11,11 @@
 #include "render/film_buffer.h"
 #include "render/image_header.h"
 #include "render/path.h"
+#include "render/render_pass.h"
 #include "render/scene_hash.h"
 
 namespace tyndall {
 namespace {
-
-constexpr int kTile = 16;  ///< pixels a side: small enough to balance, large enough for coherent memory
 
 /// Flush denormals to zero while it lives, alike on every thread, whatever settings the thread came with.
 class FlushDenormals {
@@ -85,7 +84,7 @@ class RenderJob::Impl {
 
   bool advance(int count, const PassWatch& watch, GivenUp if_given_up) {
     const auto start = Clock::now();
-    Pass pass(film_.crop(), count, watch);
+    RenderPass pass(film_.crop(), count, watch);
     const bool first = samples_ == 0, undo = if_given_up == GivenUp::undone;
     const Counters counters_before = counters_;
     if (undo && !first) pass.before.resize(pass.tiles());
@@ -153,43 +152,8 @@ class RenderJob::Impl {
  private:
   using Clock = std::chrono::steady_clock;
 
-  /// One call of advance().
-  struct Pass {
-    Pass(const PixelBounds& frame, int samples, const PassWatch& pass_watch)
-        : crop(frame),
-          across((frame.width() + kTile - 1) / kTile),
-          down((frame.height() + kTile - 1) / kTile),
-          count(samples),
-          watch(pass_watch),
-          finished(tiles(), 0) {}
-
-    std::size_t tiles() const { return static_cast<std::size_t>(across) * static_cast<std::size_t>(down); }
-    PixelBounds tile(std::size_t i) const {
-      const int x0 = crop.x0 + static_cast<int>(i % static_cast<std::size_t>(across)) * kTile;
-      const int y0 = crop.y0 + static_cast<int>(i / static_cast<std::size_t>(across)) * kTile;
-      return {x0, y0, std::min(x0 + kTile, crop.x1), std::min(y0 + kTile, crop.y1)};
-    }
-    /// `pixels` more have all their samples of the pass.
-    void tell(int pixels) {
-      if (!watch) return;
-      const std::scoped_lock lock(mutex);
-      pixels_done += static_cast<std::uint64_t>(pixels);
-      const double all = static_cast<double>(crop.width()) * crop.height();
-      if (!watch(static_cast<double>(pixels_done) / all * count)) given_up = true;
-    }
-
-    PixelBounds crop;
-    int across, down, count;
-    const PassWatch& watch;
-    std::mutex mutex;
-    std::uint64_t pixels_done = 0;
-    std::atomic<bool> given_up{false};
-    std::vector<char> finished;               ///< by tile
-    std::vector<std::vector<double>> before;  ///< sums by tile, to undo the pass; empty: not kept
-  };
-
   /// False: the pass was given up on the way.
-  bool render_tile(Pass& pass, const PixelBounds& pixels, Counters& counters) {
+  bool render_tile(RenderPass& pass, const PixelBounds& pixels, Counters& counters) {
     for (int y = pixels.y0; y < pixels.y1; ++y) {
       if (pass.given_up) return false;
       for (int x = pixels.x0; x < pixels.x1; ++x) {
@@ -201,7 +165,7 @@ class RenderJob::Impl {
   }
 
   /// Of a first pass that was given up.
-  void keep_finished(const Pass& pass) {
+  void keep_finished(const RenderPass& pass) {
     samples_ = pass.count;
     for (std::size_t i = 0; i < pass.tiles(); ++i) {
       if (pass.finished[i]) continue;

@@ -1,0 +1,51 @@
+/// One pass of a render over its frame: tiles, who is told how far it is, and what it takes to undo it.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <mutex>
+#include <vector>
+
+#include "tyndall/render.h"
+
+namespace tyndall {
+
+struct RenderPass {
+  static constexpr int kTile = 16;  ///< pixels a side: small enough to balance, large enough for coherent memory
+
+  /// `samples` for every pixel of `frame`; `pass_watch` must outlive the pass.
+  RenderPass(const PixelBounds& frame, int samples, const RenderJob::PassWatch& pass_watch)
+      : crop(frame),
+        across((frame.width() + kTile - 1) / kTile),
+        down((frame.height() + kTile - 1) / kTile),
+        count(samples),
+        watch(pass_watch),
+        finished(tiles(), 0) {}
+
+  std::size_t tiles() const { return static_cast<std::size_t>(across) * static_cast<std::size_t>(down); }
+  PixelBounds tile(std::size_t i) const {
+    const int x0 = crop.x0 + static_cast<int>(i % static_cast<std::size_t>(across)) * kTile;
+    const int y0 = crop.y0 + static_cast<int>(i / static_cast<std::size_t>(across)) * kTile;
+    return {x0, y0, std::min(x0 + kTile, crop.x1), std::min(y0 + kTile, crop.y1)};
+  }
+  /// `pixels` more have all their samples of the pass.
+  void tell(int pixels) {
+    if (!watch) return;
+    const std::scoped_lock lock(mutex);
+    pixels_done += static_cast<std::uint64_t>(pixels);
+    const double all = static_cast<double>(crop.width()) * crop.height();
+    if (!watch(static_cast<double>(pixels_done) / all * count)) given_up = true;
+  }
+
+  PixelBounds crop;
+  int across, down, count;
+  const RenderJob::PassWatch& watch;
+  std::mutex mutex;
+  std::uint64_t pixels_done = 0;
+  std::atomic<bool> given_up{false};
+  std::vector<char> finished;               ///< by tile
+  std::vector<std::vector<double>> before;  ///< sums by tile, to undo the pass; empty: not kept
+};
+
+}  // namespace tyndall
