@@ -1,6 +1,7 @@
 #include "io/atomic_file.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/statvfs.h>
@@ -8,10 +9,12 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <system_error>
 #include <vector>
 
@@ -29,6 +32,28 @@ std::string folder_of(const std::string& path) {
   const std::string folder = fs::path(path).parent_path().string();
   return folder.empty() ? "." : folder;
 }
+
+/// "/a/.plume.exr.": what the names of temporary files for /a/plume.exr begin with; then comes the process, a number, ".part".
+fs::path temporary_prefix(const std::string& target) {
+  return fs::path(folder_of(target)) / ("." + fs::path(target).filename().string() + ".");
+}
+
+/// Who made the temporary file `name`, "PREFIX1234.0.part"; nothing for another file.
+std::optional<pid_t> maker_of(std::string_view name, std::string_view prefix) {
+  if (!name.starts_with(prefix) || !name.ends_with(".part")) return std::nullopt;
+  name.remove_prefix(prefix.size());
+  name.remove_suffix(std::string_view(".part").size());
+  pid_t process = 0;
+  int number = 0;
+  const char* const end = name.data() + name.size();
+  const auto [dot, problem] = std::from_chars(name.data(), end, process);
+  if (problem != std::errc() || process <= 0 || dot == end || *dot != '.') return std::nullopt;
+  const auto rest = std::from_chars(dot + 1, end, number);
+  if (rest.ec != std::errc() || rest.ptr != end) return std::nullopt;
+  return process;
+}
+
+bool is_gone(pid_t process) { return ::kill(process, 0) != 0 && errno == ESRCH; }
 
 /// The file that `path` names in the end; a broken link, like no file at all, is taken as it is.
 std::string followed(const std::string& path) {
@@ -63,9 +88,7 @@ AtomicFile::AtomicFile(const std::string& path) : path_(path), target_(followed(
   constexpr int attempts = 100;
   int fd = -1;
   for (int i = 0; i < attempts && fd < 0; ++i) {
-    temporary_ = (fs::path(folder_of(target_)) / ("." + fs::path(target_).filename().string() + "." +
-                                                  std::to_string(::getpid()) + "." + std::to_string(i) + ".part"))
-                     .string();
+    temporary_ = temporary_prefix(target_).string() + std::to_string(::getpid()) + "." + std::to_string(i) + ".part";
     fd = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (fd < 0 && errno != EEXIST) break;
   }
@@ -122,6 +145,15 @@ void AtomicFile::commit() {
 
 void AtomicFile::fail(const std::string& reason) const {
   throw Error(Failure::output, path_ + ": cannot be written: " + reason + "; check the folder, its rights and free space");
+}
+
+void remove_abandoned_files(const std::string& path) {
+  const std::string target = followed(path), prefix = temporary_prefix(target).filename();
+  std::error_code problem, ignored;
+  for (fs::directory_iterator file(folder_of(target), problem), end; !problem && file != end; file.increment(problem)) {
+    const auto maker = maker_of(file->path().filename().string(), prefix);
+    if (maker && is_gone(*maker)) fs::remove(file->path(), ignored);
+  }
 }
 
 }  // namespace tyndall
