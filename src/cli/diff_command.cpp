@@ -70,7 +70,10 @@ void declare(CLI::App& command, DiffOptions& o) {
   command.add_option("--ppd", o.settings.flip_settings.pixels_per_degree, "pixels a degree of the viewer's field, for FLIP; --ppd 40")
       ->check(positive())
       ->capture_default_str();
+}
 
+/// Under a heading of their own in --help.
+void declare_criteria(CLI::App& command, DiffOptions& o) {
   const std::string criteria = "Criteria";
   command.add_flag("--test", o.criteria.test, "RGB is the same but for noise: blocks, means and p-values of Welch's test")
       ->group(criteria);
@@ -103,6 +106,7 @@ void add_diff(CLI::App& app, int& exit_code) {
   command->footer(kFooter);
   auto options = std::make_shared<DiffOptions>();
   declare(*command, *options);
+  declare_criteria(*command, *options);
   command->callback([options, &exit_code] { exit_code = run_diff(*options); });
 }
 

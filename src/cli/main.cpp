@@ -5,6 +5,7 @@
 #include "cli/command.h"
 #include "cli/log.h"
 #include "cli/print.h"
+#include "report/shell_quote.h"
 #include "tyndall/error.h"
 #include "tyndall/render.h"
 
@@ -14,14 +15,10 @@ constexpr const char* kExitCodes =
     "Exit codes: 0 done, 1 run-time failure, 2 usage, 3 scene or asset, 4 output, 5 differs, 7 incomplete,\n"
     "130/143 interrupted (render, compare and regress keep what is complete).";
 
-/// As typed, near enough to be typed again.
+/// To be pasted into a shell.
 std::string command_line(int argc, char** argv) {
   std::string line = "tyndall";
-  for (int i = 1; i < argc; ++i) {
-    const std::string argument = argv[i];
-    const bool plain = !argument.empty() && argument.find_first_of(" \t\"'\\;&|<>()$*?") == std::string::npos;
-    line += plain ? " " + argument : " '" + argument + "'";
-  }
+  for (int i = 1; i < argc; ++i) line += " " + tyndall::shell_quoted(argv[i]);
   return line;
 }
 

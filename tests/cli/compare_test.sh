@@ -32,6 +32,12 @@ says '"budget": "0.2 s"' out.txt
 [ -s timed/sharp_one.exr ] || fail "no picture of a variant with a blank in its name"
 [ "$(head -c 1 out.txt)" = "{" ] || fail "stdout does not start with JSON"
 
+# The command that the report states can be pasted into a shell, whatever is in it.
+expect 0 "$T" compare s.pbrt --variants "it's:--lights power" --resolution 8x8 --spp 2 --reference-time 0.1 --json -o 'a # ~b'
+sed -n 's/^ *"command": \(".*"\),*$/\1/p' out.txt | sed 's/\\\\/\\/g; s/^"//; s/"$//' >command.txt
+(eval "set -- $(cat command.txt)"; [ "$1 $5" = "tyndall it's:--lights power" ] && [ "${14}" = 'a # ~b' ]) ||
+  fail "cannot be pasted: $(cat command.txt)"
+
 # Usage errors say what is known.
 expect 2 "$T" compare s.pbrt --variants lamps -o r
 says 'lights, media, distance, emission, transmittance, all' err.txt
