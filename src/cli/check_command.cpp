@@ -1,5 +1,6 @@
 #include "cli/command.h"
 #include "cli/memory.h"
+#include "cli/notes.h"
 #include "cli/print.h"
 #include "tyndall/io.h"
 #include "tyndall/render.h"
@@ -10,12 +11,12 @@ namespace {
 /// Problems of one scene, printed one a line; returns how many.
 std::size_t check_file(const std::string& path) {
   SceneCheck check = check_scene(path);
-  for (const Warning& w : check.warnings) print("{}: warning: {}\n", w.where.str(), w.message);
+  print_text(notes_text(path, check.warnings, {}));
   for (const std::string& error : check.errors) print("{}\n", error);
   if (!check.errors.empty()) return check.errors.size();
   try {
     const World world = build(std::move(check.scene), {.max_memory = memory_limit({})});
-    for (const std::string& note : world.summary().notes) print("{}: note: {}\n", path, note);
+    print_text(notes_text(path, {}, world.summary()));
   } catch (const Error& e) {
     print("{}\n", e.what());
     return 1;

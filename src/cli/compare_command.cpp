@@ -7,9 +7,11 @@
 #include "cli/compare_options.h"
 #include "cli/log.h"
 #include "cli/memory.h"
+#include "cli/notes.h"
 #include "cli/output_paths.h"
 #include "cli/print.h"
 #include "cli/progress_display.h"
+#include "cli/save.h"
 #include "cli/stop_signal.h"
 #include "cli/stopwatch.h"
 #include "report/compare_results.h"
@@ -70,16 +72,18 @@ void warn_of_reference(const Reference& reference, const CompareOptions& o, Comp
 }
 
 void write_report(const std::string& folder, const nlohmann::ordered_json& results, const Reference& reference, const CompareResult& result) {
+  make_folder(folder);
   std::vector<PagePicture> pictures{{"", "reference", reference.image}};
-  write_exr(reference.image, folder + "/reference.exr");
   for (const VariantResult& v : result.variants) {
-    if (v.given_up) continue;
-    write_exr(v.image, folder + "/" + picture_file(v.name));
-    pictures.push_back({"", v.name, v.image});
+    if (!v.given_up) pictures.push_back({"", v.name, v.image});
   }
   write_file(error_csv(result), folder + "/error.csv");
   write_file(results.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n", folder + "/results.json");
   write_file(compare_page(results, pictures), folder + "/index.html");
+  write_exr(reference.image, folder + "/reference.exr");
+  for (const VariantResult& v : result.variants) {
+    if (!v.given_up) write_exr(v.image, folder + "/" + picture_file(v.name));
+  }
 }
 
 /// Interrupted before anything could be reported: a folder that was made for it goes again.
@@ -118,10 +122,7 @@ int run_compare(const CompareOptions& o, const std::string& command) {
   make_folder(o.folder);
   const World world = build_for(std::move(file.scene), plan, base, o);
   if (reference) reference->require_fit(world, base, plan.seeds);
-  if (!o.quiet) {
-    for (const Warning& w : file.warnings) log("warning: {}: {}\n", w.where.str(), w.message);
-    for (const std::string& note : world.summary().notes) log("note: {}\n", note);
-  }
+  if (!o.quiet) log_text(notes_text(o.scene, file.warnings, world.summary()));
 
   catch_stop_signals("stopping; what is complete is reported; press again to quit at once\n");
   ProgressDisplay display(o.quiet ? "none" : o.progress);
@@ -134,7 +135,7 @@ int run_compare(const CompareOptions& o, const std::string& command) {
   const CompareContext context{.scene = o.scene, .options = common_options(o), .command = command, .width = reference->image.width(),
                                .height = reference->image.height(), .threads = base.threads};
   const auto results = compare_json(context, plan, *reference, result);
-  write_report(o.folder, results, *reference, result);
+  save_report(o.folder, [&](const std::string& folder) { write_report(folder, results, *reference, result); });
   print_result(o, result, results);
   return exit_code_of(result);
 }

@@ -1,5 +1,6 @@
 #include "cli/error_log.h"
 
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "tyndall/error.h"
@@ -18,6 +19,18 @@ void ErrorLog::add(double seconds, int samples, const Image& image) {
     write_file(lines_, path_);
   } catch (const Error& error) {
     failure_ = error.what();
+  }
+}
+
+void ErrorLog::resume(int samples) {
+  std::ifstream file(path_);
+  for (std::string text; std::getline(file, text);) {
+    const auto line = nlohmann::json::parse(text, nullptr, false);
+    if (!line.is_object() || !line.contains("samples") || !line["samples"].is_number_integer()) continue;
+    const int at = line["samples"].get<int>();
+    if (at > samples) continue;
+    lines_ += text + "\n";
+    last_samples_ = at;
   }
 }
 

@@ -13,6 +13,8 @@ class ErrorLog {
  public:
   ErrorLog(Reference reference, const std::string& path) : reference_(std::move(reference)), path_(path) {}
 
+  /// Of a render that goes on from `samples` a pixel: the lines of the file up to there stay.
+  void resume(int samples);
   void add(const RenderJob& job) { add(job.seconds(), job.samples(), job.image()); }
   /// The end of a render, unless add() has seen it.
   void finish(const Rendering& rendering);

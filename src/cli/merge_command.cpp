@@ -4,8 +4,10 @@
 
 #include "cli/command.h"
 #include "cli/log.h"
+#include "cli/output_paths.h"
+#include "cli/save.h"
 #include "report/merge.h"
-#include "tyndall/io.h"
+#include "tyndall/error.h"
 
 namespace tyndall::cli {
 namespace {
@@ -27,8 +29,9 @@ int run_merge(const MergeOptions& options) {
   if (std::filesystem::path(options.output).extension() != ".exr") {
     throw Error(Failure::usage, "output " + options.output + " is not understood; give a name that ends in .exr");
   }
+  check_writable(options.output);
   const Image image = merge_slices(options.slices, options.settings);
-  write_exr(image, options.output);
+  save_image(image, options.output);
   if (!options.quiet) {
     log("{}: {} x {} pixels at {}, {} from {} image(s), {} samples a pixel, seed {}\n", options.output, image.width(),
         image.height(), image.data.x0, image.data.y0, options.slices.size(), attribute_text(image, "tyndall/samples"),

@@ -9,6 +9,7 @@
 #include "cli/memory.h"
 #include "cli/output_paths.h"
 #include "cli/print.h"
+#include "cli/save.h"
 #include "cli/stop_signal.h"
 #include "cli/validators.h"
 #include "report/page.h"
@@ -139,7 +140,7 @@ int run_regress(RegressOptions options) {
                                         .stop = &stop_requested()});
   display.end(result);
   if (options.json) print("{}\n", regress_json(result).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
-  if (!options.report.empty()) write_report(result, options.report);
+  if (!options.report.empty()) save_report(options.report, [&](const std::string& folder) { write_report(result, folder); });
   if (!options.junit.empty()) write_file(regress_junit(result), options.junit);
   return exit_code_of(result);
 }

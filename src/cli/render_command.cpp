@@ -1,16 +1,19 @@
-#include <algorithm>
-#include <filesystem>
+#include <functional>
+#include <limits>
+#include <optional>
 
 #include "cli/checkpoint_file.h"
 #include "cli/command.h"
 #include "cli/error_log.h"
 #include "cli/log.h"
 #include "cli/memory.h"
+#include "cli/notes.h"
 #include "cli/output_paths.h"
 #include "cli/print.h"
 #include "cli/progress_display.h"
 #include "cli/render_options.h"
-#include "cli/save_image.h"
+#include "cli/room.h"
+#include "cli/save.h"
 #include "cli/stop_signal.h"
 #include "cli/stopwatch.h"
 #include "cli/summary.h"
@@ -19,35 +22,57 @@
 namespace tyndall::cli {
 namespace {
 
-void print_notes(const SceneFile& file, const World& world) {
-  for (const Warning& w : file.warnings) {
-    log("warning: {}{}{}\n", w.where.str(), w.where.file.empty() ? "" : ": ", w.message);
-  }
-  for (const std::string& note : world.summary().notes) log("note: {}\n", note);
+/// Before anything is built: whether what comes out of it can be written.
+void check_outputs(const RenderOptions& options, const Scene& scene, const std::string& output) {
+  check_writable(output);
+  require_room(output, scene, options.keeps_checkpoints());
+  if (!options.error_log.empty()) check_writable(options.error_log);
 }
 
-/// Upper bound of the file's size: what it would take without compression.
-std::uint64_t largest_file(const Scene& scene, const std::string& path) {
-  const PixelBounds& crop = scene.settings.crop.value_or(scene.film.crop);
-  const std::uint64_t pixels = static_cast<std::uint64_t>(std::max(crop.width(), 0)) * static_cast<std::uint64_t>(std::max(crop.height(), 0));
-  constexpr std::uint64_t kHeader = 1 << 16;
-  if (std::filesystem::path(path).extension() == ".png") return 3 * pixels + kHeader;
-  return sizeof(float) * (4 + 4 * scene.settings.aovs.size()) * pixels + kHeader;
+World build_for(const RenderOptions& options, Scene scene) {
+  const RenderSettings& settings = scene.settings;
+  const BuildSettings how{.lights = {settings.lights},
+                          .fire = settings.emission == EmissionStrategy::lights,
+                          .sanitize = options.picture.sanitize,
+                          .threads = settings.threads,
+                          .max_memory = memory_limit(options.max_memory)};
+  return build(std::move(scene), how);
 }
 
-/// Hooks of a render that keeps checkpoints, or takes one up.
-void keep_checkpoints(const RenderOptions& options, CheckpointFile& file, RenderControl& control) {
-  if (options.resume) {
-    control.begin = [&](RenderJob& job) {
-      const bool found = file.resume(job);
-      if (options.quiet) return;
-      if (found) log("{}: going on from {} samples a pixel\n", file.path(), job.samples());
-      if (!found) log("{}: no such file; starting at the beginning\n", file.path());
-    };
+/// Files that accompany a render: they follow it, and it can go on from them.
+struct Companions {
+  CheckpointFile checkpoint;
+  std::optional<ErrorLog> errors;
+
+  void resume(RenderJob& job, int most_samples, bool quiet) {
+    const bool found = checkpoint.resume(job, most_samples);
+    if (found && errors) errors->resume(job.samples());
+    if (quiet) return;
+    if (found) log("{}: going on from {} samples a pixel\n", checkpoint.path(), job.samples());
+    if (!found) log("{}: no such file; starting at the beginning\n", checkpoint.path());
   }
-  if (!options.checkpoint) return;
-  control.save = [&](const RenderJob& job) { file.save(job); };
-  control.save_seconds = *options.checkpoint;
+};
+
+Rendering render_with(Companions& companions, const World& world, const RenderSettings& settings, const RenderOptions& options) {
+  catch_stop_signals("stopping soon; press again to quit at once and lose the image\n");
+  ProgressDisplay display(options.quiet ? "none" : options.progress);
+  RenderControl control{.progress = [&](const Progress& p) { display.show(p); }, .stop = &stop_requested()};
+  if (companions.errors) control.checkpoint = [&](const RenderJob& job) { companions.errors->add(job); };
+  if (options.resume) control.begin = [&](RenderJob& job) { companions.resume(job, settings.spp, options.quiet); };
+  if (options.keeps_checkpoints()) control.save = [&](const RenderJob& job) { companions.checkpoint.save(job); };
+  control.save_seconds = options.checkpoint.value_or(std::numeric_limits<double>::infinity());  // --resume alone: at a stop
+  Rendering rendering = render(world, settings, control);
+  display.finish();
+  if (companions.errors) companions.errors->finish(rendering);
+  return rendering;
+}
+
+/// A render that is complete needs its checkpoint no longer than until the image is safe, and the room it takes least of all.
+void save_rendering(const Rendering& rendering, const std::string& output, const CheckpointFile& checkpoint, bool keeps_checkpoints) {
+  std::function<void()> remove_checkpoint;
+  if (keeps_checkpoints && !rendering.report.stopped) remove_checkpoint = [&] { checkpoint.remove(); };
+  save_image(rendering.image, output, remove_checkpoint);
+  if (remove_checkpoint) remove_checkpoint();
 }
 
 int run_render(const RenderOptions& options) {
@@ -57,44 +82,30 @@ int run_render(const RenderOptions& options) {
   apply(options, file.scene);
   const RenderSettings settings = file.scene.settings;
   summary.output = output_path(options, file.scene);
-  check_writable(summary.output);
-  check_room(summary.output, largest_file(file.scene, summary.output));
-  if (!options.error_log.empty()) check_writable(options.error_log);
+  Companions companions{CheckpointFile(summary.output), {}};
+  if (options.keeps_checkpoints()) companions.checkpoint.tidy();
+  check_outputs(options, file.scene, summary.output);
   summary.read_seconds = watch.lap();
 
   std::optional<Reference> reference;
   if (!options.reference.empty()) reference = read_reference(options.reference);
-  const World world = build(std::move(file.scene), {.lights = {settings.lights},
-                                                    .fire = settings.emission == EmissionStrategy::lights,
-                                                    .sanitize = options.picture.sanitize,
-                                                    .threads = settings.threads,
-                                                    .max_memory = memory_limit(options.max_memory)});
+  const World world = build_for(options, std::move(file.scene));
   summary.build = world.summary();
   summary.build_seconds = watch.lap();
-  if (!options.quiet) print_notes(file, world);
+  if (!options.quiet) log_text(notes_text(options.scene, file.warnings, summary.build));
 
   if (reference) reference->require_fit(world, settings, {settings.seed});
-  std::optional<ErrorLog> errors;
-  if (reference) errors.emplace(std::move(*reference), options.error_log);
-  CheckpointFile checkpoint(summary.output);
-  catch_stop_signals("stopping soon; press again to quit at once and lose the image\n");
-  ProgressDisplay display(options.quiet ? "none" : options.progress);
-  RenderControl control{.progress = [&](const Progress& p) { display.show(p); }, .stop = &stop_requested()};
-  if (errors) control.checkpoint = [&](const RenderJob& job) { errors->add(job); };
-  keep_checkpoints(options, checkpoint, control);
-  const Rendering rendering = render(world, settings, control);
-  display.finish();
-  if (errors) errors->finish(rendering);
+  if (reference) companions.errors.emplace(std::move(*reference), options.error_log);
+  const Rendering rendering = render_with(companions, world, settings, options);
   summary.render = rendering.report;
   summary.width = rendering.image.width();
   summary.height = rendering.image.height();
   watch.lap();
-  save_image(rendering.image, summary.output);
-  if (!rendering.report.stopped && (options.checkpoint || options.resume)) checkpoint.remove();
+  save_rendering(rendering, summary.output, companions.checkpoint, options.keeps_checkpoints());
   summary.write_seconds = watch.lap();
 
   if (!options.quiet) log_text(as_text(summary));
-  if (errors) errors->require_written();
+  if (companions.errors) companions.errors->require_written();
   if (options.json) print("{}\n", as_json(summary));
   return rendering.report.stopped ? stop_exit_code() : 0;
 }

@@ -132,7 +132,7 @@ void declare(CLI::App& command, RenderOptions& o) {
   log->needs(reference);
   command.add_option("--checkpoint", o.checkpoint, "seconds between saves to OUTPUT.checkpoint, which --resume goes on from; removed when the render is complete [none]; --checkpoint 60")
       ->check(positive());
-  command.add_flag("--resume", o.resume, "go on from OUTPUT.checkpoint if there is one: the same bits as an unbroken render");
+  command.add_flag("--resume", o.resume, "go on from OUTPUT.checkpoint if there is one: the same bits as an unbroken render; an interrupt saves there again");
   declare_memory(command, o.max_memory);
   command.add_flag("--reproducible", o.reproducible, "leave dates and times out of the image header");
   declare_progress(command, o.progress);

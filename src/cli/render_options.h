@@ -36,6 +36,8 @@ struct RenderOptions {
   std::optional<std::uint64_t> seed;
   std::string reference, error_log, aovs, progress = "auto";
   bool reproducible = false, quiet = false, json = false, resume = false;
+
+  bool keeps_checkpoints() const { return checkpoint || resume; }
 };
 
 void declare(CLI::App& command, MethodOptions& options);

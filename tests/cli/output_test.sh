@@ -32,6 +32,9 @@ for kilobytes in 1 2 5 9 40; do
   (failures=0; ulimit -f $kilobytes; refuses limit.exr 'can be written'; exit $failures) || fail "limit of $kilobytes KB"
 done
 
+(failures=0; ulimit -f 100; expect 4 "$T" render s.pbrt --quiet --checkpoint 60 -o limit.exr; says 'a checkpoint may take' err.txt; exit $failures) ||
+  fail "a limit between the image and its checkpoint"
+
 # A disk that fills up while the picture is rendered: the picture ends up elsewhere, whole. Needs a disk of our own.
 cat >full_disk.sh <<'INNER'
 set -e
@@ -46,6 +49,36 @@ wait $render || code=$?
 [ $code = 4 ] || { echo "exit code $code, not 4: $(cat err.txt)"; exit 1; }
 [ -s full/a.exr ] || { echo "the old file is gone"; exit 1; }
 INNER
+# The checkpoint of a complete render makes room for its image.
+cat >checkpoint_disk.sh <<'INNER'
+set -e
+mount -t tmpfs -o size=200k none full
+code=0
+"$T" render s.pbrt --quiet --checkpoint 60 -o full/a.exr 2>err.txt || code=$?
+[ $code = 4 ] && grep -q 'a checkpoint and its successor may take' err.txt || { echo "no room for two checkpoints: exit code $code, $(cat err.txt)"; exit 1; }
+mount -t tmpfs -o size=1m none full
+"$T" render s.pbrt --spp 100000 --time 2 --reproducible --quiet --checkpoint 0.2 -o full/a.exr >out.txt 2>err.txt &
+render=$!
+sleep 1
+[ -s full/a.exr.checkpoint ] || { echo "no checkpoint: the test shows nothing"; exit 1; }
+cat /dev/zero >full/fill 2>/dev/null || true
+code=0
+wait $render || code=$?
+[ $code = 0 ] || { echo "exit code $code: $(cat err.txt)"; exit 1; }
+"$T" info full/a.exr >/dev/null
+[ ! -e full/a.exr.checkpoint ] || { echo "the checkpoint of a complete render is left"; exit 1; }
+INNER
+# Reports of compare and images of merge are kept too.
+cat >other_disk.sh <<'INNER'
+mount -t tmpfs -o size=64k none full
+"$T" compare s.pbrt --variants lights --resolution 8x8 --spp 4 --reference-time 0.2 --quiet -o full/report 2>err.txt
+[ $? = 4 ] || { echo "compare: $(cat err.txt)"; exit 1; }
+grep -q 'The report is not lost: it is in ' err.txt || { echo "compare: $(cat err.txt)"; exit 1; }
+mount -t tmpfs -o size=4k none full
+"$T" merge s1.exr s2.exr -o full/merged.exr 2>err.txt
+[ $? = 4 ] || { echo "merge: $(cat err.txt)"; exit 1; }
+grep -q 'The image is not lost: it is in ' err.txt || { echo "merge: $(cat err.txt)"; exit 1; }
+INNER
 mkdir -p full
 export T
 if unshare -rm true 2>/dev/null && unshare -rm sh -c 'mount -t tmpfs none full' 2>/dev/null; then
@@ -54,6 +87,13 @@ if unshare -rm true 2>/dev/null && unshare -rm sh -c 'mount -t tmpfs none full' 
   says 'is not lost' err.txt
   [ "$(ls unsaved/*.exr | wc -l)" = 1 ] || fail "the picture is not where it was said to be"
   expect 0 "$T" info unsaved/*.exr
+  rm unsaved/*
+  unshare -rm bash checkpoint_disk.sh || fail "the checkpoint on a disk that fills up"
+  [ -z "$(ls unsaved)" ] || fail "copies of a picture that was written are left: $(ls unsaved)"
+  for seed in 1 2; do "$T" render s.pbrt --seed $seed --quiet -o s$seed.exr; done
+  unshare -rm bash other_disk.sh || fail "a report or a merged image without room"
+  for file in results.json error.csv index.html reference.exr; do [ -s unsaved/report.unsaved-*/$file ] || fail "no $file is left of the report"; done
+  expect 0 "$T" info unsaved/merged.unsaved-*.exr
 else
   echo "skipped: no file system of our own can be mounted here"
 fi

@@ -41,6 +41,16 @@ expect 0 "$T" render s.pbrt --aov Transmittance,Albedo,Variance --threads 1 --re
 "$T" info t1.exr | grep -E "^ +[RGB] " >plain.txt
 cmp side.txt plain.txt || fail "--aov changes R G B"
 
+# What is worth knowing of a scene reads the same wherever it is told.
+{ small_scene; echo TransformBegin; echo TransformEnd; } >warned.pbrt
+expect 0 "$T" check warned.pbrt
+grep ': warning: ' out.txt >checked.txt
+says 'warned.pbrt:17:1: warning: TransformBegin' checked.txt
+expect 0 "$T" render warned.pbrt --progress none -o warned.exr
+grep ': warning: ' err.txt | cmp - checked.txt || fail "render warns otherwise than check"
+expect 0 "$T" compare warned.pbrt --resolution 8x8 --spp 1 --reference-time 0.1 --progress none -o warned
+grep '^warned.*: warning: ' err.txt | cmp - checked.txt || fail "compare warns otherwise than check"
+
 # A closed or full stderr costs no render.
 ("$T" render s.pbrt --progress json -o pipe.exr 2>&1 >/dev/null | head -c 1 >/dev/null)
 "$T" render s.pbrt -o full.exr 2>/dev/full || fail "a full stderr fails the render"

@@ -29,9 +29,11 @@ for attempt in $(seq $((3 * kills))); do
   cmp -s a.exr whole.exr && { cp old.exr a.exr; rm -f a.exr.checkpoint; }
 done
 [ $resumed -ge 3 ] || fail "only $resumed of $killed kills left a checkpoint: the test shows nothing"
+touch .a.exr.checkpoint.$render.7.part .a.exr.$render.7.part .a.exr.$$.7.part  # what the killed leave; and what one who lives needs
 expect 0 "$T" render s.pbrt $options --checkpoint 60 --resume -o a.exr
 cmp a.exr whole.exr || fail "the resumed picture is not the unbroken one"
 [ ! -e a.exr.checkpoint ] || fail "the checkpoint of a finished render is left"
+[ "$(ls -A | grep 'part$')" = ".a.exr.$$.7.part" ] || fail "temporary files of the dead are left, or one of the living is gone: $(ls -A | grep part)"
 rm -f ./.*.part
 
 # Interrupted, then resumed with another end.
@@ -44,10 +46,37 @@ wait $!
 expect 0 "$T" info b.exr
 samples=$(sed -n 's/.*tyndall\/samples *//p' out.txt)
 cp b.exr.checkpoint kept.checkpoint
+held=$samples
+# --resume alone goes on for as long as it likes, and keeps what it has when it is interrupted again.
+"$T" render s.pbrt --resolution 80x48 --reproducible --time 60 --quiet --resume -o b.exr 2>err.txt &
+sleep 0.5
+kill -INT $!
+wait $!
+[ $? = 130 ] || fail "an interrupted, resumed render does not exit with 130"
+expect 0 "$T" info b.exr
+samples=$(sed -n 's/.*tyndall\/samples *//p' out.txt)
+[ "$samples" -gt $held ] || fail "a resumed render did not go on: $held, then $samples samples"
 expect 0 "$T" render s.pbrt --resolution 80x48 --reproducible --spp $((samples + 3)) --resume --progress none -o b.exr
 says "going on from $samples samples" err.txt
 expect 0 "$T" render s.pbrt --resolution 80x48 --reproducible --spp $((samples + 3)) --quiet -o c.exr
 cmp b.exr c.exr || fail "an interrupted and resumed picture is not the unbroken one"
+
+# The error log goes on too: a line for each power of two, none from after the checkpoint.
+expect 0 "$T" render s.pbrt --resolution 80x48 --seed 77 --spp 4 --quiet -o reference.exr
+logged="--resolution 80x48 --reproducible --quiet --reference reference.exr --error-log log.jsonl -o e.exr"
+"$T" render s.pbrt $logged --time 60 --checkpoint 60 2>err.txt &
+sleep 0.5
+kill -INT $!
+wait $!
+expect 0 "$T" info e.exr
+samples=$(sed -n 's/.*tyndall\/samples *//p' out.txt)
+cp log.jsonl before.jsonl
+echo '{"seconds":9,"samples":1000000000,"mse":0}' >>log.jsonl
+expect 0 "$T" render s.pbrt $logged --spp $((samples + 3)) --resume
+head -n "$(wc -l <before.jsonl)" log.jsonl | cmp - before.jsonl || fail "the lines before the interrupt are not the first of the log"
+sed 's/.*"samples"://; s/,.*//' log.jsonl >counts.txt
+sort -nu counts.txt | cmp - counts.txt || fail "the log does not count up: $(cat counts.txt)"
+[ "$(tail -n 1 counts.txt)" = $((samples + 3)) ] || fail "the log does not end with the render"
 
 # Refused with both values: another seed, scene, options, frame, build; and what is no whole checkpoint.
 refuses() {  # TEXT OPTION...
@@ -61,6 +90,8 @@ refuses() {  # TEXT OPTION...
 }
 refuses '--seed 7 here' --seed 7
 refuses '--seed 0' --seed 7
+refuses "holds $held samples a pixel, more than the 4 asked for"
+[ -s d.exr.checkpoint ] || fail "a checkpoint that was refused is gone"
 refuses 'of another scene' --max-depth 2
 refuses 'of another options' --lights power
 refuses 'of another crop' --crop 0,10,0,10

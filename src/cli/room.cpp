@@ -1,0 +1,65 @@
+#include "cli/room.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <filesystem>
+
+#include "cli/checkpoint_file.h"
+#include "tyndall/error.h"
+#include "tyndall/io.h"
+
+namespace tyndall::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kHeader = 1 << 16;
+
+std::uint64_t pixels_of(const Scene& scene) {
+  const PixelBounds& crop = scene.settings.crop.value_or(scene.film.crop);
+  return static_cast<std::uint64_t>(std::max(crop.width(), 0)) * static_cast<std::uint64_t>(std::max(crop.height(), 0));
+}
+
+/// R G B A, and at most as many for each AOV.
+std::uint64_t channels_of(const Scene& scene) { return 4 + 4 * scene.settings.aovs.size(); }
+
+std::uint64_t largest_image(const Scene& scene, const std::string& path) {
+  if (fs::path(path).extension() == ".png") return 3 * pixels_of(scene) + kHeader;
+  return sizeof(float) * channels_of(scene) * pixels_of(scene) + kHeader;
+}
+
+/// The film's sums: of colour once for the even and once for the odd samples.
+std::uint64_t largest_checkpoint(const Scene& scene) { return sizeof(double) * (3 + channels_of(scene)) * pixels_of(scene) + kHeader; }
+
+/// Free on the disk of `path`, and what stands there now and will be replaced.
+std::uint64_t disk_for(const std::string& path) {
+  std::error_code problem, absent;
+  const fs::path folder = fs::path(path).parent_path();
+  const fs::space_info space = fs::space(folder.empty() ? "." : folder, problem);
+  const std::uintmax_t there = fs::file_size(path, absent);
+  if (problem) return room_for_file(path);
+  return space.available + (absent ? 0 : there);
+}
+
+void require(const std::string& path, const std::string& what, std::uint64_t bytes, std::uint64_t room) {
+  if (room >= bytes) return;
+  throw Error(Failure::output, fmt::format("{}: {} may take {:.1f} MB where only {:.1f} MB can be written; free some space, "
+                                           "lift the limit on file sizes, or choose another place with -o",
+                                           path, what, static_cast<double>(bytes) * 1e-6, static_cast<double>(room) * 1e-6));
+}
+
+}  // namespace
+
+void require_room(const std::string& output, const Scene& scene, bool checkpoints) {
+  const std::uint64_t image = largest_image(scene, output);
+  require(output, "the image", image, room_for_file(output));
+  if (!checkpoints) return;
+  const std::string path = CheckpointFile(output).path();
+  const std::uint64_t checkpoint = largest_checkpoint(scene);
+  require(path, "a checkpoint", checkpoint, room_for_file(path));
+  require(path, "a checkpoint and its successor", checkpoint + std::max(checkpoint, image), disk_for(path));
+}
+
+}  // namespace tyndall::cli

@@ -1,0 +1,15 @@
+/// Room for what a render writes, looked at before it begins and not after it.
+#pragma once
+
+#include <string>
+
+#include "tyndall/scene.h"
+
+namespace tyndall::cli {
+
+/// Throws Error (output) when the disk of `output`, or the limit on the size of files, could not hold the image of `scene`
+/// as it is without compression; with `checkpoints` also these: while one is replaced there are two, and at the end one
+/// stands beside the image.
+void require_room(const std::string& output, const Scene& scene, bool checkpoints);
+
+}  // namespace tyndall::cli
