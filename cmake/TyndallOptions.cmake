@@ -6,7 +6,7 @@ set(TYNDALL_SANITIZE "" CACHE STRING "-fsanitize= list, e.g. address,undefined; 
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
   set(_arch x86-64-v3)
 endif()
-set(TYNDALL_ARCH "${_arch}" CACHE STRING "-march=: x86-64-v3 runs on CPUs since 2013, native is for this one, empty is the compiler's own")
+set(TYNDALL_ARCH "${_arch}" CACHE STRING "-march=: x86-64-v3 needs AVX2, as Intel Core has since 2013 and AMD since 2015, but few Atom, Celeron and Pentium before 2021; x86-64 runs on all, native is for this CPU, empty is the compiler's own")
 
 if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)

@@ -32,6 +32,7 @@ BEGIN {
   # Not libraries: the compiler and the operating system.
   door("^[a-z]*intrin\\.h$", "^src/")
   door("^(elf|link)\\.h$", "^src/render/build_id\\.cpp$")
+  door("^sys/platform/x86\\.h$", "^src/cli/cpu_")
   door("^experimental/simd$", "^src/math/simd\\.h$")
   door("^(unistd\\.h|fcntl\\.h|fnmatch\\.h|signal\\.h|sys/[a-z]*\\.h)$", "^src/")
 }
