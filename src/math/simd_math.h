@@ -10,7 +10,7 @@ using Int8 = std::experimental::rebind_simd_t<std::int32_t, Float8>;
 
 /// 1 / sqrt(x) to 5e-6, for normal x > 0: a guess from the exponent, twice improved by Newton's method.
 inline Float8 fast_rsqrt(Float8 x) {
-  Float8 y = std::bit_cast<Float8>(0x5f375a86 - (std::bit_cast<Int8>(x) >> 1));
+  Float8 y = bits8<Float8>(0x5f375a86 - (bits8<Int8>(x) >> 1));
   const Float8 half = 0.5f * x;
   y *= 1.5f - half * y * y;
   y *= 1.5f - half * y * y;
@@ -24,7 +24,7 @@ inline Float8 fast_exp_minus(Float8 x) {
   const Float8 f = y - std::experimental::static_simd_cast<Float8>(whole);  // in (0, 1]
   // 2^f: the minimax polynomial on [0, 1], to 2.6e-6.
   const Float8 power = 1.00000259f + f * (0.693003834f + f * (0.241442757f + f * (0.0520114603f + f * 0.0135341681f)));
-  return power * std::bit_cast<Float8>((whole + 127) << 23);
+  return power * bits8<Float8>((whole + 127) << 23);
 }
 
 /// atan(r) / r to 5e-6 as a function of r^2 in [0, 1]: the minimax polynomial.
