@@ -23,36 +23,13 @@ of_volume() { LC_ALL=C comm -12 volume.txt $1.txt; }  # its functions that ran
 absent() { [ -z "$1" ] || fail "$2: $(echo "$1" | head -3)"; }
 present() { [ -n "$1" ] || fail "nothing to compare with: $2"; }
 
-scene() {
-  cat <<SCENE
-Film "rgb" "integer xresolution" 8 "integer yresolution" 6
-Sampler "independent" "integer pixelsamples" 2
-Integrator "volpath" "integer maxdepth" 3
-LookAt 0 1 -4  0 0.5 0  0 1 0
-Camera "perspective" "float fov" 45
-WorldBegin
-LightSource "point" "point3 from" [1 3 -1] "rgb I" [9 9 9]
-$1
-Material "diffuse" "rgb reflectance" [0.5 0.4 0.3]
-Shape "trianglemesh" "point3 P" [-4 0 -4 4 0 -4 4 0 4 -4 0 4] "integer indices" [0 1 2 0 2 3]
-SCENE
-}
-medium() {  # medium PARAMETERS
-  cat <<SCENE
-AttributeBegin
-  MakeNamedMedium "m" $1 "rgb sigma_s" [1 1 1] "rgb sigma_a" [0.2 0.2 0.2]
-  Material "interface"
-  MediumInterface "m" ""
-  Translate 0 0.6 0
-  Shape "sphere" "float radius" 0.5
-AttributeEnd
-SCENE
-}
+# scene PARAMETERS: with a ball of the medium that they say; without any, the floor alone.
+scene() { lit_floor 8 6 2; [ -z "$1" ] || ball_of "$1"; }
 grid='"string type" "uniformgrid" "point3 p0" [-0.5 -0.5 -0.5] "point3 p1" [0.5 0.5 0.5] "integer nx" 2 "integer ny" 2 "integer nz" 2'
 scene "" >bare.pbrt
-scene "$(medium '"string type" "homogeneous"')" >fog.pbrt
-scene "$(medium "$grid \"float density\" [1 2 3 4 5 6 7 8]")" >smoke.pbrt
-scene "$(medium "$grid \"float density\" [1 2 3 4 5 6 7 8] \"float temperature\" [900 900 2000 900 900 900 900 900]")" >fire.pbrt
+scene '"string type" "homogeneous"' >fog.pbrt
+scene "$grid \"float density\" [1 2 3 4 5 6 7 8]" >smoke.pbrt
+scene "$grid \"float density\" [1 2 3 4 5 6 7 8] \"float temperature\" [900 900 2000 900 900 900 900 900]" >fire.pbrt
 { scene ""; echo 'LightSource "point" "point3 from" [0 2 0] "rgb I" [1 1 1]'; } >two.pbrt
 for name in bare two fog smoke fire; do ran $name; done
 

@@ -18,11 +18,11 @@ says() { grep -qF -- "$1" "$2" || fail "\"$1\" is not in $2: $(head -c 300 "$2")
 
 finish() { [ "$failures" = 0 ] && echo "ok" || exit 1; }
 
-# A quick scene with a surface, a medium and a light.
-small_scene() {
-  cat <<'SCENE'
-Film "rgb" "integer xresolution" 40 "integer yresolution" 24
-Sampler "independent" "integer pixelsamples" 4
+# lit_floor WIDTH HEIGHT SPP: a scene of a floor under a lamp.
+lit_floor() {
+  cat <<SCENE
+Film "rgb" "integer xresolution" $1 "integer yresolution" $2
+Sampler "independent" "integer pixelsamples" $3
 Integrator "volpath" "integer maxdepth" 3
 LookAt 0 1 -4  0 0.5 0  0 1 0
 Camera "perspective" "float fov" 45
@@ -30,8 +30,14 @@ WorldBegin
 LightSource "point" "point3 from" [1 3 -1] "rgb I" [9 9 9]
 Material "diffuse" "rgb reflectance" [0.5 0.4 0.3]
 Shape "trianglemesh" "point3 P" [-4 0 -4 4 0 -4 4 0 4 -4 0 4] "integer indices" [0 1 2 0 2 3]
+SCENE
+}
+
+# ball_of PARAMETERS: a ball of the medium that they say, above the floor.
+ball_of() {
+  cat <<SCENE
 AttributeBegin
-  MakeNamedMedium "m" "string type" "homogeneous" "rgb sigma_s" [1 1 1] "rgb sigma_a" [0.2 0.2 0.2]
+  MakeNamedMedium "m" $1 "rgb sigma_s" [1 1 1] "rgb sigma_a" [0.2 0.2 0.2]
   Material "interface"
   MediumInterface "m" ""
   Translate 0 0.6 0
@@ -39,3 +45,6 @@ AttributeBegin
 AttributeEnd
 SCENE
 }
+
+# A quick scene with a surface, a medium and a light.
+small_scene() { lit_floor 40 24 4; ball_of '"string type" "homogeneous"'; }

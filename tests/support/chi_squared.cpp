@@ -187,6 +187,26 @@ std::string ChiSquaredResult::summary() const {
 
 double sidak(double family_alpha, int tests) { return -std::expm1(std::log1p(-family_alpha) / tests); }
 
+double count_p_value(const std::vector<double>& counts, const std::vector<double>& pmf, int draws) {
+  double statistic = 0, rest = 0, rest_expected = 0;
+  int bins = 0;
+  const auto add = [&](double count, double expected) {
+    statistic += (count - expected) * (count - expected) / expected;
+    ++bins;
+  };
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const double expected = pmf[i] * draws;
+    if (expected >= 5) {
+      add(counts[i], expected);
+    } else {
+      rest += counts[i];
+      rest_expected += expected;
+    }
+  }
+  if (rest_expected >= 5) add(rest, rest_expected);
+  return bins > 1 ? chi_squared_tail(statistic, bins - 1) : 1;
+}
+
 double chi_squared_tail(double x, double degrees_of_freedom) { return x <= 0 ? 1 : upper_gamma(degrees_of_freedom / 2, x / 2); }
 
 namespace {

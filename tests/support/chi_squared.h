@@ -18,6 +18,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "tyndall/math.h"
 
@@ -63,6 +64,10 @@ double integrate_over_sphere(const DirectionDensity& pdf, const ChiSquaredOption
 
 /// Level of each of `tests` independent tests for a family level `family_alpha` [Sidak 1967].
 double sidak(double family_alpha, int tests);
+
+/// p-value of Pearson's test that `counts` of `draws` outcomes follow the probabilities `pmf`. Outcomes expected fewer than 5
+/// times are pooled, and left out where all of them together are; 1 when fewer than two are left to compare.
+double count_p_value(const std::vector<double>& counts, const std::vector<double>& pmf, int draws);
 
 /// Upper tail P(X > x) of the chi-squared distribution.
 double chi_squared_tail(double x, double degrees_of_freedom);

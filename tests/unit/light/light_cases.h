@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "light/light_tree.h"
+#include "light/selection.h"
 #include "math/rng.h"
 
 namespace tyndall::test {
@@ -220,6 +221,27 @@ inline std::vector<PointQuery> queries_for(const std::vector<LightBounds>& light
     queries.push_back(q);
   }
   return queries;
+}
+
+/// Mixed lights, and one at infinity if `sun`: what a selector is made of.
+inline SelectionInput lights_of(std::size_t count, bool sun) {
+  SelectionInput input;
+  for (const LightBounds& l : mixed_lights(count, 5)) {
+    input.near.push_back({l, static_cast<LightId>(input.power.size())});
+    input.power.push_back(l.intensity);
+  }
+  if (sun) {
+    input.far.push_back({{{DirectionCone::around({0, 0, 1}), {0, 0, 1}, 3, 3}}, static_cast<LightId>(input.power.size())});
+    input.power.push_back(10);
+  }
+  return input;
+}
+
+/// Candidates of all clusters.
+inline double total(const LightCut& cut) {
+  double sum = 0;
+  for (const LightCluster& c : cut) sum += c.candidates;
+  return sum;
 }
 
 }  // namespace tyndall::test

@@ -5,7 +5,7 @@
 #include <cstring>
 
 #include "light_cases.h"
-#include "support/chi_squared.h"
+#include "tree_masses.h"
 
 namespace tyndall {
 namespace {
@@ -16,32 +16,6 @@ std::vector<std::uint32_t> leaves_of(const LightTree& tree, std::size_t lights) 
   for (std::uint32_t i = 0; i < tree.nodes().size(); ++i)
     if (tree.nodes()[i].leaf) leaves[tree.nodes()[i].second_or_light] = i;
   return leaves;
-}
-
-struct Masses {
-  std::vector<double> pmf;  ///< by light
-  double dead = 0;          ///< on branches without importance
-};
-
-/// The probabilities of all outcomes by walking the whole tree from the root.
-Masses walk(const LightTree& tree, const PointQuery& query, std::size_t lights) {
-  Masses m{std::vector<double>(lights)};
-  if (!(tree.importance(query) > 0)) return {std::move(m.pmf), 1};
-  std::vector<std::pair<std::uint32_t, double>> stack{{0, 1.0}};
-  while (!stack.empty()) {
-    const auto [index, mass] = stack.back();
-    stack.pop_back();
-    const LightTree::Node& node = tree.nodes()[index];
-    if (node.leaf) {
-      m.pmf[node.second_or_light] += mass;
-    } else if (const auto p = tree.child_probability(index, query)) {
-      if (*p > 0) stack.push_back({index + 1, mass * *p});
-      if (*p < 1) stack.push_back({node.second_or_light, mass * (1 - *p)});
-    } else {
-      m.dead += mass;
-    }
-  }
-  return m;
 }
 
 constexpr ChildRule kRules[] = {ChildRule::proportional, ChildRule::averaged};
@@ -61,16 +35,7 @@ void check_tree(const test::LightCase& c, ChildRule rule) {
   for (const std::uint32_t leaf : leaves) REQUIRE(leaf != LightTree::kNoParent);
 
   for (const PointQuery& q : test::queries_for(c.lights, n > 1000 ? 12 : 60, 5)) {
-    const Masses walked = walk(tree, q, n);
-    double sum = 0, worst = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-      const double pmf = tree.pmf(q, leaves[i]);
-      REQUIRE((pmf >= 0 && pmf <= 1));
-      worst = std::max(worst, std::abs(pmf - walked.pmf[i]) / std::max(walked.pmf[i], 1e-30));
-      sum += pmf;
-    }
-    REQUIRE(std::abs(sum - (1 - walked.dead)) < 1e-5);
-    REQUIRE(worst < 1e-6);
+    test::check_pmf(tree, q, leaves);
   }
 }
 
@@ -112,7 +77,6 @@ TEST_CASE("lights are chosen with their probability") {
     for (std::size_t k = 0; k < queries.size(); ++k) {
       const PointQuery& q = queries[k];
       const LightTree& tree = trees[k / 6];
-      const Masses m = walk(tree, q, n);
       constexpr int kDraws = 40'000;
       std::vector<double> counts(n + 1);
       Rng rng(n);
@@ -120,24 +84,7 @@ TEST_CASE("lights are chosen with their probability") {
         const auto s = tree.select(q, (i + rng.uniform_wide()) / kDraws);
         counts[s ? s->light : n] += 1;
       }
-      double statistic = 0, rest_expected = 0, rest = 0;
-      int bins = 0;
-      const auto add = [&](double count, double e) {
-        statistic += (count - e) * (count - e) / e;
-        ++bins;
-      };
-      for (std::size_t i = 0; i <= n; ++i) {
-        const double e = (i < n ? m.pmf[i] : m.dead) * kDraws;
-        REQUIRE((e > 0 || counts[i] == 0));
-        if (e >= 5) {
-          add(counts[i], e);
-        } else {
-          rest += counts[i];
-          rest_expected += e;
-        }
-      }
-      if (rest_expected >= 5) add(rest, rest_expected);
-      if (bins > 1) CHECK(test::chi_squared_tail(statistic, bins - 1) > 1e-5);
+      CHECK(test::p_value_of(counts, test::walk(tree, q, n), kDraws) > 1e-5);
     }
   }
 }

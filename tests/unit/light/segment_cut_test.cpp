@@ -12,44 +12,25 @@
 namespace tyndall {
 namespace {
 
-SelectionInput lights_of(std::size_t count, bool sun) {
-  SelectionInput input;
-  for (const LightBounds& l : test::mixed_lights(count, 5)) {
-    input.near.push_back({l, static_cast<LightId>(input.power.size())});
-    input.power.push_back(l.intensity);
-  }
-  if (sun) {
-    input.far.push_back({{{DirectionCone::around({0, 0, 1}), {0, 0, 1}, 3, 3}}, static_cast<LightId>(input.power.size())});
-    input.power.push_back(10);
-  }
-  return input;
-}
-
 std::vector<SegmentQuery> segments() {
   std::vector<LightBounds> box{test::point_bounds({-1, -1, -1}, 1), test::point_bounds({1, 1, 1}, 1)};
   return test::segments_for(box, 27, 9);
 }
 
-double total(const LightCut& cut) {
-  double sum = 0;
-  for (const LightCluster& c : cut) sum += c.candidates;
-  return sum;
-}
-
 TEST_CASE("a segment's cut keeps to its candidates, and its clusters hold each light once") {
   for (const bool sun : {false, true}) {
-    const auto selector = make_selector(LightStrategy::tree, lights_of(300, sun));
+    const auto selector = make_selector(LightStrategy::tree, test::lights_of(300, sun));
     for (const CutSettings settings : {CutSettings{1, 0.9f}, {5, 0.9f}, {40, 0.9f}, {12, 0}, {0, 0.5f}}) {
       for (const SegmentQuery& q : segments()) {
         const LightCut cut = selector->cut(q, settings);
-        if (*settings.candidates > 0 && !cut.empty()) CHECK(total(cut) == doctest::Approx(*settings.candidates));
+        if (*settings.candidates > 0 && !cut.empty()) CHECK(test::total(cut) == doctest::Approx(*settings.candidates));
         double sum = 0;
         for (LightId i = 0; i < (sun ? 301u : 300u); ++i) {
           if (selector->pmf(q, i) == 0) continue;
           CHECK(selector->expected(cut, q, i) > 0);
           sum += selector->expected(cut, q, i);
         }
-        CHECK(sum <= total(cut) * (1 + 1e-5));
+        CHECK(sum <= test::total(cut) * (1 + 1e-5));
       }
     }
   }
@@ -57,7 +38,7 @@ TEST_CASE("a segment's cut keeps to its candidates, and its clusters hold each l
 
 TEST_CASE("draws from a segment's cut: each light comes as often as expected, and its weight is 1 on average") {
   constexpr int kRounds = 4000;
-  const auto selector = make_selector(LightStrategy::tree, lights_of(40, true));
+  const auto selector = make_selector(LightStrategy::tree, test::lights_of(40, true));
   Rng rng(12);
   for (const CutSettings settings : {CutSettings{1, 0.9f}, {3, 0.9f}, {12, 0.9f}, {12, 0}}) {
     for (const SegmentQuery& q : segments()) {

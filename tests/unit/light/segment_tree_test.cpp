@@ -3,7 +3,7 @@
 
 #include "light/wide_light_tree.h"
 #include "segment_cases.h"
-#include "support/chi_squared.h"
+#include "tree_masses.h"
 
 namespace tyndall {
 namespace {
@@ -14,57 +14,6 @@ std::vector<std::uint32_t> leaves_of(const Tree& tree, std::size_t lights) {
   std::vector<std::uint32_t> leaves(lights);
   tree.for_each_leaf([&](LightId light, std::uint32_t leaf) { leaves[light] = leaf; });
   return leaves;
-}
-
-struct Masses {
-  std::vector<double> pmf;  ///< by light
-  double dead = 0;          ///< where nothing contributes
-};
-
-/// The probabilities of all outcomes by walking the whole tree from the root.
-Masses walk(const LightTree& tree, const Segment& query, std::size_t lights) {
-  Masses m{std::vector<double>(lights)};
-  if (!(tree.importance(query) > 0)) return {std::move(m.pmf), 1};
-  std::vector<std::pair<std::uint32_t, double>> stack{{0, 1.0}};
-  while (!stack.empty()) {
-    const auto [index, mass] = stack.back();
-    stack.pop_back();
-    const LightTree::Node& node = tree.nodes()[index];
-    if (node.leaf) {
-      m.pmf[node.second_or_light] += mass;
-    } else if (const auto p = tree.child_probability(index, query)) {
-      if (*p > 0) stack.push_back({index + 1, mass * *p});
-      if (*p < 1) stack.push_back({node.second_or_light, mass * (1 - *p)});
-    } else {
-      m.dead += mass;
-    }
-  }
-  return m;
-}
-
-Masses walk(const WideLightTree& tree, const Segment& query, std::size_t lights) {
-  Masses m{std::vector<double>(lights)};
-  const WideSegment q = tree.localize(query);
-  constexpr double by_number = 0x1p-20;
-  std::vector<std::pair<std::uint32_t, double>> stack{{tree.root(), 1.0}};
-  std::size_t alive = 0;
-  while (!stack.empty()) {
-    const auto [ref, mass] = stack.back();
-    stack.pop_back();
-    if (tree.is_leaf(ref)) {
-      m.pmf[tree.nodes()[ref / 8].child[ref % 8]] = (1 - by_number) * mass + by_number / double(lights);
-      ++alive;
-      continue;
-    }
-    const ChildImportance children = tree.children(ref, q);
-    double sum = 0;
-    for (const float c : children.of) sum += c;
-    if (!(sum > 0)) m.dead += (1 - by_number) * mass;
-    for (std::uint32_t i = 0; i < 8; ++i)
-      if (children.of[i] > 0) stack.push_back({8 * tree.node_of(ref) + i, mass * children.of[i] / sum});
-  }
-  m.dead += by_number * (1 - double(alive) / double(lights));
-  return m;
 }
 
 struct AveragedTree : LightTree {
@@ -83,18 +32,7 @@ TEST_CASE_TEMPLATE("segments: the pmf sums to 1 less the dead mass", Tree, Light
     const std::size_t n = c.lights.size();
     const Tree tree(test::numbered(c.lights));
     const auto leaves = leaves_of(tree, n);
-    for (const SegmentQuery& q : test::segments_for(c.lights, n > 1000 ? 9 : 54, 5)) {
-      const Masses walked = walk(tree, q, n);
-      double sum = 0, worst = 0;
-      for (std::size_t i = 0; i < n; ++i) {
-        const double pmf = tree.pmf(q, leaves[i]);
-        REQUIRE((pmf >= 0 && pmf <= 1));
-        worst = std::max(worst, std::abs(pmf - walked.pmf[i]) / std::max(walked.pmf[i], 1e-30));
-        sum += pmf;
-      }
-      REQUIRE(std::abs(sum - (1 - walked.dead)) < 1e-5);
-      REQUIRE(worst < 1e-6);
-    }
+    for (const SegmentQuery& q : test::segments_for(c.lights, n > 1000 ? 9 : 54, 5)) test::check_pmf(tree, q, leaves);
   }
 }
 
@@ -119,28 +57,6 @@ TEST_CASE_TEMPLATE("segments: what select() returns is what pmf() says", Tree, L
   CHECK(selected > 50'000);
 }
 
-/// Whether counts of draws follow the probabilities, outcomes that are hardly expected taken together.
-double chi_squared_of(const std::vector<double>& counts, const Masses& m, int draws) {
-  double statistic = 0, rest_expected = 0, rest = 0;
-  int bins = 0;
-  const auto add = [&](double count, double e) {
-    statistic += (count - e) * (count - e) / e;
-    ++bins;
-  };
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    const double e = (i < m.pmf.size() ? m.pmf[i] : m.dead) * draws;
-    REQUIRE((e > 0 || counts[i] == 0));
-    if (e >= 5) {
-      add(counts[i], e);
-    } else {
-      rest += counts[i];
-      rest_expected += e;
-    }
-  }
-  if (rest_expected >= 5) add(rest, rest_expected);
-  return bins > 1 ? test::chi_squared_tail(statistic, bins - 1) : 1;
-}
-
 TEST_CASE_TEMPLATE("segments: lights are chosen with their probability", Tree, LightTree, AveragedTree, WideLightTree) {
   for (const std::size_t n : {1u, 2u, 5u, 40u, 500u, 100'000u}) {
     const auto lights = test::mixed_lights(n, 77 + n);
@@ -153,7 +69,7 @@ TEST_CASE_TEMPLATE("segments: lights are chosen with their probability", Tree, L
         const auto s = tree.select(q, (i + rng.uniform_wide()) / kDraws);
         counts[s ? s->light : n] += 1;
       }
-      CHECK(chi_squared_of(counts, walk(tree, q, n), kDraws) > 1e-5);
+      CHECK(test::p_value_of(counts, test::walk(tree, q, n), kDraws) > 1e-5);
     }
   }
 }

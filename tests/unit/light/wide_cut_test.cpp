@@ -12,25 +12,6 @@
 namespace tyndall {
 namespace {
 
-SelectionInput lights_of(std::size_t count, bool sun) {
-  SelectionInput input;
-  for (const LightBounds& l : test::mixed_lights(count, 5)) {
-    input.near.push_back({l, static_cast<LightId>(input.power.size())});
-    input.power.push_back(l.intensity);
-  }
-  if (sun) {
-    input.far.push_back({{{DirectionCone::around({0, 0, 1}), {0, 0, 1}, 3, 3}}, static_cast<LightId>(input.power.size())});
-    input.power.push_back(10);
-  }
-  return input;
-}
-
-double total(const LightCut& cut) {
-  double sum = 0;
-  for (const LightCluster& c : cut) sum += c.candidates;
-  return sum;
-}
-
 /// A lobe of facets that mirrors light from `axis`, seen along the normal.
 void add_lobe(PointQuery& q, Vec3 axis, float alpha) {
   q.n = axis;
@@ -80,7 +61,7 @@ TEST_CASE("where no light of the tree keeps what their common bounds promise, th
   q.n = {0, 0, 1};
   for (const int n : {1, 4}) {
     const LightCut cut = selector->cut(q, {.candidates = n, .splitting = 0.9f});
-    CHECK(total(cut) == doctest::Approx(n));
+    CHECK(test::total(cut) == doctest::Approx(n));
     CHECK(selector->expected(cut, q, sun) == doctest::Approx(n));
     CHECK(selector->draw(cut, q, 0.3).size() == static_cast<std::size_t>(n));
   }
@@ -88,14 +69,14 @@ TEST_CASE("where no light of the tree keeps what their common bounds promise, th
 
 TEST_CASE("a cut keeps to its candidates, and its clusters hold each light once") {
   for (const bool sun : {false, true}) {
-    const auto selector = make_selector(LightStrategy::tree, lights_of(300, sun));
+    const auto selector = make_selector(LightStrategy::tree, test::lights_of(300, sun));
     const auto n = static_cast<LightId>(sun ? 301 : 300);
     for (const CutSettings settings : {CutSettings{1, 1}, {4, 0.9f}, {8, 0}, {8, 0.5f}, {16, 1}, {100, 1}, {0, 0.8f}, {0, 1}}) {
       CAPTURE(settings.candidates);
       CAPTURE(settings.splitting);
       for (const PointQuery& q : queries()) {
         const LightCut cut = selector->cut(q, settings);
-        if (settings.candidates > 0 && !cut.empty()) CHECK(total(cut) == doctest::Approx(*settings.candidates));
+        if (settings.candidates > 0 && !cut.empty()) CHECK(test::total(cut) == doctest::Approx(*settings.candidates));
         // Every cluster gives its candidates one light each, but for what falls on dead branches.
         double sum = 0;
         for (LightId i = 0; i < n; ++i) {
@@ -104,7 +85,7 @@ TEST_CASE("a cut keeps to its candidates, and its clusters hold each light once"
           sum += expected;
           CHECK(expected > 0);
         }
-        CHECK(sum <= total(cut) * (1 + 1e-5));
+        CHECK(sum <= test::total(cut) * (1 + 1e-5));
         if (!settings.candidates || *settings.candidates > 0) CHECK(cut.size() <= static_cast<std::size_t>(std::max(settings.candidates.value_or(4), 15)) + 1);
       }
     }
@@ -112,7 +93,7 @@ TEST_CASE("a cut keeps to its candidates, and its clusters hold each light once"
 }
 
 TEST_CASE("splitting 0 leaves all lights as one; 1 without a limit goes down to single lights") {
-  const auto selector = make_selector(LightStrategy::tree, lights_of(200, false));
+  const auto selector = make_selector(LightStrategy::tree, test::lights_of(200, false));
   for (const PointQuery& q : queries()) {
     CHECK(selector->cut(q, {7, 0}).size() <= 1);
     const LightCut all = selector->cut(q, {0, 1});
@@ -148,7 +129,7 @@ TEST_CASE("a phase function with a peak makes the cut finer where it points") {
 }
 
 TEST_CASE("draws from a cut: each light comes as often as expected, and its weight is 1 on average") {
-  const auto selector = make_selector(LightStrategy::tree, lights_of(40, true));
+  const auto selector = make_selector(LightStrategy::tree, test::lights_of(40, true));
   Rng rng(12);
   constexpr int kRounds = 2000;
   for (const CutSettings settings : {CutSettings{1, 0.9f}, {3, 0.9f}, {12, 0.9f}, {20, 0.9f}, {12, 0}, {1, 0}, {0, 0.6f}, {{}, 0.5f}}) {
@@ -174,11 +155,11 @@ TEST_CASE("draws from a cut: each light comes as often as expected, and its weig
 TEST_CASE("unset, candidates are more on glossy surfaces than elsewhere, and one where a strategy has no wide tree") {
   PointQuery plain{.p = {3, 0, 0}, .n = {-1, 0, 0}}, glossy = plain;
   add_lobe(glossy, {-1, 0, 0}, 0.1f);
-  const auto tree = make_selector(LightStrategy::tree, lights_of(100, false));
-  const auto binary = make_selector(LightStrategy::tree_binary, lights_of(100, false));
-  CHECK(total(tree->cut(plain, {})) == doctest::Approx(1));
-  CHECK(total(tree->cut(glossy, {})) == doctest::Approx(4));
-  CHECK(total(binary->cut(glossy, {})) == 1);
+  const auto tree = make_selector(LightStrategy::tree, test::lights_of(100, false));
+  const auto binary = make_selector(LightStrategy::tree_binary, test::lights_of(100, false));
+  CHECK(test::total(tree->cut(plain, {})) == doctest::Approx(1));
+  CHECK(test::total(tree->cut(glossy, {})) == doctest::Approx(4));
+  CHECK(test::total(binary->cut(glossy, {})) == 1);
 }
 
 TEST_CASE("walks in step find what each finds alone") {

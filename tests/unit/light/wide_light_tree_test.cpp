@@ -6,7 +6,7 @@
 
 #include "light/split_measure.h"
 #include "light_cases.h"
-#include "support/chi_squared.h"
+#include "tree_masses.h"
 #include "wide_oracle.h"
 
 namespace tyndall {
@@ -29,37 +29,6 @@ std::vector<test::LightCase> all_cases() {
   return cases;
 }
 
-struct Masses {
-  std::vector<double> pmf;  ///< by light
-  double dead = 0;          ///< where nothing contributes
-};
-
-/// The probabilities of all outcomes by walking the whole tree from the root.
-Masses walk(const WideLightTree& tree, const PointQuery& query, std::size_t lights) {
-  Masses m{std::vector<double>(lights)};
-  const WideQuery q = tree.localize(query);
-  constexpr double by_number = 0x1p-20;
-  std::vector<std::pair<NodeRef, double>> stack{{tree.root(), 1.0}};
-  std::size_t alive = 0;
-  while (!stack.empty()) {
-    const auto [ref, mass] = stack.back();
-    stack.pop_back();
-    if (tree.is_leaf(ref)) {
-      m.pmf[tree.nodes()[ref / 8].child[ref % 8]] = (1 - by_number) * mass + by_number / double(lights);
-      ++alive;
-      continue;
-    }
-    const ChildImportance children = tree.children(ref, q);
-    double sum = 0;
-    for (const float c : children.of) sum += c;
-    if (!(sum > 0)) m.dead += (1 - by_number) * mass;
-    for (NodeRef i = 0; i < 8; ++i)
-      if (children.of[i] > 0) stack.push_back({8 * tree.node_of(ref) + i, mass * children.of[i] / sum});
-  }
-  m.dead += by_number * (1 - double(alive) / double(lights));
-  return m;
-}
-
 TEST_CASE("every case: the tree is sound, the pmf sums to 1 less the dead mass") {
   for (const auto& c : all_cases()) {
     CAPTURE(c.name);
@@ -76,18 +45,7 @@ TEST_CASE("every case: the tree is sound, the pmf sums to 1 less the dead mass")
       for (const std::uint32_t k : node.count) count += k;
       REQUIRE(count == tree.cluster(node.parent).count);
     }
-    for (const PointQuery& q : test::queries_for(c.lights, n > 1000 ? 12 : 60, 5)) {
-      const Masses walked = walk(tree, q, n);
-      double sum = 0, worst = 0;
-      for (std::size_t i = 0; i < n; ++i) {
-        const double pmf = tree.pmf(q, leaves[i]);
-        REQUIRE((pmf >= 0 && pmf <= 1));
-        worst = std::max(worst, std::abs(pmf - walked.pmf[i]) / std::max(walked.pmf[i], 1e-30));
-        sum += pmf;
-      }
-      REQUIRE(std::abs(sum - (1 - walked.dead)) < 1e-5);
-      REQUIRE(worst < 1e-6);
-    }
+    for (const PointQuery& q : test::queries_for(c.lights, n > 1000 ? 12 : 60, 5)) test::check_pmf(tree, q, leaves);
   }
 }
 
@@ -118,7 +76,6 @@ TEST_CASE("lights are chosen with their probability") {
     const auto lights = test::mixed_lights(n, 77 + n);
     const WideLightTree tree(test::numbered(lights));
     for (const PointQuery& q : test::queries_for(lights, 6, 9)) {
-      const Masses m = walk(tree, q, n);
       constexpr int kDraws = 40'000;
       std::vector<double> counts(n + 1);
       Rng rng(n);
@@ -126,21 +83,7 @@ TEST_CASE("lights are chosen with their probability") {
         const auto s = tree.select(q, (i + rng.uniform_wide()) / kDraws);
         counts[s ? s->light : n] += 1;
       }
-      double statistic = 0, rest_expected = 0, rest = 0;
-      int bins = 0;
-      for (std::size_t i = 0; i <= n; ++i) {
-        const double e = (i < n ? m.pmf[i] : m.dead) * kDraws;
-        REQUIRE((e > 0 || counts[i] == 0));
-        if (e >= 5) {
-          statistic += (counts[i] - e) * (counts[i] - e) / e;
-          ++bins;
-        } else {
-          rest += counts[i];
-          rest_expected += e;
-        }
-      }
-      if (rest_expected >= 5) statistic += (rest - rest_expected) * (rest - rest_expected) / rest_expected, ++bins;
-      if (bins > 1) CHECK(test::chi_squared_tail(statistic, bins - 1) > 1e-5);
+      CHECK(test::p_value_of(counts, test::walk(tree, q, n), kDraws) > 1e-5);
     }
   }
 }
