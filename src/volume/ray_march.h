@@ -26,8 +26,7 @@ class RayMarch {
   template <typename Walk>
   bool add(Walk& walk, Rng& rng, TrackingStats& stats) {
     const double length = walk.t_end() - walk.t();
-    const Rgb c = walk.control();
-    control_ += Rgb{depth_of(c.r, length), depth_of(c.g, length), depth_of(c.b, length)};
+    control_ += depth_of(walk.control(), length);
     const float rate = walk.rate();
     if (rate > 0) {
       const double end = marched_ + rate * length;
@@ -50,8 +49,6 @@ class RayMarch {
     Rgb x;
   };
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
-  /// An empty piece may be infinitely long.
-  static float depth_of(float sigma, double length) { return sigma > 0 ? static_cast<float>(sigma * length) : 0.0f; }
 
   static int draw_orders(Rng& rng, TrackingStats& stats) {
     if (rng.uniform() >= kMore) return 0;
@@ -73,7 +70,6 @@ class RayMarch {
 
   /// On exp of what is known so far: any function of the past will do.
   bool survives_roulette(Rng& rng) {
-    constexpr float kThick = 4.6f;  // -ln kRouletteBelow
     float least = kInfinity;
     for (int channel = 0; channel < 3; ++channel) least = std::min(least, control_[channel] + combs_[0].x[channel]);
     const float left = least - relief_;

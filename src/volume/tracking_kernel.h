@@ -12,6 +12,7 @@ namespace tyndall::kernel {
 
 /// Weights below this are left to Russian roulette.
 inline constexpr float kRouletteBelow = 0.01f;
+inline constexpr float kThick = 4.6f;  ///< -ln kRouletteBelow
 /// ... but only once in so many look-ups: it saves time in thick media, and only adds noise to short walks.
 inline constexpr std::uint64_t kRouletteEvery = 16;
 /// Look-ups of one walk after which it is given up and counted. A path through an optical depth of 1e7 needs fewer.
@@ -20,6 +21,12 @@ inline constexpr std::uint64_t kMaxLookups = std::uint64_t{1} << 26;
 inline Rgb absolute(Rgb c) { return {std::abs(c.r), std::abs(c.g), std::abs(c.b)}; }
 inline float sum(Rgb c) { return c.r + c.g + c.b; }
 inline float max_abs(Rgb c) { return max_component(absolute(c)); }
+
+/// Optical depth of a stretch of constant sigma; where that is 0 the stretch may be infinitely long.
+inline Rgb depth_of(Rgb sigma, double length) {
+  const auto depth = [&](float s) { return s > 0 ? static_cast<float>(s * length) : 0.0f; };
+  return {depth(sigma.r), depth(sigma.g), depth(sigma.b)};
+}
 
 /// Exponential variate of rate 1.
 inline float exponential(Rng& rng) { return -std::log(1 - rng.uniform()); }

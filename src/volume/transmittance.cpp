@@ -40,9 +40,6 @@ Rgb delta_tracking(Walk& walk, Rng& rng, TrackingStats& stats) {
   return T;
 }
 
-/// exp(-control) of one piece in the exponent; an empty piece may be infinitely long.
-float control_depth(float control, double length) { return control > 0 ? static_cast<float>(control * length) : 0.0f; }
-
 /// State of a residual walk: T * exp(-depth) is the estimate so far.
 struct Residual {
   Rgb T{1.0f}, depth;
@@ -62,15 +59,12 @@ struct Residual {
 /// [Novak et al. 2014] with a control c for each piece, chosen by MediumWalk.
 template <typename Walk>
 Rgb residual_ratio_tracking(Walk& walk, Rng& rng, TrackingStats& stats) {
-  constexpr float kThick = 4.6f;  // -ln kRouletteBelow
   LoopGuard guard;
   Residual state;
   float next = exponential(rng);
   while (walk.next()) {
     const float rate = walk.rate();
-    const double length = walk.t_end() - walk.t();
-    const Rgb c = walk.control();
-    state.depth += Rgb{control_depth(c.r, length), control_depth(c.g, length), control_depth(c.b, length)};
+    state.depth += depth_of(walk.control(), walk.t_end() - walk.t());
     if (!(rate > 0)) continue;
 
     double t = walk.t();
