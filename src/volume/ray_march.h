@@ -26,14 +26,15 @@ class RayMarch {
   template <typename Walk>
   bool add(Walk& walk, Rng& rng, TrackingStats& stats) {
     const double length = walk.t_end() - walk.t();
-    control_ += depth_of(walk.control(), length);
     const float rate = walk.rate();
     if (rate > 0) {
       const double end = marched_ + rate * length;
-      for (Comb& comb : combs_) read_teeth(comb, walk, end, stats);
+      for (Comb& comb : combs_)
+        if (!read_teeth(comb, walk, end, rng, stats)) return false;
       marched_ = end;
     }
-    return survives_roulette(rng);
+    control_ += depth_of(walk.control(), length);
+    return survives_roulette(control_, rng);
   }
 
   Rgb transmittance() const { return {transmittance(0), transmittance(1), transmittance(2)}; }
@@ -58,20 +59,29 @@ class RayMarch {
     return orders;
   }
 
+  /// The teeth of one comb in the current piece; false as add().
+  ///
+  /// Roulette inside a piece goes by the control up to the tooth, not to the piece's end: from there on a control may
+  /// stand for what turns out to be clear, and the few who survive would weigh exp(what it was too much). As teeth read
+  /// at least -control, a comb's depth up to a tooth is never more than its depth at the end.
   template <typename Walk>
-  void read_teeth(Comb& comb, Walk& walk, double end, TrackingStats& stats) {
+  bool read_teeth(Comb& comb, Walk& walk, double end, Rng& rng, TrackingStats& stats) {
     const float rate = walk.rate();
     for (; comb.tooth < end; comb.tooth += kSpacing) {
-      const Rgb excess = walk.excess_at(walk.t() + (comb.tooth - marched_) / rate);
+      const double from_start = (comb.tooth - marched_) / rate;
+      const Rgb excess = walk.excess_at(walk.t() + from_start);
       count_lookup(max_abs(excess), rate, stats);
       comb.x += excess * static_cast<float>(kSpacing / rate);
+      if (guard_.spent(stats)) return false;
+      if (guard_.roulette_is_due() && !survives_roulette(control_ + depth_of(walk.control(), from_start), rng)) return false;
     }
+    return true;
   }
 
-  /// On exp of what is known so far: any function of the past will do.
-  bool survives_roulette(Rng& rng) {
+  /// On exp of what is known so far, `control` and the first comb: any function of the past will do.
+  bool survives_roulette(Rgb control, Rng& rng) {
     float least = kInfinity;
-    for (int channel = 0; channel < 3; ++channel) least = std::min(least, control_[channel] + combs_[0].x[channel]);
+    for (int channel = 0; channel < 3; ++channel) least = std::min(least, control[channel] + combs_[0].x[channel]);
     const float left = least - relief_;
     if (!(left > kThick)) return true;
     const float chance = std::exp(kThick - left);
@@ -107,6 +117,7 @@ class RayMarch {
     return sum;
   }
 
+  LoopGuard guard_;  // of all combs together
   int orders_;
   double marched_ = 0;  // depth of the rate before the current piece
   Rgb control_;

@@ -29,6 +29,16 @@ inline ParticipatingMedium homogeneous(const Optics& optics, Rgb Le = {}) {
   return built(medium, optics);
 }
 
+/// Clouds with clear air between them, high above the dense lower half that pbrt's formula makes.
+inline ParticipatingMedium cloud(const Optics& optics) {
+  CloudMedium cloud;
+  cloud.bounds = {{-2, 0.55f, -2}, {2, 0.95f, 2}};
+  cloud.frequency = 3;
+  Medium medium;
+  medium.kind = cloud;
+  return built(medium, optics);
+}
+
 /// n^3 cells over [lo, hi]^3.
 struct Cells {
   int n;
