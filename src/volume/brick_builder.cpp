@@ -1,8 +1,9 @@
 #include "volume/brick_builder.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
+
+#include "volume/leaf_cache.h"
 
 namespace tyndall {
 
@@ -22,7 +23,8 @@ class BrickGridBuilder {
       : source_(source),
         options_(options),
         channels_(static_cast<std::size_t>(source.channels())),
-        voxels_(kVoxels * channels_) {
+        voxels_(kVoxels * channels_),
+        leaves_(source, options.rules) {
     grid_.bricks_ = BrickStore(source.channels(), options.float_bricks);
     grid_.block_means_ = BlockMeans(source.channels());
     grid_.octants_ = BrickOctants(source.channels());
@@ -49,6 +51,11 @@ class BrickGridBuilder {
     ChannelRanges ranges;
   };
   using Children = std::array<std::optional<Built>, 64>;
+
+  void take(std::size_t bytes) {
+    taken_ += bytes;
+    if (taken_ > options_.most_memory) throw GridTooLarge{};
+  }
 
   VoxelBox clipped(const VoxelBlock& block) const {
     return options_.rules.clip ? block.box.intersect(*options_.rules.clip) : block.box;
@@ -169,6 +176,8 @@ class BrickGridBuilder {
   }
 
   std::optional<Built> adopt(const Children& children) {
+    const auto count = std::count_if(children.begin(), children.end(), [](const auto& child) { return child.has_value(); });
+    take(static_cast<std::size_t>(count) * (sizeof(BrickGrid::Node) + channels_ * sizeof(ValueRange)));
     Built parent;
     parent.node.first = static_cast<std::uint32_t>(grid_.nodes_.size());
     std::array<double, kMaxChannels> mean{};
@@ -192,21 +201,16 @@ class BrickGridBuilder {
 
   // ----------------------------------------------------------------------------------------------- bricks
 
-  /// What is not finite has been reported by inspect(); it only comes here when it is to become 0.
-  float ruled(float value) const {
-    if (!std::isfinite(value)) return 0;
-    return value < 0 && options_.rules.negative_to_zero ? 0 : value;
-  }
-
   std::optional<Built> constant_leaf(const VoxelBlock& block, const VoxelBox& box) {
     std::array<float, kMaxChannels> value{};
-    for (std::size_t c = 0; c < channels_; ++c) value[c] = ruled(block.value[c]);
+    for (std::size_t c = 0; c < channels_; ++c) value[c] = options_.rules.kept(block.value[c]);
     return add_constant(value, box);
   }
 
   std::optional<Built> add_constant(const std::array<float, kMaxChannels>& value, const VoxelBox& box) {
     if (std::all_of(value.begin(), value.end(), [](float v) { return v == 0; })) return std::nullopt;
     non_zero_.expand(box);
+    take(channels_ * sizeof(BrickStore::Plane));
     Built built;
     built.node.first = grid_.bricks_.add_constant(value.data(), built.ranges);
     return built;
@@ -223,6 +227,8 @@ class BrickGridBuilder {
     }
     if (constant) return add_constant(value, box);
     if (!non_zero_.contains(box)) note_non_zero(box.lo);
+    take(channels_ * (sizeof(BrickStore::Plane) + kVoxels * (options_.float_bricks ? sizeof(float) : sizeof(std::uint16_t)) +
+                      8 * sizeof(ValueRange) + BlockMeans::kBytes));
     Built built;
     built.node.first = grid_.bricks_.add(voxels_.data(), built.ranges);
     grid_.block_means_.add(voxels_.data());
@@ -237,7 +243,7 @@ class BrickGridBuilder {
       const VoxelBox part = clipped(*block).intersect(box);
       if (part.empty()) continue;
       const Index3& lo = block->box.lo;
-      const float* leaf = block->leaf == VoxelBlock::kConstant ? nullptr : leaf_values(block->leaf);
+      const float* leaf = block->leaf == VoxelBlock::kConstant ? nullptr : leaves_.values(block->leaf);
       const auto run = static_cast<std::size_t>(part.hi[0] - part.lo[0] + 1);
       for (std::size_t c = 0; c < channels_; ++c)
         for (std::int64_t z = part.lo[2]; z <= part.hi[2]; ++z)
@@ -248,21 +254,9 @@ class BrickGridBuilder {
             if (leaf)
               std::copy_n(leaf + c * VoxelSource::kLeafVoxels + static_cast<std::size_t>(from), run, out);
             else
-              std::fill_n(out, run, ruled(block->value[c]));
+              std::fill_n(out, run, options_.rules.kept(block->value[c]));
           }
     }
-  }
-
-  /// A leaf reaches into up to 8 bricks which follow each other closely: keep the last ones.
-  const float* leaf_values(std::uint32_t leaf) {
-    CachedLeaf& cached = leaf_cache_[leaf % kCachedLeaves];
-    if (cached.leaf != leaf) {
-      cached.leaf = leaf;
-      cached.values.resize(VoxelSource::kLeafVoxels * channels_);
-      source_.read_leaf(leaf, cached.values.data());
-      for (float& value : cached.values) value = ruled(value);
-    }
-    return cached.values.data();
   }
 
   void note_non_zero(const Index3& origin) {
@@ -283,12 +277,8 @@ class BrickGridBuilder {
   BrickGrid grid_;
   VoxelBox non_zero_;
   std::vector<float> voxels_;
-  struct CachedLeaf {
-    std::uint32_t leaf = VoxelBlock::kConstant;
-    std::vector<float> values;
-  };
-  static constexpr std::uint32_t kCachedLeaves = 1024;
-  std::vector<CachedLeaf> leaf_cache_ = std::vector<CachedLeaf>(kCachedLeaves);
+  LeafCache leaves_;
+  std::size_t taken_ = 0;  // bytes
 };
 
 BrickGrid build_brick_grid(const VoxelSource& source, const BrickBuildOptions& options) {

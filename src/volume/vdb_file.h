@@ -22,6 +22,7 @@ struct VolumeGridEntry {
   bool level_set = false;
   bool linear = true;  ///< its map is affine
   std::uint64_t leaves = 0;  ///< of 8^3 voxels
+  std::size_t read_bytes = sizeof(float);  ///< that each number of a voxel takes while the grid is loaded, about
 };
 
 /// A grid's voxels and where they lie. Must not outlive its file.

@@ -67,7 +67,8 @@ class GridLoader {
     const Transform index_to_world = medium_.to_world * grid.index_to_world;
     if (to_world) *to_world = index_to_world;
     PlacedGrid placed;
-    placed.grid = build_brick_grid(*grid.source, {rules, options_.float_bricks});
+    placed.grid = build_bricks(entry(index), *grid.source, rules);
+    taken_ += placed.grid.memory_bytes();
     if (placed.grid.empty()) note(use.role + " grid " + quoted(entry(index).name) + " is empty");
     const Index3& origin = placed.grid.origin();
     placed.to_local =
@@ -130,15 +131,31 @@ class GridLoader {
     if (!grid.linear) fail(who + " has a frustum transform; resample it to a linear one");
   }
 
-  /// The voxels as they come from the file, and the bricks made of them.
-  void refuse_large(const VolumeGridEntry& grid) const {
-    constexpr double kBytesAVoxel = sizeof(float) + 3;
+  std::size_t left() const { return options_.most_memory - std::min(taken_, options_.most_memory); }
+  static double values_of(const VolumeGridEntry& grid) {
     const double channels = grid.values == VolumeGridEntry::Values::vector ? 3 : 1;
-    const double bytes = static_cast<double>(grid.leaves) * VoxelSource::kLeafVoxels * channels * kBytesAVoxel;
-    if (bytes <= static_cast<double>(options_.most_memory)) return;
-    const auto gigabytes = [](double b) { return std::to_string(b * 1e-9); };
-    fail("grid " + quoted(grid.name) + " is estimated to need " + gigabytes(bytes) + " GB of memory where only " +
-         gigabytes(static_cast<double>(options_.most_memory)) + " GB are left; raise --max-memory or use a coarser volume");
+    return static_cast<double>(grid.leaves) * VoxelSource::kLeafVoxels * channels;
+  }
+
+  /// The voxels while they are read, and the bricks made of them.
+  void refuse_large(const VolumeGridEntry& grid) const {
+    constexpr double kBricks = 3;
+    const double bytes = values_of(grid) * (static_cast<double>(grid.read_bytes) + kBricks);
+    if (bytes > static_cast<double>(left()))
+      fail_large("grid " + quoted(grid.name) + " is estimated to need " + gigabytes(bytes) + " of memory");
+  }
+  /// Only leaves are known before: boxes of one value, and what lies alone, make bricks too.
+  BrickGrid build_bricks(const VolumeGridEntry& grid, const VoxelSource& source, const VoxelRules& rules) const {
+    const double most = std::max(0.0, static_cast<double>(left()) - values_of(grid) * static_cast<double>(grid.read_bytes));
+    try {
+      return build_brick_grid(source, {rules, options_.float_bricks, static_cast<std::size_t>(std::min(most, 0x1p62))});
+    } catch (const GridTooLarge&) {
+      fail_large("grid " + quoted(grid.name) + " becomes more bricks than " + gigabytes(most) + " of memory hold");
+    }
+  }
+  static std::string gigabytes(double bytes) { return std::to_string(bytes * 1e-9) + " GB"; }
+  [[noreturn]] void fail_large(const std::string& what) const {
+    fail(what + " where only " + gigabytes(static_cast<double>(left())) + " are left; raise --max-memory or use a coarser volume");
   }
 
   void report(const VolumeGridEntry& grid, const VoxelReport& found, const VoxelRules& rules) {
@@ -160,6 +177,7 @@ class GridLoader {
   const MediumBuildOptions& options_;
   std::vector<std::string>& notes_;
   std::unique_ptr<VolumeFile> file_;
+  std::size_t taken_ = 0;  // bytes of the grids made so far
 };
 
 std::size_t density_index(GridLoader& loader, const VdbMedium& vdb) {

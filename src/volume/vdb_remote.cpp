@@ -261,6 +261,7 @@ class RemoteVolumeFile : public VolumeFile {
     entry.level_set = worker_.get_flag();
     entry.linear = worker_.get_flag();
     entry.leaves = worker_.get<std::uint64_t>();
+    entry.read_bytes = 2 * sizeof(float);  // in the child's tree, and as they come from there
     return entry;
   }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -61,6 +62,12 @@ struct VoxelRules {
   bool negative_to_zero = true;  ///< densities; temperatures keep their sign
   bool sanitize = false;         ///< NaN and infinity to 0
   std::optional<VoxelBox> clip;  ///< voxels outside read 0
+
+  /// What is kept of a value. One that is not finite has been reported by inspect() and only comes here to become 0.
+  float kept(float value) const {
+    if (!std::isfinite(value)) return 0;
+    return value < 0 && negative_to_zero ? 0 : value;
+  }
 };
 
 /// What is wrong with the voxels of a source, within the clip box.

@@ -240,3 +240,24 @@ TEST_CASE("a grid without any value other than zero is empty") {
   CHECK(grid.lookup(Vec3d{{1, 1, 1}}) == 0);
   CHECK(grid.range().max == 0);
 }
+
+TEST_CASE("a grid that would take more memory than it may is not made, whatever its bricks come from") {
+  OracleSource speckled, boxed, banded;
+  Rng rng(9);
+  for (int i = 0; i < 30; ++i) {
+    const Index3 lo{8 * (i % 5), 8 * (i / 5), 24 * (i % 3)};
+    speckled.add_leaf(lo, [&](std::int64_t, std::int64_t, std::int64_t) { return rng.uniform(); });
+  }
+  boxed.add_tile({0, 0, 0}, {100, 100, 100}, 1);
+  for (int i = 0; i < 8; ++i) banded.add_tile({64 * i, 0, 0}, {64 * i + 63, 63, 63}, 1 + static_cast<float>(i));
+  for (const OracleSource* source : {&speckled, &boxed, &banded})
+    for (const bool floats : {false, true}) {
+      const BrickBuildOptions free{.rules = {}, .float_bricks = floats};
+      const std::size_t bytes = build_brick_grid(*source, free).memory_bytes();
+      BrickBuildOptions tight = free;
+      tight.most_memory = bytes;
+      CHECK(build_brick_grid(*source, tight).memory_bytes() == bytes);
+      tight.most_memory = bytes * 9 / 10;
+      CHECK_THROWS_AS(build_brick_grid(*source, tight), GridTooLarge);
+    }
+}

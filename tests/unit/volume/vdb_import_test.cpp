@@ -215,6 +215,24 @@ TEST_CASE(".nvdb: every type and codec reads as the ball it was made of") {
   }
 }
 
+TEST_CASE("a volume that needs more memory than there is is refused before it is taken") {
+  const test::Scratch scratch;
+  const std::string path = scratch / "large.vdb";
+  VdbGrid hollow;  // nearly nothing in the file, and bricks all over its faces
+  hollow.background = 1;
+  hollow.voxels = {{{0, 0, 0}, 2.0f}, {{2000, 2000, 2000}, 2.0f}};
+  test::write_vdb(path, {hollow});
+  CHECK(contains(error_of(path, {}, {.most_memory = std::size_t{64} << 20}), "becomes more bricks than 0.06"));
+
+  // 20^3 leaves, not one of a single value: 4 bytes a voxel in the tree of the reading process, 4 as they are received
+  // and 3 as bricks are 45 MB.
+  VdbGrid dense;
+  for (int z = 1; z < 160; z += 8) dense.boxes.push_back({{0, 0, z}, {159, 159, z + 5}, 1.0f});
+  test::write_vdb(path, {dense});
+  CHECK(contains(error_of(path, {}, {.most_memory = 40'000'000}), "\"density\" is estimated to need 0.045"));
+  CHECK(import(path, {}, {.most_memory = 60'000'000}).medium.sigma_maj() > 0);
+}
+
 TEST_CASE("describe_volume lists every grid with its properties") {
   const test::Scratch scratch;
   VdbGrid grid, other;
