@@ -32,7 +32,7 @@ std::unique_ptr<VolumeFile> open_volume(const std::string& path, std::size_t mos
 
   // OpenVDB: ' BDV' and four zero bytes, NanoVDB: "NanoVDB" and a digit.
   if (std::memcmp(head.data(), " BDV\0\0\0\0", 8) == 0) return open_remotely(path, most_memory, open_openvdb);
-  if (std::memcmp(head.data(), "NanoVDB", 7) == 0) return open_nanovdb(path);
+  if (std::memcmp(head.data(), "NanoVDB", 7) == 0) return open_nanovdb(path, most_memory);
   throw Error(Failure::scene, path + ": is neither an OpenVDB nor a NanoVDB file (its first bytes match neither)");
 }
 

@@ -39,7 +39,8 @@ constexpr std::uint64_t kMaxRatio = 2048;
 
 class NanoReader {
  public:
-  explicit NanoReader(const std::string& path) : path_(path), in_(path, std::ios::binary) {
+  NanoReader(const std::string& path, std::size_t most_memory)
+      : path_(path), in_(path, std::ios::binary), memory_left_(most_memory) {
     std::error_code code;
     left_ = std::filesystem::file_size(path, code);
     if (!in_ || code) fail("cannot be opened; check its permissions");
@@ -102,6 +103,8 @@ class NanoReader {
     if (header.grid_size < sizeof(nanovdb::GridData) + sizeof(nanovdb::TreeData<3>) ||
         (header.codec == 0 ? header.grid_size != header.file_size : header.grid_size / kMaxRatio > header.file_size))
       fail("has a grid of impossible size; it is damaged");
+    if (header.grid_size > memory_left_) fail_large(header.grid_size);
+    memory_left_ -= header.grid_size;
     nanovdb::HostBuffer buffer = nanovdb::HostBuffer::create(header.grid_size);
     auto* out = reinterpret_cast<char*>(buffer.data());
     if (header.codec == 0)
@@ -109,6 +112,12 @@ class NanoReader {
     else
       unpack_chunks(header, out);
     return buffer;
+  }
+
+  [[noreturn]] void fail_large(std::uint64_t bytes) const {
+    const auto gigabytes = [](std::uint64_t b) { return std::to_string(static_cast<double>(b) * 1e-9) + " GB"; };
+    fail("holds a grid of " + gigabytes(bytes) + " where only " + gigabytes(memory_left_) +
+         " of memory are left; raise --max-memory or use a coarser volume");
   }
 
   /// ZIP is one chunk, Blosc as many as it takes; each after its size.
@@ -157,7 +166,8 @@ class NanoReader {
 
   const std::string& path_;
   std::ifstream in_;
-  std::uint64_t left_ = 0;
+  std::uint64_t left_ = 0;  // bytes of the file
+  std::uint64_t memory_left_;
 };
 
 }  // namespace
@@ -166,9 +176,9 @@ std::string nano_version(std::uint32_t packed) {
   return std::to_string(packed >> 21) + "." + std::to_string(packed >> 10 & 0x7ff) + "." + std::to_string(packed & 0x3ff);
 }
 
-NanoFile read_nano_file(const std::string& path) {
+NanoFile read_nano_file(const std::string& path, std::size_t most_memory) {
   try {
-    return NanoReader(path).read();
+    return NanoReader(path, most_memory).read();
   } catch (const std::bad_alloc&) {
     throw Error(Failure::scene, path + ": needs more memory than there is; it may be damaged");
   }

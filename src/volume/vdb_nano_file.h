@@ -1,6 +1,7 @@
 /// The container of .nvdb files: headers checked, grids decompressed. Values are looked at in vdb_nanovdb.cpp.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -23,8 +24,8 @@ struct NanoFile {
   std::vector<NanoBlob> grids;
 };
 
-/// Throws Error (scene) when the file is not wholly what its headers say.
-NanoFile read_nano_file(const std::string& path);
+/// Throws Error (scene) when the file is not wholly what its headers say, or its grids take more than `most_memory` bytes.
+NanoFile read_nano_file(const std::string& path, std::size_t most_memory);
 
 std::string nano_version(std::uint32_t packed);  ///< "32.4.2"
 

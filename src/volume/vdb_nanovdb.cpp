@@ -75,7 +75,7 @@ const char* class_name(nanovdb::GridClass grid_class) {
 
 class NanoVdbFile : public VolumeFile {
  public:
-  explicit NanoVdbFile(const std::string& path) : path_(path), file_(read_nano_file(path)) {
+  NanoVdbFile(const std::string& path, std::size_t most_memory) : path_(path), file_(read_nano_file(path, most_memory)) {
     for (const NanoBlob& blob : file_.grids) {
       VolumeGridEntry entry;
       entry.name = printable(blob.head().mGridName);
@@ -197,6 +197,8 @@ class NanoVdbFile : public VolumeFile {
 
 }  // namespace
 
-std::unique_ptr<VolumeFile> open_nanovdb(const std::string& path) { return std::make_unique<NanoVdbFile>(path); }
+std::unique_ptr<VolumeFile> open_nanovdb(const std::string& path, std::size_t most_memory) {
+  return std::make_unique<NanoVdbFile>(path, most_memory);
+}
 
 }  // namespace tyndall

@@ -10,6 +10,7 @@
 #include <nanovdb/util/SampleFromVoxels.h>
 
 #include <ctime>
+#include <limits>
 
 #include "support/test_media.h"
 #include "volume/medium_walk.h"
@@ -100,7 +101,7 @@ double largest_difference(const nanovdb::FloatGrid& theirs, const BrickGrid& our
 }
 
 void density(benchmark::State& state) {
-  const NanoFile file = read_nano_file(kCloud);
+  const NanoFile file = read_nano_file(kCloud, std::numeric_limits<std::size_t>::max());
   const auto& theirs = *reinterpret_cast<const nanovdb::FloatGrid*>(file.grids[0].bytes.data());
   Medium medium;
   VdbMedium vdb;

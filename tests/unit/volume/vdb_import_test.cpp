@@ -1,11 +1,14 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <limits>
 
 #include "support/scratch.h"
 #include "tyndall/volume_io.h"
 #include "unit/volume/vdb_import.h"
+#include "volume/vdb_file.h"
 
 using namespace tyndall;
 using namespace tyndall::test;
@@ -231,6 +234,26 @@ TEST_CASE("a volume that needs more memory than there is is refused before it is
   test::write_vdb(path, {dense});
   CHECK(contains(error_of(path, {}, {.most_memory = 40'000'000}), "\"density\" is estimated to need 0.045"));
   CHECK(import(path, {}, {.most_memory = 60'000'000}).medium.sigma_maj() > 0);
+}
+
+TEST_CASE(".nvdb: grids that need more memory than there is are not unpacked") {
+  const std::string path = kData + "ball_float_zip.nvdb", says = "raise --max-memory or use a coarser volume";
+  CHECK(contains(error_of(path, {}, {.most_memory = 1000}), "holds a grid of 0.0"));
+  CHECK(contains(error_of(path, {}, {.most_memory = 1000}), says));
+  CHECK(contains(error_of(kData + "ball_float_blosc.nvdb", {}, {.most_memory = 1000}), says));
+  CHECK(import(path, {}, {.most_memory = 100'000'000}).medium.sigma_maj() > 0);
+
+  // Two segments, one after the other: their sum counts.
+  const test::Scratch scratch;
+  std::ifstream in(path, std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(in)), {});
+  std::ofstream(scratch / "two.nvdb", std::ios::binary) << bytes << bytes;
+  std::size_t each = 0;
+  for (const auto& [name, value] : open_volume(path)->describe(0))
+    if (name == "memory") each = std::stoul(value);
+  REQUIRE(each > 1000);
+  CHECK(open_volume(scratch / "two.nvdb", 2 * each)->grids().size() == 2);
+  CHECK_THROWS_WITH_AS(open_volume(scratch / "two.nvdb", 2 * each - 1), doctest::Contains("holds a grid of"), Error);
 }
 
 TEST_CASE("describe_volume lists every grid with its properties") {
