@@ -4,10 +4,14 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <ctime>
 #include <map>
 
 #include "support/chi_squared.h"
 #include "support/test_media.h"
+#include "unit/volume/voxel_oracle.h"
+#include "volume/brick_builder.h"
+#include "volume/medium_data.h"
 
 using namespace tyndall;
 using namespace tyndall::test;
@@ -49,6 +53,35 @@ double brute_intensity(const ParticipatingMedium& medium) {
       }
   return sum * double{step.x} * double{step.y} * double{step.z};
 }
+
+/// A medium straight from voxels, of sigma_a 1 and Le 1; where `temperatures` are given they make the light instead. It
+/// ends so many cells within the grid.
+ParticipatingMedium glowing(const VoxelSource& source, const VoxelSource* temperatures = nullptr, double margin = 0) {
+  auto data = std::make_unique<MediumData>();
+  const auto place = [](const VoxelSource& from) {
+    PlacedGrid placed{build_brick_grid(from, {}), {}};
+    const Index3& o = placed.grid.origin();
+    placed.to_local = placed.to_local.minus({{double(o[0]), double(o[1]), double(o[2])}});
+    return placed;
+  };
+  data->kind = MediumData::Kind::grid;
+  data->optics = {Rgb{1.0f}, {}, 0};
+  data->density = place(source);
+  data->clip = data->density.grid.support();
+  for (int i = 0; i < 3; ++i) {
+    data->clip.lo[i] += margin;
+    data->clip.hi[i] -= margin;
+  }
+  data->emission.kind = temperatures ? EmissionField::Kind::blackbody : EmissionField::Kind::constant;
+  data->emission.Le = Rgb{1.0f};
+  if (temperatures) {
+    data->emission.values = place(*temperatures);
+    data->emission.table.emplace();
+  }
+  return ParticipatingMedium(std::move(data));
+}
+
+double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 /// Both integrals for each brick by steps along the ray, and the largest density met.
 struct Brute {
@@ -93,6 +126,58 @@ TEST_CASE("emissive bricks: too many are gathered into larger ones that emit the
   CHECK(one.size() == 1);
   CHECK(total_intensity(coarse) == doctest::Approx(total_intensity(fine)).epsilon(1e-5));
   CHECK(total_intensity(one) == doctest::Approx(total_intensity(fine)).epsilon(1e-5));
+}
+
+TEST_CASE("emissive bricks: a large box of one value is not taken apart") {
+  OracleSource box;
+  box.add_tile({0, 0, 0}, {511, 511, 511}, 1);
+  const ParticipatingMedium medium = glowing(box, nullptr, 60);
+  const Vec3 middle{255.5f, 255.5f, 255.5f};
+  for (const std::size_t most : {EmissiveBricks::kMost, std::size_t{500}, std::size_t{1}}) {
+    const double start = processor_seconds();
+    const EmissiveBricks bricks(medium, most);
+    CHECK(processor_seconds() - start < 1);  // to read the 60 million cells takes far longer
+    CHECK(bricks.size() <= most);
+    CHECK(bricks.size() >= most / 10);
+    CHECK(total_intensity(bricks) == doctest::Approx(393.0 * 393 * 393).epsilon(1e-5));
+    double emission = 0;  // a volume, but for the tenth that is drawn anywhere
+    for (std::uint32_t i = 0; i < bricks.size(); ++i) emission += bricks.pdf(i, middle) * bricks.intensity(i);
+    CHECK(emission == doctest::Approx(1).epsilon(0.11));
+  }
+}
+
+TEST_CASE("emissive bricks: a small fire in a large box of one density") {
+  OracleSource box, fire;
+  box.add_tile({0, 0, 0}, {511, 511, 511}, 1);
+  fire.add_tile({200, 200, 200}, {215, 215, 215}, 3000);
+  const ParticipatingMedium medium = glowing(box, &fire);
+  const double start = processor_seconds();
+  const EmissiveBricks bricks(medium), few(medium, 3);
+  CHECK(processor_seconds() - start < 1);
+  CHECK(bricks.size() >= 8);
+  CHECK(bricks.size() <= 27);
+  CHECK(few.size() <= 3);
+  const double inside = mean(medium.data().emission.at({208, 208, 208}));
+  CHECK(total_intensity(bricks) > 15 * 15 * 15 * inside);
+  CHECK(total_intensity(few) == doctest::Approx(total_intensity(bricks)).epsilon(1e-5));
+}
+
+TEST_CASE("emissive bricks: fires at the ends of index space") {
+  OracleSource near, both;
+  const auto blob = [](std::int64_t x, std::int64_t y, std::int64_t z) {
+    const auto inside = [](std::int64_t i) { return (i & 7) >= 2 && (i & 7) <= 5; };
+    return inside(x) && inside(y) && inside(z) ? 1.0f : 0.0f;
+  };
+  const std::int64_t far = 8 * ((std::int64_t{1} << 22) - 1);  // 2^22 bricks a side: 2^66 places
+  near.add_leaf({0, 0, 0}, blob);
+  both.add_leaf({0, 0, 0}, blob);
+  both.add_leaf({far, far, far}, blob);
+  const EmissiveBricks one(glowing(near)), two(glowing(both));
+  CHECK(one.size() == 1);
+  CHECK(total_intensity(one) == doctest::Approx(64).epsilon(1e-3));
+  REQUIRE(two.size() == 2);
+  CHECK(two.intensity(0) == doctest::Approx(total_intensity(one)));
+  CHECK(two.intensity(1) == doctest::Approx(total_intensity(one)));
 }
 
 TEST_CASE("emissive bricks: none without emission, without a grid, or where nothing absorbs") {
