@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <cmath>
 #include <cstring>
 
@@ -32,7 +31,6 @@ namespace {
 
 constexpr std::size_t kLongestText = 1 << 16;
 constexpr int kPollMilliseconds = 200;  ///< between looks whether the child still lives
-constexpr double kPatience = 8;         ///< wall-clock seconds without a byte, beside four times the limit of computing
 
 void limit(int resource, std::uint64_t soft, std::uint64_t hard) {
   rlimit current{};
@@ -141,17 +139,18 @@ bool WorkerProcess::has_ended() const {
   return ended_;
 }
 
+/// Counts looks, not the time of a clock, which goes on while both processes are stopped (Ctrl-Z).
 void WorkerProcess::wait() {
-  using Clock = std::chrono::steady_clock;
-  const auto start = Clock::now();
-  while (true) {
+  const double most_looks = (limits_.patience + 4 * limits_.cpu_seconds) * 1000 / kPollMilliseconds;
+  for (int looks = 0; looks <= most_looks;) {
     pollfd watched{descriptor_, POLLIN, 0};
-    if (poll(&watched, 1, kPollMilliseconds) > 0) return;
+    const int ready = poll(&watched, 1, kPollMilliseconds);
+    if (ready > 0) return;
+    if (ready == 0) ++looks;
     // Its end of the channel may be held open by another child made at the same time: look at the process itself.
     if (has_ended() && poll(&watched, 1, 0) <= 0) closed();
-    if (std::chrono::duration<double>(Clock::now() - start).count() > kPatience + 4 * limits_.cpu_seconds)
-      throw ProcessEnded("takes too long to read; it is damaged, or on a disk that does not answer");
   }
+  throw ProcessEnded("takes too long to read; it is damaged, or on a disk that does not answer");
 }
 
 void WorkerProcess::closed() const {

@@ -16,6 +16,7 @@ namespace tyndall {
 struct ProcessLimits {
   std::size_t memory = 0;   ///< bytes beyond what this process has
   double cpu_seconds = 0;   ///< of computing
+  double patience = 8;      ///< seconds that are waited for a byte, beside four times the limit of computing
 };
 
 /// The other side is gone, or said something that cannot be. what(): how it ended, to follow "the file ".
@@ -58,7 +59,8 @@ class ProcessChannel {
   int descriptor_;
 };
 
-/// A child process. Reading from it waits no longer than it lives and than its limits allow.
+/// A child process. Reading from it waits no longer than it lives and than its limits allow; time for which this process is
+/// stopped is not waited.
 class WorkerProcess : public ProcessChannel {
  public:
   /// Runs `serve` in the child, under `limits` and without a terminal; the child ends when that returns or throws.

@@ -29,7 +29,7 @@ ProcessLimits limits_for(const std::string& path, std::size_t most_memory) {
   const std::uintmax_t size = std::filesystem::file_size(path, code);
   const std::size_t bytes = code ? 0 : std::min<std::size_t>(size, std::size_t{1} << 48);
   const std::size_t fair = std::min(kBaseMemory + kUnfolding * bytes, usable_memory());
-  return {std::min(fair, most_memory), kBaseSeconds + static_cast<double>(bytes) / kBytesPerSecond};
+  return {.memory = std::min(fair, most_memory), .cpu_seconds = kBaseSeconds + static_cast<double>(bytes) / kBytesPerSecond};
 }
 
 // ------------------------------------------------------------------------------------------ in the child

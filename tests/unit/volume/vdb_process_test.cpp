@@ -3,6 +3,7 @@
 
 #include <signal.h>
 #include <sys/resource.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -16,7 +17,7 @@ using namespace tyndall;
 
 namespace {
 
-constexpr ProcessLimits kLimits{std::size_t{256} << 20, 1};
+constexpr ProcessLimits kLimits{.memory = std::size_t{256} << 20, .cpu_seconds = 1};
 
 /// How the child ends that does `misdeed` instead of answering.
 template <typename Misdeed>
@@ -72,6 +73,38 @@ TEST_CASE("a child that computes for ever is ended") {
   });
   CHECK(contains(end, "too long"));
   CHECK(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < 10);
+}
+
+constexpr ProcessLimits kImpatient{.memory = std::size_t{256} << 20, .cpu_seconds = 0.01, .patience = 1};
+
+TEST_CASE("a child that sleeps for ever is not waited for") {
+  const auto start = std::chrono::steady_clock::now();
+  WorkerProcess worker(kImpatient, [](ProcessChannel&) { pause(); });
+  CHECK_THROWS_WITH_AS(worker.get<int>(), doctest::Contains("too long"), ProcessEnded);
+  CHECK(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < 5);
+}
+
+TEST_CASE("time for which the waiting process is stopped does not count") {
+  const pid_t waiting = fork();
+  if (waiting == 0) {
+    WorkerProcess slow(kImpatient, [](ProcessChannel& channel) {
+      usleep(2'000'000);
+      channel.put(7);
+    });
+    try {
+      _exit(slow.get<int>());
+    } catch (const ProcessEnded&) {
+      _exit(1);
+    }
+  }
+  usleep(100'000);
+  kill(waiting, SIGSTOP);
+  usleep(1'500'000);
+  kill(waiting, SIGCONT);
+  int status = 0;
+  REQUIRE(waitpid(waiting, &status, 0) == waiting);
+  CHECK(WIFEXITED(status));
+  CHECK(WEXITSTATUS(status) == 7);
 }
 
 #ifndef __SANITIZE_ADDRESS__
