@@ -115,17 +115,15 @@ GeometryImpl::GeometryImpl(const Scene& scene, const Textures* textures, int thr
   bound_groups();
 }
 
+/// A part that is turned takes the box around its turned box.
 void GeometryImpl::bound_groups() {
   const auto expand = [&](const PartSet& set, std::uint32_t first, const AffineMap* map) {
     for (const Part& part : set.parts) {
       const std::uint32_t group = placed[first + part.index].group;
-      if (group == kNone) continue;
-      for (std::uint32_t i = 0; i < part.primitive_count(); ++i) {
-        const Bounds3 box = part.primitive_bounds(i);
-        for (int corner = 0; corner < 8; ++corner) {
-          const Vec3 p = box.corner(corner);
-          groups[group].bounds.expand(map ? to_vec3(map->point(Vec3d(p))) : p);
-        }
+      if (group == kNone || part.box.empty()) continue;
+      for (int corner = 0; corner < 8; ++corner) {
+        const Vec3 p = part.box.corner(corner);
+        groups[group].bounds.expand(map ? to_vec3(map->point(Vec3d(p))) : p);
       }
     }
   };
@@ -181,10 +179,9 @@ std::unique_ptr<PartSet> GeometryImpl::make_set(const Scene& scene, const std::v
     part.real = !is_interface(scene, shape);
     part.alpha_textures = textures_of_alpha(shape, textures);
     if (std::holds_alternative<TriangleMesh>(shape.kind)) triangle_count += part.primitive_count();
-    Bounds3 bounds_of_shape;
-    for (std::uint32_t i = 0; i < part.primitive_count(); ++i) bounds_of_shape.expand(part.primitive_bounds(i));
-    require_within_reach(bounds_of_shape, shape);
-    set->bounds.expand(bounds_of_shape);
+    for (std::uint32_t i = 0; i < part.primitive_count(); ++i) part.box.expand(part.primitive_bounds(i));
+    require_within_reach(part.box, shape);
+    set->bounds.expand(part.box);
     set->parts.push_back(std::move(part));
   }
   return set;

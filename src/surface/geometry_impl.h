@@ -31,6 +31,7 @@ struct Part {
   bool is_patch = false;  ///< the mesh is one of bilinear patches
   bool real = true;       ///< not of interface material
   std::uint32_t index = 0;
+  Bounds3 box{};  ///< of all primitives
   const Textures* alpha_textures = nullptr;  ///< null: opaque
 
   std::uint32_t primitive_count() const;

@@ -2,6 +2,9 @@
 
 #include <xmmintrin.h>
 
+#include <algorithm>
+#include <ctime>
+
 #include "geometry_scenes.h"
 #include "texture/textures.h"
 
@@ -184,6 +187,30 @@ TEST_CASE("instances equal the same shapes placed one by one") {
     CHECK(length(x.hit->p - y.hit->p) < 1e-4f);
   }
   CHECK(hits > 5000);
+}
+
+TEST_CASE("boundaries placed many times are bounded by their boxes: all of each, and quickly") {
+  Scene scene = empty_scene();
+  const TriangleMesh ball = bumpy_ball(100);
+  scene.objects.push_back({"ball", {make_shape(ball, Transform::translate(0, 0.5, 0), kInterface)}});
+  Rng rng(4);
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 at = random_point(rng, 50);
+    scene.instances.push_back({0, Transform::translate(at.x, at.y, at.z) * Transform::rotate(17 * i, 1, 2, 3)});
+  }
+  const auto start = std::clock();
+  const Geometry geometry(scene, nullptr, 1);
+  CHECK(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC < 1.5);  // 80 million triangles cannot be looked at
+
+  REQUIRE(geometry.groups().size() == scene.instances.size());
+  for (std::size_t i = 0; i < 20; ++i) {
+    Bounds3 exact;
+    for (const Vec3 p : ball.positions) exact.expand(scene.instances[i].to_world.point(p + Vec3{0, 0.5f, 0}));
+    const Bounds3& bounds = geometry.groups()[i].bounds;
+    const Vec3 below = exact.min - bounds.min, above = bounds.max - exact.max;
+    CHECK(std::min({below.x, below.y, below.z, above.x, above.y, above.z}) > -1e-4f);
+    CHECK(std::max({below.x, below.y, below.z, above.x, above.y, above.z}) < 1.5f);
+  }
 }
 
 TEST_CASE("a mirrored instance keeps the outside of its shapes outside") {
