@@ -59,21 +59,29 @@ Rgb Emitter::radiance(const EmissionMaps& maps, std::uint32_t i, Vec2 uv, Vec3 n
   return L;
 }
 
-std::optional<Emitter::Sample> Emitter::sample(const EmissionMaps& maps, std::uint32_t i, Vec3 p, Vec2 u) const {
-  const std::optional<EmitterSample> point = std::visit(Overloaded{[&](const QuadricEmitter& q) { return q.sample(p, u); },
-                                                                   [&](const auto& mesh) { return mesh.sample(i, p, u); }},
-                                                        surface_);
-  if (!point) return std::nullopt;
-  Rgb L = radiance(maps, i, point->uv, point->ng, -point->wi);
+std::optional<EmitterSample> Emitter::sample_surface(std::uint32_t i, const RoundedPoint& p, Vec2 u) const {
+  return std::visit(Overloaded{[&](const QuadricEmitter& q) { return q.sample(p, u); },
+                               [&](const auto& mesh) { return mesh.sample(i, p, u); }},
+                    surface_);
+}
+
+std::optional<Emitter::Sample> Emitter::light_from(const EmissionMaps& maps, std::uint32_t i, const EmitterSample& point,
+                                                   Vec3 p) const {
+  Rgb L = radiance(maps, i, point.uv, point.ng, -point.wi);
   if (is_black(L)) return std::nullopt;
   // Rays meet the surface with probability alpha; light sampling takes the mean.
   if (emission_.alpha)
-    L *= std::clamp(maps.textures->eval_float(*emission_.alpha, {point->uv, p + point->wi * point->distance}), 0.0f, 1.0f);
+    L *= std::clamp(maps.textures->eval_float(*emission_.alpha, {point.uv, p + point.wi * point.distance}), 0.0f, 1.0f);
   if (is_black(L)) return std::nullopt;
-  return Sample{*point, L};
+  return Sample{point, L};
 }
 
-float Emitter::pdf(std::uint32_t i, Vec3 p, Vec3 hit) const {
+std::optional<Emitter::Sample> Emitter::sample(const EmissionMaps& maps, std::uint32_t i, Vec3 p, Vec2 u) const {
+  const auto point = sample_surface(i, p, u);
+  return point ? light_from(maps, i, *point, p) : std::nullopt;
+}
+
+float Emitter::pdf(std::uint32_t i, const RoundedPoint& p, const RoundedPoint& hit) const {
   return std::visit(
       Overloaded{[&](const QuadricEmitter& q) { return q.pdf(p, hit); }, [&](const auto& mesh) { return mesh.pdf(i, p, hit); }},
       surface_);

@@ -43,13 +43,18 @@ class Emitter {
   LightBounds bounds(std::uint32_t i) const;
   Bounds3 box(std::uint32_t i) const;
   bool delta() const { return emission_.invisible; }
+  /// The power is given, not the radiance: it does not grow with the area.
+  bool of_given_power() const { return emission_.power.has_value(); }
 
   struct Sample {
     EmitterSample point;
     Rgb L;
   };
   std::optional<Sample> sample(const EmissionMaps& maps, std::uint32_t i, Vec3 p, Vec2 u) const;
-  float pdf(std::uint32_t i, Vec3 p, Vec3 hit) const;
+  /// The two halves of sample(): a point of the surface, and what it sends to `p`.
+  std::optional<EmitterSample> sample_surface(std::uint32_t i, const RoundedPoint& p, Vec2 u) const;
+  std::optional<Sample> light_from(const EmissionMaps& maps, std::uint32_t i, const EmitterSample& point, Vec3 p) const;
+  float pdf(std::uint32_t i, const RoundedPoint& p, const RoundedPoint& hit) const;
   Rgb radiance(const EmissionMaps& maps, std::uint32_t i, Vec2 uv, Vec3 ng, Vec3 wo) const;
 
   std::size_t memory_bytes() const;

@@ -9,6 +9,15 @@
 
 namespace tyndall {
 
+/// A point that was rounded to single precision somewhere: implicitly here, or before it was mapped to where it is.
+struct RoundedPoint {
+  Vec3d at;
+  double reach;  ///< the largest of the coordinates that were rounded, in the present unit of length
+
+  RoundedPoint(Vec3 p) : at(p), reach(std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)})) {}
+  RoundedPoint(Vec3d p, double r) : at(p), reach(r) {}
+};
+
 struct EmitterSample {
   Vec3 wi;         ///< unit, toward the emitter
   float distance;  ///< of the point on the emitter

@@ -55,10 +55,10 @@ PatchEmitter::PatchEmitter(const BilinearMesh& mesh, const Transform& to_world, 
   }
 }
 
-PatchEmitter::Form PatchEmitter::form(std::uint32_t i, Vec3 observer) const {
+PatchEmitter::Form PatchEmitter::form(std::uint32_t i, Vec3d observer) const {
   const Vec3* p = &positions_[4 * std::size_t(i)];
   const Vec3d p00(p[0]), p10(p[1]), p01(p[2]), p11(p[3]);
-  return {p00 - Vec3d(observer), p10 - p00, p01 - p00, (p11 - p01) - (p10 - p00)};
+  return {p00 - observer, p10 - p00, p01 - p00, (p11 - p01) - (p10 - p00)};
 }
 
 double PatchEmitter::area(std::uint32_t i) const {
@@ -94,8 +94,8 @@ Vec2 PatchEmitter::uv(std::uint32_t i, double u, double v) const {
   return (uv[0] * (1 - x) + uv[1] * x) * (1 - y) + (uv[2] * (1 - x) + uv[3] * x) * y;
 }
 
-std::optional<EmitterSample> PatchEmitter::sample(std::uint32_t i, Vec3 p, Vec2 u) const {
-  const Form f = form(i, p);
+std::optional<EmitterSample> PatchEmitter::sample(std::uint32_t i, const RoundedPoint& p, Vec2 u) const {
+  const Form f = form(i, p.at);
   if (rectangle_[i]) {
     const SphericalRectangle rectangle(f.p00, f.eu, f.ev);
     if (rectangle.solid_angle() > kSmallest) {
@@ -119,15 +119,15 @@ std::optional<EmitterSample> PatchEmitter::sample(std::uint32_t i, Vec3 p, Vec2 
                        *pdf};
 }
 
-float PatchEmitter::pdf(std::uint32_t i, Vec3 p, Vec3 hit) const {
-  const Form f = form(i, p);
+float PatchEmitter::pdf(std::uint32_t i, const RoundedPoint& p, const RoundedPoint& hit) const {
+  const Form f = form(i, p.at);
   if (rectangle_[i]) {
     const SphericalRectangle rectangle(f.p00, f.eu, f.ev);
     if (rectangle.solid_angle() > kSmallest) return static_cast<float>(1 / rectangle.solid_angle());
   }
   const Corners weights = corner_areas(f);
   if (!(sum(weights) > 0)) return 0;
-  const Vec3d x = Vec3d(hit) - Vec3d(p);
+  const Vec3d x = hit.at - p.at;
   const auto [s, t] = f.invert(x);
   const Vec3d n = f.normal(s, t);
   if (!(length(n) > 0)) return 0;

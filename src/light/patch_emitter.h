@@ -19,8 +19,9 @@ class PatchEmitter {
   double area(std::uint32_t i) const;
   EmitterExtent extent(std::uint32_t i) const;
 
-  std::optional<EmitterSample> sample(std::uint32_t i, Vec3 p, Vec2 u) const;
-  float pdf(std::uint32_t i, Vec3 p, Vec3 hit) const;  ///< 1/sr, of the direction from `p` to `hit` on the patch
+  std::optional<EmitterSample> sample(std::uint32_t i, const RoundedPoint& p, Vec2 u) const;
+  /// 1/sr, of the direction from `p` to `hit` on the patch.
+  float pdf(std::uint32_t i, const RoundedPoint& p, const RoundedPoint& hit) const;
 
   std::size_t memory_bytes() const;
 
@@ -34,7 +35,7 @@ class PatchEmitter {
     /// (u, v) of a point on the patch.
     std::array<double, 2> invert(Vec3d p) const;
   };
-  Form form(std::uint32_t i, Vec3 observer) const;
+  Form form(std::uint32_t i, Vec3d observer) const;
   Vec3d outward(std::uint32_t i, Vec3d n) const { return flipped_[i] ? -n : n; }
   Vec2 uv(std::uint32_t i, double u, double v) const;
 

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "math/frame.h"
+#include "math/similarity.h"
 #include "math/spherical.h"
 #include "math/warp.h"
 
@@ -15,15 +16,6 @@ Vec3d column(const Transform::Matrix& m, int j) { return {m[0][j], m[1][j], m[2]
 
 Vec3d apply(const Transform::Matrix& m, Vec3d p) {
   return column(m, 0) * p.x + column(m, 1) * p.y + column(m, 2) * p.z + column(m, 3);
-}
-
-/// Length scale of a map that only rotates, mirrors, moves and scales evenly.
-std::optional<double> similarity_scale(const Transform::Matrix& m) {
-  const Vec3d x = column(m, 0), y = column(m, 1), z = column(m, 2);
-  const double s = length(x), tolerance = 1e-6;
-  if (std::abs(length(y) - s) > tolerance * s || std::abs(length(z) - s) > tolerance * s) return std::nullopt;
-  if (std::max({std::abs(dot(x, y)), std::abs(dot(y, z)), std::abs(dot(z, x))}) > tolerance * s * s) return std::nullopt;
-  return s;
 }
 
 }  // namespace
@@ -136,7 +128,7 @@ std::optional<double> QuadricEmitter::cone_height(Vec3d to_center) const {
   return sphere_cone_height(length(to_center), cone_radius_);
 }
 
-EmitterSample QuadricEmitter::cone_sample(Vec3d to_center, double h, Vec3 p, Vec2 u) const {
+EmitterSample QuadricEmitter::cone_sample(Vec3d to_center, double h, Vec3d p, Vec2 u) const {
   const Vec3d axis = normalize(to_center);
   const Vec3 local = square_to_uniform_cone(u, static_cast<float>(h));
   const Vec3 wi = normalize(Frame::around(to_vec3(axis)).to_world(local));
@@ -146,28 +138,28 @@ EmitterSample QuadricEmitter::cone_sample(Vec3d to_center, double h, Vec3 p, Vec
   const double discriminant = std::max(0.0, cone_radius_ * cone_radius_ - dc * dc * sine2);
   const double t = (dc - cone_radius_) * (dc + cone_radius_) / (dc * local.z + std::sqrt(discriminant));
   const Vec3d outward = Vec3d(wi) * t - to_center;
-  return {wi, static_cast<float>(t), to_vec3(normalize(outward) * sign_), uv(to_object(Vec3d(p) + Vec3d(wi) * t)),
+  return {wi, static_cast<float>(t), to_vec3(normalize(outward) * sign_), uv(to_object(p + Vec3d(wi) * t)),
           static_cast<float>(1 / (kTau * h))};
 }
 
-std::optional<EmitterSample> QuadricEmitter::sample(Vec3 p, Vec2 u) const {
-  const Vec3d to_center = to_world({0, 0, 0}) - Vec3d(p);
-  if (const auto h = cone_height(to_center)) return cone_sample(to_center, *h, p, u);
+std::optional<EmitterSample> QuadricEmitter::sample(const RoundedPoint& p, Vec2 u) const {
+  const Vec3d to_center = to_world({0, 0, 0}) - p.at;
+  if (const auto h = cone_height(to_center)) return cone_sample(to_center, *h, p.at, u);
 
   if (!(object_area_ > 0)) return std::nullopt;
   const ObjectPoint point = object_sample(u);
-  const Vec3d x = to_world(point.p) - Vec3d(p), n = world_normal(point.n);
+  const Vec3d x = to_world(point.p) - p.at, n = world_normal(point.n);
   const auto pdf = solid_angle_density(1 / (object_area_ * world_area_scale(point.n)), x, n);
   if (!pdf) return std::nullopt;
   return EmitterSample{to_vec3(normalize(x)), static_cast<float>(length(x)), to_vec3(normalize(n)), uv(point.p), *pdf};
 }
 
-float QuadricEmitter::pdf(Vec3 p, Vec3 hit) const {
-  if (const auto h = cone_height(to_world({0, 0, 0}) - Vec3d(p))) return static_cast<float>(1 / (kTau * *h));
+float QuadricEmitter::pdf(const RoundedPoint& p, const RoundedPoint& hit) const {
+  if (const auto h = cone_height(to_world({0, 0, 0}) - p.at)) return static_cast<float>(1 / (kTau * *h));
   if (!(object_area_ > 0)) return 0;
-  const Vec3d object_n = object_normal(to_object(Vec3d(hit)));
+  const Vec3d object_n = object_normal(to_object(hit.at));
   const double pdf_area = 1 / (object_area_ * world_area_scale(object_n));
-  return solid_angle_density(pdf_area, Vec3d(hit) - Vec3d(p), world_normal(object_n)).value_or(0.0f);
+  return solid_angle_density(pdf_area, hit.at - p.at, world_normal(object_n)).value_or(0.0f);
 }
 
 }  // namespace tyndall

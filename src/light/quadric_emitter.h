@@ -21,8 +21,8 @@ class QuadricEmitter {
 
   /// Whole spheres under similarities: uniform in the cone they are seen under, from outside. All else: uniform over
   /// the surface in object space, by its true density in the world.
-  std::optional<EmitterSample> sample(Vec3 p, Vec2 u) const;
-  float pdf(Vec3 p, Vec3 hit) const;  ///< 1/sr, of the direction from `p` to `hit` on the surface
+  std::optional<EmitterSample> sample(const RoundedPoint& p, Vec2 u) const;
+  float pdf(const RoundedPoint& p, const RoundedPoint& hit) const;  ///< 1/sr, of the direction from `p` to `hit` on the surface
 
  private:
   enum class Kind { sphere, disk, cylinder };
@@ -38,7 +38,7 @@ class QuadricEmitter {
   Vec3d world_normal(Vec3d n) const;              ///< by the inverse transpose, not normalised
   double world_area_scale(Vec3d object_n) const;  ///< world area per object area
   std::optional<double> cone_height(Vec3d to_center) const;
-  EmitterSample cone_sample(Vec3d to_center, double h, Vec3 p, Vec2 u) const;
+  EmitterSample cone_sample(Vec3d to_center, double h, Vec3d p, Vec2 u) const;
   double measure_area() const;
 
   Kind kind_;

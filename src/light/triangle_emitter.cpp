@@ -12,9 +12,8 @@ constexpr double kSmallest = 1e-9, kLargest = 6.2831;
 /// The observer lies in the triangle's plane as far as floats can tell, on the triangle itself perhaps: a point of a
 /// surface is off by half a last digit in each coordinate. There a triangle shows only its edge, and at heights of
 /// rounding it would seem to fill half the sky of its own points.
-bool in_plane(Vec3 p, const Vec3d& a, const Vec3d& n, double n2) {
-  const double reach = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  const double height = dot(a, n), least = 0x1p-21 * reach;
+bool in_plane(const RoundedPoint& p, const Vec3d& a, const Vec3d& n, double n2) {
+  const double height = dot(a, n), least = 0x1p-21 * p.reach;
   return height * height <= least * least * n2;
 }
 
@@ -84,8 +83,8 @@ Vec2 TriangleEmitter::uv(std::uint32_t i, double b1, double b2) const {
   return uv[0] * (1 - x - y) + uv[1] * x + uv[2] * y;
 }
 
-std::optional<EmitterSample> TriangleEmitter::sample(std::uint32_t i, Vec3 p, Vec2 u) const {
-  const Vec3d a = vertex(i, 0) - Vec3d(p), b = vertex(i, 1) - Vec3d(p), c = vertex(i, 2) - Vec3d(p);
+std::optional<EmitterSample> TriangleEmitter::sample(std::uint32_t i, const RoundedPoint& p, Vec2 u) const {
+  const Vec3d a = vertex(i, 0) - p.at, b = vertex(i, 1) - p.at, c = vertex(i, 2) - p.at;
   const Vec3d e1 = b - a, e2 = c - a, n = cross(e1, e2);
   const double n2 = dot(n, n);
   if (!(n2 > 0) || in_plane(p, a, n, n2)) return std::nullopt;
@@ -117,15 +116,15 @@ std::optional<EmitterSample> TriangleEmitter::sample_area(std::uint32_t i, const
   return EmitterSample{to_vec3(x / distance), static_cast<float>(distance), oriented(i, n), uv(i, b1, b2), *pdf};
 }
 
-float TriangleEmitter::pdf(std::uint32_t i, Vec3 p, Vec3 hit) const {
-  const Vec3d a = vertex(i, 0) - Vec3d(p), b = vertex(i, 1) - Vec3d(p), c = vertex(i, 2) - Vec3d(p);
+float TriangleEmitter::pdf(std::uint32_t i, const RoundedPoint& p, const RoundedPoint& hit) const {
+  const Vec3d a = vertex(i, 0) - p.at, b = vertex(i, 1) - p.at, c = vertex(i, 2) - p.at;
   const Vec3d e1 = b - a, e2 = c - a, n = cross(e1, e2);
   const double n2 = dot(n, n);
   if (!(n2 > 0) || in_plane(p, a, n, n2)) return 0;
-  if (far_off(a, e1, e2)) return area_density(Vec3d(hit) - Vec3d(p), n).value_or(0.0f);
+  if (far_off(a, e1, e2)) return area_density(hit.at - p.at, n).value_or(0.0f);
   const SphericalTriangle triangle(a, b, c);
   if (by_solid_angle(triangle.solid_angle())) return static_cast<float>(1 / triangle.solid_angle());
-  return area_density(Vec3d(hit) - Vec3d(p), n).value_or(0.0f);
+  return area_density(hit.at - p.at, n).value_or(0.0f);
 }
 
 std::size_t TriangleEmitter::memory_bytes() const {

@@ -21,8 +21,9 @@ class TriangleEmitter {
 
   /// Uniform in solid angle; uniform in area where the triangle is far off, which comes to the same and is ten times as
   /// fast, and where it is too small or `p` too near its own plane.
-  std::optional<EmitterSample> sample(std::uint32_t i, Vec3 p, Vec2 u) const;
-  float pdf(std::uint32_t i, Vec3 p, Vec3 hit) const;  ///< 1/sr, of the direction from `p` to `hit` on the triangle
+  std::optional<EmitterSample> sample(std::uint32_t i, const RoundedPoint& p, Vec2 u) const;
+  /// 1/sr, of the direction from `p` to `hit` on the triangle.
+  float pdf(std::uint32_t i, const RoundedPoint& p, const RoundedPoint& hit) const;
 
   std::size_t memory_bytes() const;
 

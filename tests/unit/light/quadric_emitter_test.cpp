@@ -92,7 +92,7 @@ TEST_CASE("disks and cylinders are sampled by area, under any transform") {
 }
 
 TEST_CASE("a mirror turns a quadric's normal as it turns the geometry's: against the outer one") {
-  const auto sample = [](const Shape& s) { return QuadricEmitter(s, s.to_world, true).sample({5, 5, 5}, {0.3f, 0.6f}); };
+  const auto sample = [](const Shape& s) { return QuadricEmitter(s, s.to_world, true).sample(Vec3{5, 5, 5}, {0.3f, 0.6f}); };
   const Sphere unit;
   CHECK(dot(sample(shape_of(unit, kTurned))->ng, {1, 1, 1}) > 0);
   CHECK(dot(sample(shape_of(unit, kMirrored))->ng, {1, 1, 1}) < 0);
