@@ -56,6 +56,7 @@ double scattering_angle(const Segment& s, const View& view, double h, double var
 Segment::Segment(const SegmentQuery& q)
     : o(q.o),
       d(Vec3d(q.d) / tyndall::length(Vec3d(q.d))),
+      reach(std::max({std::abs(q.o.x), std::abs(q.o.y), std::abs(q.o.z)})),
       t0(q.t0 * tyndall::length(Vec3d(q.d))),
       t1(q.t1 * tyndall::length(Vec3d(q.d))),
       length(std::min(t1 - t0, double(q.reach))),

@@ -25,6 +25,7 @@ struct Segment {
   };
 
   Vec3d o, d;     ///< d is unit
+  double reach;   ///< the largest coordinate of o when it was rounded to single precision
   double t0, t1;  ///< t1 may be infinite
   double length;  ///< t1 - t0, or what stands for it
   double g;       ///< mean cosine of the phase function, kept off -1 and 1

@@ -39,6 +39,23 @@ std::optional<LightId> only_light(const std::vector<double>& power) {
   return static_cast<LightId>(first - power.begin());
 }
 
+/// Every light of an instance on its own, as `strategy` looks at it.
+SelectionInput expanded(SelectionInput input, LightStrategy strategy) {
+  std::size_t lights = input.power.size();
+  for (const LightInstance& i : input.instances) lights += input.objects[i.object].power.size();
+  input.power.reserve(lights);
+  if (uses_bounds(strategy)) input.near.reserve(lights);
+  for (const LightInstance& i : input.instances) {
+    const SharedLights& object = input.objects[i.object];
+    for (const double w : object.power) input.power.push_back(w * i.growth);
+    if (!uses_bounds(strategy)) continue;
+    for (const TreeLight& l : object.near) input.near.push_back({placed(l.bounds, i.to_world, i.growth), i.first + l.light});
+  }
+  input.objects = {};
+  input.instances = {};
+  return input;
+}
+
 }  // namespace
 
 bool uses_bounds(LightStrategy strategy) {
@@ -63,6 +80,11 @@ float LightSelector::expected(const LightCut& cut, const SegmentQuery& query, Li
 }
 
 std::unique_ptr<const LightSelector> make_selector(LightStrategy strategy, SelectionInput input) {
+  if (!input.instances.empty()) {
+    if (strategy == LightStrategy::tree)
+      return std::make_unique<WideSelector<InstancedLightTree>>(InstancedLightTree(input), input);
+    input = expanded(std::move(input), strategy);
+  }
   const auto only = only_light(input.power);
   if (only && strategy != LightStrategy::exhaustive) return std::make_unique<OnlyLight>(*only);
   switch (strategy) {
@@ -73,7 +95,7 @@ std::unique_ptr<const LightSelector> make_selector(LightStrategy strategy, Selec
     case LightStrategy::exhaustive:
       return std::make_unique<ExhaustiveSelector>(equal_weights(std::move(input.power)));
     case LightStrategy::tree:
-      return std::make_unique<WideSelector>(WideLightTree(std::move(input.near), input.threads), input);
+      return std::make_unique<WideSelector<WideLightTree>>(WideLightTree(std::move(input.near), input.threads), input);
     case LightStrategy::tree_binary:
       return std::make_unique<TreeSelector<LightTree>>(LightTree(std::move(input.near)), input);
     case LightStrategy::cycles_rule:

@@ -47,7 +47,7 @@ std::optional<SelectedLight> TreeSelector<Tree>::choose(const Query& query, doub
 template <typename Tree>
 template <typename Query>
 float TreeSelector<Tree>::chance(const Query& query, LightId light) const {
-  const std::uint32_t slot = slot_[light];
+  const std::uint32_t slot = slot_of(light);
   if (slot == kDark) return 0;
   const Shares share = shares(query);
   if (slot >= kFar) return share.far > 0 ? static_cast<float>(share.far * far_.pmf(query, slot - kFar)) : 0.0f;
@@ -86,5 +86,6 @@ std::size_t TreeSelector<Tree>::memory_bytes() const {
 
 template class TreeSelector<LightTree>;
 template class TreeSelector<WideLightTree>;
+template class TreeSelector<InstancedLightTree>;
 
 }  // namespace tyndall

@@ -85,10 +85,11 @@ struct Finished {
 
 class WideTreeBuilder {
  public:
-  WideTreeBuilder(WideLightTree& tree, std::vector<TreeLight> lights, int threads);
+  WideTreeBuilder(WideLightTree& tree, std::vector<TreeLight> lights, std::span<const Cluster> clusters, int threads);
   void build();
 
  private:
+  Cluster leaf_of(const BuildLight& light) const;
   Finished fill_subtree(const std::vector<Shape>& shapes, std::uint32_t first);
   Finished fill_top(const std::vector<Shape>& shapes, std::vector<Finished> subtrees, std::uint32_t limit);
   /// `inner` are the children that are nodes.
@@ -97,10 +98,12 @@ class WideTreeBuilder {
   WideLightTree& tree_;
   ThreadPool pool_;
   BigArray<BuildLight> lights_;
+  std::span<const Cluster> clusters_;  ///< lengths in the scene's unit
 };
 
-WideTreeBuilder::WideTreeBuilder(WideLightTree& tree, std::vector<TreeLight> lights, int threads)
-    : tree_(tree), pool_(threads), lights_(lights.size()) {
+WideTreeBuilder::WideTreeBuilder(WideLightTree& tree, std::vector<TreeLight> lights, std::span<const Cluster> clusters,
+                                 int threads)
+    : tree_(tree), pool_(threads), lights_(lights.size()), clusters_(clusters) {
   double largest = 0;
   for (const TreeLight& light : lights) {
     tree_.intensity_ += light.bounds.intensity;
@@ -112,6 +115,17 @@ WideTreeBuilder::WideTreeBuilder(WideLightTree& tree, std::vector<TreeLight> lig
     lights_[i] = BuildLight::from(lights[i], tree_.to_unit_ > 0 ? tree_.to_unit_ : 1, tree_.intensity_);
   });
   std::vector<TreeLight>().swap(lights);
+}
+
+Cluster WideTreeBuilder::leaf_of(const BuildLight& light) const {
+  Cluster c = cluster_of(light.bounds());
+  if (light.light < WideLightTree::kCluster) return c;
+  const Cluster& whole = clusters_[light.light - WideLightTree::kCluster];
+  c.count = whole.count;
+  c.intensity_square = c.intensity * c.intensity * (whole.intensity_square / (whole.intensity * whole.intensity));
+  c.mean = whole.mean * tree_.to_unit_;
+  c.variance = whole.variance * tree_.to_unit_ * tree_.to_unit_;
+  return c;
 }
 
 Finished WideTreeBuilder::fill_node(const Shape& shape, std::uint32_t node, std::span<const Finished> inner) {
@@ -128,13 +142,15 @@ Finished WideTreeBuilder::fill_node(const Shape& shape, std::uint32_t node, std:
       depth = std::max(depth, inner.front().depth + 1);
       inner = inner.subspan(1);
     } else {
-      clusters[size] = cluster_of(lights_[light].bounds());
+      clusters[size] = leaf_of(lights_[light]);
       children[size] = lights_[light].light;
     }
     light += shape.count[size];
   }
   const auto used = std::span<const Cluster>(clusters).first(size);
   tree_.nodes_[node].set_children(used, std::span(children).first(size));
+  for (std::size_t i = 0; i < size; ++i)
+    if (shape.count[i] == 1) tree_.nodes_[node].flags[i] |= WideNode::kLeaf;  // of whole clusters too
   return {cluster_union(used), node, depth};
 }
 
@@ -194,10 +210,10 @@ void WideTreeBuilder::build() {
   tree_.depth_ = root.depth;
 }
 
-WideLightTree::WideLightTree(std::vector<TreeLight> lights, int threads) {
+WideLightTree::WideLightTree(std::vector<TreeLight> lights, std::span<const Cluster> clusters, int threads) {
   assert(lights.size() <= 0x40000000);
   if (lights.empty()) return;
-  WideTreeBuilder(*this, std::move(lights), threads).build();
+  WideTreeBuilder(*this, std::move(lights), clusters, threads).build();
 }
 
 }  // namespace tyndall

@@ -14,6 +14,9 @@ using NodeRef = WideLightTree::NodeRef;
 /// The children of two nodes: what more cost, they did not gain where it was measured.
 constexpr int kClusters = 15;
 
+/// Sums of these are finite.
+constexpr float kMostImportance = 1e35f;
+
 /// A cluster of the growing cut.
 struct Open {
   NodeRef ref;
@@ -28,17 +31,17 @@ using Clusters = SmallVector<Open, 16>;
 ChildSpread child_spread(const WideNode& node, const WideSegment& segment) {
   ChildSpread spread;
   for (int i = 0; i < WideNode::kWidth; ++i) {
-    const bool plain = !node.used(i) || node.leaf(i);
+    const bool plain = node.count[i] <= 1;
     spread.cv2[static_cast<std::size_t>(i)] = plain ? 0.0f : static_cast<float>(std::min(split_measure(node.cluster(i), segment).cv2, 1e30));
   }
   return spread;
 }
 
 /// Splits by what a question, a WideQuery or a WideSegment, says of children.
-template <typename Local>
+template <typename Tree, typename Local>
 class CutBuilder {
  public:
-  CutBuilder(const WideLightTree& tree, const Local& local, const CutSettings& settings)
+  CutBuilder(const Tree& tree, const Local& local, const CutSettings& settings)
       : tree_(tree),
         local_(local),
         candidates_(settings.candidates.value_or(1)),
@@ -64,22 +67,27 @@ class CutBuilder {
   }
 
   bool split(std::size_t index) {
-    const std::uint32_t parent = tree_.node_of(cut_[index].ref);
-    const WideNode& node = tree_.nodes()[parent];
-    if (cut_.size() - 1 + node.size() > most_) return false;
-    const ChildImportance children = child_importance(node, local_);
-    const ChildSpread spread = child_spread(node, local_);
-    // In the parent's place: neighbours in the cut are neighbours in space, so that strata of the number that draws from it
-    // are regions.
+    return tree_.open(cut_[index].ref, local_, [&](NodeRef first, const WideNode& node, const auto& local, float factor) {
+      if (cut_.size() - 1 + node.size() > most_) return false;
+      replace(index, first, node, local, factor);
+      return true;
+    });
+  }
+
+  /// In the parent's place: neighbours in the cut are neighbours in space, so that strata of the number that draws from it
+  /// are regions.
+  template <typename Query>
+  void replace(std::size_t index, NodeRef first, const WideNode& node, const Query& local, float factor) {
+    const ChildImportance children = child_importance(node, local);
+    const ChildSpread spread = child_spread(node, local);
     const Clusters rest = after(index);
     cut_.truncate(index);
     for (std::uint32_t i = 0; i < WideNode::kWidth; ++i) {
       if (!(children.of[i] > 0)) continue;
-      const float importance = children.of[i] * node.scale, cv2 = spread.cv2[i];
-      cut_.push_back({8 * parent + i, importance, cv2, importance * importance * std::min(cv2, 1e12f)});
+      const float importance = std::min(children.of[i] * node.scale * factor, kMostImportance), cv2 = spread.cv2[i];
+      cut_.push_back({first + i, importance, cv2, importance * importance * std::min(cv2, 1e12f)});
     }
     for (const Open& c : rest) cut_.push_back(c);
-    return true;
   }
 
   Clusters after(std::size_t index) const {
@@ -100,7 +108,7 @@ class CutBuilder {
     return result;
   }
 
-  const WideLightTree& tree_;
+  const Tree& tree_;
   const Local& local_;
   int candidates_;      ///< 0: as many as clusters
   std::size_t most_;    ///< clusters
@@ -110,16 +118,16 @@ class CutBuilder {
 
 }  // namespace
 
-LightCut wide_cut(const WideLightTree& tree, const PointQuery& query, const CutSettings& settings) {
+template <typename Tree, typename Query>
+LightCut wide_cut(const Tree& tree, const Query& query, const CutSettings& settings) {
   if (tree.empty()) return {};
-  const WideQuery local = tree.localize(query);
+  const auto local = tree.localize(query);
   return CutBuilder(tree, local, settings).build();
 }
 
-LightCut wide_cut(const WideLightTree& tree, const Segment& query, const CutSettings& settings) {
-  if (tree.empty()) return {};
-  const WideSegment local = tree.localize(query);
-  return CutBuilder(tree, local, settings).build();
-}
+template LightCut wide_cut(const WideLightTree&, const PointQuery&, const CutSettings&);
+template LightCut wide_cut(const WideLightTree&, const Segment&, const CutSettings&);
+template LightCut wide_cut(const InstancedLightTree&, const PointQuery&, const CutSettings&);
+template LightCut wide_cut(const InstancedLightTree&, const Segment&, const CutSettings&);
 
 }  // namespace tyndall

@@ -3,8 +3,7 @@
 #pragma once
 
 #include "light/light_cut.h"
-#include "light/query.h"
-#include "light/wide_light_tree.h"
+#include "light/instanced_light_tree.h"
 
 namespace tyndall {
 
@@ -12,7 +11,8 @@ namespace tyndall {
 /// are split first, as long as one has a score below `settings.splitting` and there is room: for as many clusters as
 /// candidates, and for 15 at least. Every cluster has a candidate if there are enough, and the rest goes by importance;
 /// else all do, as fractions that sum to `settings.candidates`.
-LightCut wide_cut(const WideLightTree& tree, const PointQuery& query, const CutSettings& settings);
-LightCut wide_cut(const WideLightTree& tree, const Segment& query, const CutSettings& settings);
+/// `Tree` is WideLightTree or InstancedLightTree, `Query` PointQuery or Segment.
+template <typename Tree, typename Query>
+LightCut wide_cut(const Tree& tree, const Query& query, const CutSettings& settings);
 
 }  // namespace tyndall

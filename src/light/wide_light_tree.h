@@ -31,7 +31,11 @@ class WideLightTree {
 
   WideLightTree() = default;
   /// Equal input gives an equal tree for any number of threads (0: one a core). `lights` is freed on the way.
-  explicit WideLightTree(std::vector<TreeLight> lights, int threads = 0);
+  explicit WideLightTree(std::vector<TreeLight> lights, int threads = 0) : WideLightTree(std::move(lights), {}, threads) {}
+  /// Some leaves are whole clusters, to be looked into by who knows them: a TreeLight of number kCluster + i has the count
+  /// and the moments of clusters[i].
+  static constexpr LightId kCluster = 0x40000000;
+  WideLightTree(std::vector<TreeLight> lights, std::span<const Cluster> clusters, int threads);
 
   struct Choice {
     LightId light;
@@ -63,7 +67,8 @@ class WideLightTree {
   bool is_leaf(NodeRef ref) const { return ref != kAll && nodes_[ref / 8].leaf(ref % 8); }
   /// The node whose children a cluster that is no leaf has.
   std::uint32_t node_of(NodeRef ref) const { return ref == kAll ? 0 : nodes_[ref / 8].child[ref % 8]; }
-  WideQuery localize(const PointQuery& query) const;
+  WideQuery localize(const PointQuery& query) const { return localize(query, Vec3d(query.p)); }
+  WideQuery localize(const PointQuery& query, Vec3d at) const;  ///< at a more precise point than the query's
   WideSegment localize(const Segment& query) const;
   /// Importance of the children of a cluster, child i being NodeRef 8 node_of(ref) + i; relative to each other.
   ChildImportance children(NodeRef ref, const WideQuery& query) const { return child_importance(nodes_[node_of(ref)], query); }
@@ -72,6 +77,14 @@ class WideLightTree {
   }
   /// Bounds and moments of a cluster, lengths in the tree's unit, intensity relative to that of all lights.
   Cluster cluster(NodeRef ref) const { return ref == kAll ? all_ : nodes_[ref / 8].cluster(static_cast<int>(ref % 8)); }
+  NodeRef parent_of(NodeRef ref) const { return nodes_[ref / 8].parent; }
+  /// f(NodeRef of the first child, the node that they make up, how the query sees it, what its importances are to be
+  /// multiplied by to compare with other clusters').
+  template <typename Query, typename F>
+  auto open(NodeRef ref, const Query& query, const F& f) const {
+    const std::uint32_t node = node_of(ref);
+    return f(8 * node, nodes_[node], query, 1.0f);
+  }
   std::uint32_t count_of(NodeRef ref) const { return ref == kAll ? all_.count : nodes_[ref / 8].count[ref % 8]; }  ///< lights
   /// select() within one cluster; a leaf has pmf 1.
   std::optional<Choice> select_below(NodeRef top, const WideQuery& query, double u) const;
@@ -86,6 +99,22 @@ class WideLightTree {
   /// Probability of select_below(top) giving the light of `leaf`, which is below `top`.
   double pmf_below(NodeRef top, NodeRef leaf, const WideQuery& query) const;
   double pmf_below(NodeRef top, NodeRef leaf, const WideSegment& query) const;
+
+  /// Intensity of all lights, W/sr.
+  double intensity() const { return intensity_; }
+
+  // What descents are made of where the tree is a part of another: the decisions alone, no choice by number.
+  struct Reached {
+    NodeRef leaf;
+    double u, chance;  ///< what is left of u in [0, 1); the product of the decisions' probabilities
+  };
+  std::optional<Reached> decide(NodeRef top, const WideQuery& query, double u) const;
+  std::optional<Reached> decide(NodeRef top, const WideSegment& query, double u) const;
+  /// The chance with which decide() gives `leaf`, rounded to 0 perhaps; nothing: one of the decisions is impossible.
+  std::optional<double> decided(NodeRef top, NodeRef leaf, const WideQuery& query) const;
+  std::optional<double> decided(NodeRef top, NodeRef leaf, const WideSegment& query) const;
+  /// The leaf that has the light of this number below `top`; `number` becomes that within the leaf.
+  NodeRef numbered(NodeRef top, std::uint32_t& number) const;
 
   /// The tree's lengths in one of the scene's, for a query at `p`: the same everywhere, but where all lights are at the
   /// origin and nothing else gives a scale.
@@ -108,6 +137,12 @@ class WideLightTree {
   std::optional<Choice> descend(NodeRef top, const Query& query, double u) const;
   template <typename Query>
   std::optional<Choice> select_by_number(NodeRef top, const Query& query, double u) const;
+  template <typename Query>
+  bool run(Descent& d, const Query& query) const;
+  template <typename Query>
+  std::optional<Reached> decide_all(NodeRef top, const Query& query, double u) const;
+  template <typename Query>
+  std::optional<double> climb(NodeRef top, NodeRef leaf, const Query& query) const;
   template <typename Query>
   double ascend(NodeRef top, NodeRef leaf, const Query& query) const;
 

@@ -17,7 +17,7 @@ namespace tyndall {
 /// In the tree's own unit of length, see WideLightTree.
 struct alignas(64) WideNode {
   static constexpr int kWidth = 8;
-  static constexpr std::uint8_t kLeaf = 1, kTwoSided = 2;
+  static constexpr std::uint8_t kLeaf = 1, kTwoSided = 2;  ///< no further flags: SIMD compares with the larger
   /// Steps of the axes and cosines.
   static constexpr float kStep = 1.0f / 32767;
   static constexpr float kMeanStep = 1.0f / 127;
@@ -68,6 +68,7 @@ struct WideQuery {
   std::array<QueryLobe, 2> lobes{};
   float g = 0;
   Vec3 forward{};
+  double to_world = 1;  ///< child_importance() times this is in intensity / length^2 of the scene
 };
 
 /// Importance of each of a node's children, in units of `scale` / length^2: at least a tiny positive number unless no

@@ -1,19 +1,9 @@
 // Descent of the wide light tree and the probabilities of its outcomes.
+#include "light/choice_by_number.h"
 #include "light/wide_light_tree.h"
 
 namespace tyndall {
 namespace {
-
-/// Small enough that no product with a sum of weights rounds up to that sum.
-constexpr double kBelowOne = 1 - 0x1p-52;
-
-/// Weight of the choice by number.
-constexpr double kByNumber = 0x1p-20;
-
-double mixed(double by_importance, std::uint32_t lights) { return (1 - kByNumber) * by_importance + kByNumber / lights; }
-
-/// What is left of u when the choice by number has taken its part.
-double rest(double u) { return std::min((u - kByNumber) / (1 - kByNumber), kBelowOne); }
 
 /// Ends of the children's parts of [0, sum], the first at [1].
 struct Ends {
@@ -43,11 +33,16 @@ double WideLightTree::to_unit(Vec3 p) const {
   return largest > 0 ? std::ldexp(1.0, -std::ilogb(largest)) : 1;
 }
 
-WideQuery WideLightTree::localize(const PointQuery& query) const {
-  Vec3d p = Vec3d(query.p) * to_unit(query.p);
+WideQuery WideLightTree::localize(const PointQuery& query, Vec3d at) const {
+  double unit = to_unit(query.p);
+  Vec3d p = at * unit;
   const double largest = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  if (largest > WideQuery::kFar) p = p * (WideQuery::kFar / largest);
+  if (largest > WideQuery::kFar) {
+    p = p * (WideQuery::kFar / largest);
+    unit *= WideQuery::kFar / largest;
+  }
   WideQuery local{to_vec3(p), query.n, dot(query.n, query.n) > 0, query.transmissive};
+  local.to_world = unit * unit;
   if (!local.surface) {
     local.g = query.g;
     local.forward = query.forward;
@@ -74,7 +69,7 @@ bool WideLightTree::step(Descent& d, const Query& query) const {
   if (!(ends.sum() > 0)) return false;
   std::size_t child = 0;  // counted without branches: which it is cannot be guessed
   for (std::size_t i = 1; i < WideNode::kWidth; ++i) child += ends.at[i] <= place;
-  d.u = std::min((place - ends.at[child]) / ends.width(child), kBelowOne);
+  d.u = std::min((place - ends.at[child]) / ends.width(child), kBelowOne52);
   d.chance *= ends.width(child) / ends.sum();
   d.ref = 8 * index + static_cast<NodeRef>(child);
   if (!is_leaf(d.ref)) nodes_[node_of(d.ref)].prefetch();
@@ -87,10 +82,23 @@ std::optional<WideLightTree::Choice> WideLightTree::descend(NodeRef top, const Q
   if (is_leaf(top)) return Choice{nodes_[top / 8].child[top % 8], 1};
   if (u < kByNumber) return select_by_number(top, query, u / kByNumber);
   Descent d{top, top, rest(u), 1, 0};
-  do {
-    if (!step(d, query)) return std::nullopt;
-  } while (!is_leaf(d.ref));
+  if (!run(d, query)) return std::nullopt;
   return choice(d);
+}
+
+template <typename Query>
+bool WideLightTree::run(Descent& d, const Query& query) const {
+  do {
+    if (!step(d, query)) return false;
+  } while (!is_leaf(d.ref));
+  return true;
+}
+
+template <typename Query>
+std::optional<WideLightTree::Reached> WideLightTree::decide_all(NodeRef top, const Query& query, double u) const {
+  Descent d{top, top, u, 1, 0};
+  if (!is_leaf(top) && !run(d, query)) return std::nullopt;
+  return Reached{d.ref, d.u, d.chance};
 }
 
 // In turns: while one waits for its next node, the others go on.
@@ -125,6 +133,13 @@ WideLightTree::Choice WideLightTree::choice(const Descent& d) const {
 template <typename Query>
 std::optional<WideLightTree::Choice> WideLightTree::select_by_number(NodeRef top, const Query& query, double u) const {
   auto number = static_cast<std::uint32_t>(u * count_of(top));
+  const NodeRef ref = numbered(top, number);
+  const double pmf = ascend(top, ref, query);
+  if (!(pmf > 0)) return std::nullopt;
+  return Choice{nodes_[ref / 8].child[ref % 8], pmf};
+}
+
+WideLightTree::NodeRef WideLightTree::numbered(NodeRef top, std::uint32_t& number) const {
   NodeRef ref = top;
   while (!is_leaf(ref)) {
     const std::uint32_t index = node_of(ref);
@@ -132,22 +147,26 @@ std::optional<WideLightTree::Choice> WideLightTree::select_by_number(NodeRef top
     for (; number >= nodes_[index].count[child]; ++child) number -= nodes_[index].count[child];
     ref = 8 * index + child;
   }
-  const double pmf = ascend(top, ref, query);
-  if (!(pmf > 0)) return std::nullopt;
-  return Choice{nodes_[ref / 8].child[ref % 8], pmf};
+  return ref;
 }
 
 template <typename Query>
 double WideLightTree::ascend(NodeRef top, NodeRef leaf, const Query& query) const {
   if (leaf == top) return 1;
+  const auto chance = climb(top, leaf, query);
+  return chance ? mixed(*chance, count_of(top)) : 0;
+}
+
+template <typename Query>
+std::optional<double> WideLightTree::climb(NodeRef top, NodeRef leaf, const Query& query) const {
   double chance = 1;
   for (NodeRef ref = leaf; ref != top; ref = nodes_[ref / 8].parent) {
     const ChildImportance children = child_importance(nodes_[ref / 8], query);
-    if (!(children.of[ref % 8] > 0)) return 0;
+    if (!(children.of[ref % 8] > 0)) return std::nullopt;
     const Ends ends(children);
     chance *= ends.width(ref % 8) / ends.sum();
   }
-  return mixed(chance, count_of(top));
+  return chance;
 }
 
 std::optional<WideLightTree::Choice> WideLightTree::select_below(NodeRef top, const WideQuery& query, double u) const {
@@ -167,10 +186,19 @@ void WideLightTree::select_below(std::span<const Draw> draws, const WideSegment&
 double WideLightTree::pmf_below(NodeRef top, NodeRef leaf, const WideQuery& query) const { return ascend(top, leaf, query); }
 double WideLightTree::pmf_below(NodeRef top, NodeRef leaf, const WideSegment& query) const { return ascend(top, leaf, query); }
 
+std::optional<WideLightTree::Reached> WideLightTree::decide(NodeRef top, const WideQuery& query, double u) const {
+  return decide_all(top, query, u);
+}
+std::optional<WideLightTree::Reached> WideLightTree::decide(NodeRef top, const WideSegment& query, double u) const {
+  return decide_all(top, query, u);
+}
+std::optional<double> WideLightTree::decided(NodeRef top, NodeRef leaf, const WideQuery& query) const { return climb(top, leaf, query); }
+std::optional<double> WideLightTree::decided(NodeRef top, NodeRef leaf, const WideSegment& query) const { return climb(top, leaf, query); }
+
 double WideLightTree::importance(const PointQuery& query) const {
   if (nodes_.empty()) return 0;
-  const double per_length = to_unit(query.p);
-  return total(children(kAll, localize(query))) * nodes_[0].scale * intensity_ * per_length * per_length;
+  const WideQuery local = localize(query);
+  return total(children(kAll, local)) * nodes_[0].scale * intensity_ * local.to_world;
 }
 
 double WideLightTree::importance(const Segment& query) const {

@@ -186,7 +186,7 @@ WideSegment WideSegment::from_segment(const Segment& s, double to_unit, Vec3d mi
   w.from = place(s.t0);
   w.till = place(s.t1);
   w.length = std::max(w.till - w.from, kShort);
-  w.rounding = static_cast<float>(kPointRounding * shrink * (largest(o) + std::abs(near)));
+  w.rounding = static_cast<float>(kPointRounding * shrink * (s.reach * to_unit + std::abs(near)));
   w.g = static_cast<float>(s.g);
   w.importance = s.importance;
   w.to_world = s.importance == MediaStrategy::closest ? s.length * scale * scale : w.length * scale;

@@ -22,29 +22,33 @@ const LightCluster* find(const LightCut& cut, std::uint32_t ref) {
 
 }  // namespace
 
+template <typename Tree>
 template <typename Query>
-LightCut WideSelector::split(const Query& query, int candidates, float splitting) const {
-  const Shares share = shares(query);
+LightCut WideSelector<Tree>::split(const Query& query, int candidates, float splitting) const {
+  const auto share = this->shares(query);
   LightCut cut;
   if (share.near > 0) cut = wide_cut(tree(), query, {candidates, splitting});
   if (!(share.far > 0)) return cut;
-  const double far = cut.empty() ? 1 : share.far;  // the tree as a whole may promise what none of its lights keeps
+  const double far_share = cut.empty() ? 1 : share.far;  // the tree as a whole may promise what none of its lights keeps
   if (candidates > 0) {
     for (LightCluster& c : cut) c.candidates *= static_cast<float>(share.near);
   }
-  cut.push_back({kFarCluster, candidates > 0 ? static_cast<float>(far * candidates) : 1.0f});
+  cut.push_back({kFarCluster, candidates > 0 ? static_cast<float>(far_share * candidates) : 1.0f});
   return cut;
 }
 
-LightCut WideSelector::cut(const PointQuery& query, const CutSettings& settings) const {
+template <typename Tree>
+LightCut WideSelector<Tree>::cut(const PointQuery& query, const CutSettings& settings) const {
   return split(query, settings.candidates.value_or(query.glossy() ? kGlossyCandidates : 1), settings.splitting);
 }
-LightCut WideSelector::cut(const SegmentQuery& query, const CutSettings& settings) const {
+template <typename Tree>
+LightCut WideSelector<Tree>::cut(const SegmentQuery& query, const CutSettings& settings) const {
   return split(Segment(query), settings.candidates.value_or(1), settings.splitting);
 }
 
+template <typename Tree>
 template <typename Query>
-LightCandidates WideSelector::draw_all(const LightCut& cut, const Query& query, double u) const {
+LightCandidates WideSelector<Tree>::draw_all(const LightCut& cut, const Query& query, double u) const {
   LightCandidates drawn;
   SmallVector<WideLightTree::Draw, 16> draws;
   SmallVector<float, 16> tries;
@@ -67,31 +71,40 @@ LightCandidates WideSelector::draw_all(const LightCut& cut, const Query& query, 
 }
 
 /// Up from the leaf to the cluster of the cut that holds it.
+template <typename Tree>
 template <typename Query>
-double WideSelector::expected_near(const LightCut& cut, const Query& query, std::uint32_t leaf) const {
-  for (auto ref = leaf;; ref = tree().nodes()[ref / WideNode::kWidth].parent) {
+double WideSelector<Tree>::expected_near(const LightCut& cut, const Query& query, std::uint32_t leaf) const {
+  for (auto ref = leaf;; ref = tree().parent_of(ref)) {
     if (const LightCluster* c = find(cut, ref)) return c->candidates * tree().pmf_below(ref, leaf, tree().localize(query));
     if (ref == WideLightTree::kAll) return 0;
   }
 }
 
+template <typename Tree>
 template <typename Query>
-float WideSelector::tries(const LightCut& cut, const Query& query, LightId light) const {
-  const std::uint32_t slot = slot_of(light);
-  if (slot == kDark) return 0;
-  if (slot < kFar) return static_cast<float>(expected_near(cut, query, slot));
+float WideSelector<Tree>::tries(const LightCut& cut, const Query& query, LightId light) const {
+  const std::uint32_t slot = this->slot_of(light);
+  if (slot == this->kDark) return 0;
+  if (slot < this->kFar) return static_cast<float>(expected_near(cut, query, slot));
   const LightCluster* c = find(cut, kFarCluster);
-  return c ? static_cast<float>(c->candidates * far().pmf(query, slot - kFar)) : 0.0f;
+  return c ? static_cast<float>(c->candidates * far().pmf(query, slot - this->kFar)) : 0.0f;
 }
 
-LightCandidates WideSelector::draw(const LightCut& cut, const PointQuery& query, double u) const { return draw_all(cut, query, u); }
-LightCandidates WideSelector::draw(const LightCut& cut, const SegmentQuery& query, double u) const {
+template <typename Tree>
+LightCandidates WideSelector<Tree>::draw(const LightCut& cut, const PointQuery& query, double u) const { return draw_all(cut, query, u); }
+template <typename Tree>
+LightCandidates WideSelector<Tree>::draw(const LightCut& cut, const SegmentQuery& query, double u) const {
   return draw_all(cut, Segment(query), u);
 }
 
-float WideSelector::expected(const LightCut& cut, const PointQuery& query, LightId light) const { return tries(cut, query, light); }
-float WideSelector::expected(const LightCut& cut, const SegmentQuery& query, LightId light) const {
+template <typename Tree>
+float WideSelector<Tree>::expected(const LightCut& cut, const PointQuery& query, LightId light) const { return tries(cut, query, light); }
+template <typename Tree>
+float WideSelector<Tree>::expected(const LightCut& cut, const SegmentQuery& query, LightId light) const {
   return tries(cut, Segment(query), light);
 }
+
+template class WideSelector<WideLightTree>;
+template class WideSelector<InstancedLightTree>;
 
 }  // namespace tyndall

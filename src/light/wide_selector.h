@@ -5,9 +5,11 @@
 
 namespace tyndall {
 
-class WideSelector final : public TreeSelector<WideLightTree> {
+/// `Tree` is WideLightTree or InstancedLightTree.
+template <typename Tree>
+class WideSelector final : public TreeSelector<Tree> {
  public:
-  using TreeSelector::TreeSelector;
+  using TreeSelector<Tree>::TreeSelector;
 
   LightCut cut(const PointQuery& query, const CutSettings& settings) const override;
   LightCut cut(const SegmentQuery& query, const CutSettings& settings) const override;
@@ -25,6 +27,12 @@ class WideSelector final : public TreeSelector<WideLightTree> {
   double expected_near(const LightCut& cut, const Query& query, std::uint32_t leaf) const;
   template <typename Query>
   float tries(const LightCut& cut, const Query& query, LightId light) const;
+
+  using TreeSelector<Tree>::far;
+  using TreeSelector<Tree>::tree;
 };
+
+extern template class WideSelector<WideLightTree>;
+extern template class WideSelector<InstancedLightTree>;
 
 }  // namespace tyndall

@@ -1,0 +1,325 @@
+#include "light/instanced_light_tree.h"
+
+#include <doctest/doctest.h>
+
+#include "instanced_cases.h"
+#include "segment_cases.h"
+#include "support/chi_squared.h"
+
+namespace tyndall {
+namespace {
+
+using NodeRef = InstancedLightTree::NodeRef;
+
+/// A tree, and the leaves of its lights.
+struct Case {
+  InstancedLightTree tree;
+  std::vector<NodeRef> leaf;  ///< by LightId; kAll: dark
+
+  explicit Case(SelectionInput input) : leaf(test::size_of(input), InstancedLightTree::kAll) {
+    const auto alone = static_cast<LightId>(input.power.size());
+    tree = InstancedLightTree(input);
+    tree.for_each_leaf([&](LightId light, NodeRef ref) { leaf[light] = ref; });
+    for (LightId light = alone; light < leaf.size(); ++light) leaf[light] = tree.leaf_of(light);
+  }
+};
+
+/// What no light gets, from the root down.
+template <typename Query>
+double dead_mass(const InstancedLightTree& tree, const Query& query, std::size_t& alive) {
+  const auto local = tree.localize(query);
+  std::vector<std::pair<NodeRef, double>> stack{{tree.root(), 1.0}};
+  double dead = 0;
+  while (!stack.empty()) {
+    const auto [ref, mass] = stack.back();
+    stack.pop_back();
+    if (tree.is_leaf(ref)) {
+      ++alive;
+      continue;
+    }
+    tree.open(ref, local, [&](NodeRef first, const WideNode& node, const auto& question, float) {
+      const ChildImportance children = child_importance(node, question);
+      double sum = 0;
+      for (const float c : children.of) sum += c;
+      if (!(sum > 0)) dead += mass;
+      for (NodeRef i = 0; i < 8; ++i)
+        if (children.of[i] > 0) stack.push_back({first + i, mass * children.of[i] / sum});
+      return true;
+    });
+  }
+  constexpr double by_number = 0x1p-20;
+  const double lights = tree.count_of(tree.root());
+  return (1 - by_number) * dead + by_number * (1 - double(alive) / lights);
+}
+
+template <typename Query>
+void check_sums(const Case& c, const Query& q) {
+  std::size_t alive = 0, chosen = 0;
+  const double dead = dead_mass(c.tree, q, alive);
+  double sum = 0;
+  for (const NodeRef leaf : c.leaf) {
+    const double pmf = leaf == InstancedLightTree::kAll ? 0 : c.tree.pmf(q, leaf);
+    REQUIRE((pmf >= 0 && pmf <= 1));
+    sum += pmf;
+    chosen += pmf > 0;
+  }
+  REQUIRE(std::abs(sum - (1 - dead)) < 1e-5);
+  REQUIRE(chosen == alive);
+}
+
+TEST_CASE("instances: the tree is sound, every light with power has a leaf of its own, parents lead to the root") {
+  const SelectionInput input = test::instanced_lights(9, 3);
+  const Case c(input);
+  std::vector<NodeRef> seen;
+  for (LightId light = 0; light < c.leaf.size(); ++light) {
+    NodeRef ref = c.leaf[light];
+    if (ref == InstancedLightTree::kAll) continue;
+    seen.push_back(ref);
+    REQUIRE(c.tree.is_leaf(ref));
+    REQUIRE(c.tree.count_of(ref) == 1);
+    const auto choice = c.tree.select_below(ref, c.tree.localize(PointQuery{}), 0.5);
+    REQUIRE((choice && choice->light == light && choice->pmf == 1));
+    std::uint32_t count = 1;
+    int steps = 0;
+    for (; ref != c.tree.root(); ref = c.tree.parent_of(ref)) {
+      REQUIRE(c.tree.count_of(ref) >= count);
+      count = c.tree.count_of(ref);
+      REQUIRE(++steps < 64);
+    }
+    REQUIRE(c.tree.count_of(ref) == test::world_bounds(input).size());
+  }
+  CHECK(seen.size() == test::world_bounds(input).size());
+  std::sort(seen.begin(), seen.end());
+  CHECK(std::adjacent_find(seen.begin(), seen.end()) == seen.end());
+}
+
+TEST_CASE("instances: the pmf sums to 1 less the dead mass, for points and segments") {
+  for (const std::size_t n : {2u, 7u, 40u}) {
+    const SelectionInput input = test::instanced_lights(n, 10 + n);
+    const Case c(input);
+    for (const PointQuery& q : test::instanced_queries(input, 40, n)) check_sums(c, q);
+    for (const SegmentQuery& q : test::segments_for(test::world_bounds(input), 40, n)) check_sums(c, Segment(q));
+  }
+}
+
+TEST_CASE("instances: what select() returns is what pmf() says") {
+  const SelectionInput input = test::instanced_lights(30, 5);
+  const Case c(input);
+  Rng rng(8);
+  std::size_t selected = 0;
+  const auto points = test::instanced_queries(input, 300, 6);
+  const auto segments = test::segments_for(test::world_bounds(input), 300, 6);
+  const auto check = [&](const auto& q, double u) {
+    const auto s = c.tree.select(q, u);
+    if (!s) return;
+    ++selected;
+    REQUIRE(s->pmf > 0);
+    REQUIRE(c.leaf[s->light] != InstancedLightTree::kAll);
+    REQUIRE(std::abs(c.tree.pmf(q, c.leaf[s->light]) - s->pmf) <= 1e-6 * s->pmf);
+  };
+  for (std::size_t i = 0; i < 60'000; ++i) {
+    const double u = i % 50 == 0 ? rng.uniform_wide() * 0x1p-20 : rng.uniform_wide();
+    check(points[i % points.size()], u);
+    if (i % 4 == 0) check(Segment(segments[i / 4 % segments.size()]), u);
+  }
+  CHECK(selected > 40'000);
+}
+
+template <typename Query>
+void check_frequencies(const Case& c, const Query& q) {
+  constexpr int kDraws = 40'000;
+  std::vector<double> counts(c.leaf.size());
+  Rng rng(4);
+  for (int i = 0; i < kDraws; ++i)
+    if (const auto s = c.tree.select(q, (i + rng.uniform_wide()) / kDraws)) counts[s->light] += 1;
+  double statistic = 0, rest_expected = 0, rest = 0;
+  int bins = 0;
+  const auto bin = [&](double count, double e) {
+    statistic += (count - e) * (count - e) / e;
+    ++bins;
+  };
+  for (LightId light = 0; light < counts.size(); ++light) {
+    const double e = c.leaf[light] == InstancedLightTree::kAll ? 0 : kDraws * c.tree.pmf(q, c.leaf[light]);
+    REQUIRE((e > 0 || counts[light] == 0));
+    if (e >= 5) {
+      bin(counts[light], e);
+    } else {
+      rest += counts[light];
+      rest_expected += e;
+    }
+  }
+  if (rest_expected >= 5) bin(rest, rest_expected);
+  if (bins > 1) CHECK(test::chi_squared_tail(statistic, bins - 1) > 1e-5);
+}
+
+TEST_CASE("instances: lights are chosen with their probability") {
+  const SelectionInput input = test::instanced_lights(12, 21);
+  const Case c(input);
+  for (const PointQuery& q : test::instanced_queries(input, 12, 9)) check_frequencies(c, q);
+  for (const SegmentQuery& q : test::segments_for(test::world_bounds(input), 12, 9)) check_frequencies(c, Segment(q));
+}
+
+/// In the world, lights of instances like any others.
+SelectionInput alone(const SelectionInput& input) {
+  SelectionInput result;
+  for (const LightBounds& l : test::world_bounds(input)) {
+    result.near.push_back({l, static_cast<LightId>(result.power.size())});
+    result.power.push_back(l.intensity);
+  }
+  return result;
+}
+
+TEST_CASE("instances: importance is comparable with that of the same lights alone, in instances of every size") {
+  // Once all clusters are single lights, what a cut gives them is their importance alone.
+  SelectionInput input = test::instanced_lights(8, 31);
+  const SelectionInput expanded = alone(input);
+  std::vector<LightId> ids;
+  for (const TreeLight& l : input.near) ids.push_back(l.light);
+  for (const LightInstance& i : input.instances)
+    for (const TreeLight& l : input.objects[i.object].near) ids.push_back(i.first + l.light);
+  const auto shared = make_selector(LightStrategy::tree, input), single = make_selector(LightStrategy::tree, expanded);
+  const CutSettings settings{1'000'000, 1};
+  double worst = 0;
+  const auto compare = [&](const auto& q) {
+    const LightCut a = shared->cut(q, settings), b = single->cut(q, settings);
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      const double x = shared->expected(a, q, ids[i]), y = single->expected(b, q, static_cast<LightId>(i));
+      if (x > 2000 && y > 2000) worst = std::max(worst, std::abs(std::log(x / y)));
+    }
+  };
+  for (const PointQuery& q : test::instanced_queries(input, 40, 3))
+    if (std::max({std::abs(q.p.x), std::abs(q.p.y), std::abs(q.p.z)}) > 20) compare(q);
+  for (SegmentQuery q : test::segments_for(test::world_bounds(input), 60, 3)) {
+    q.o = normalize(q.o) * 60.0f;
+    q.t1 = q.t0 + 1;
+    q.importance = MediaStrategy::integral;
+    compare(q);
+  }
+  CHECK(worst < 0.2);  // factors of scale would be two orders larger
+  CHECK(worst > 0);
+}
+
+TEST_CASE("instances: from afar each gets the share that its lights get alone") {
+  const SelectionInput input = test::instanced_lights(10, 81);
+  const auto shared = make_selector(LightStrategy::tree, input), single = make_selector(LightStrategy::tree, alone(input));
+  double worst = 0;
+  const auto compare = [&](const auto& q) {
+    auto next = static_cast<LightId>(input.near.size());
+    for (const LightInstance& i : input.instances) {
+      double x = 0, y = 0;
+      for (const TreeLight& l : input.objects[i.object].near) {
+        x += shared->pmf(q, i.first + l.light);
+        y += single->pmf(q, next++);
+      }
+      if (x + y > 0.01) worst = std::max(worst, std::abs(std::log(x / y)));
+    }
+  };
+  Rng rng(6);
+  for (int k = 0; k < 30; ++k) {
+    const Vec3 p = test::random_direction(rng) * 40.0f;
+    compare(PointQuery{.p = p, .n = {}});
+    SegmentQuery q{.o = p, .d = test::random_direction(rng), .t0 = 0, .t1 = 5};
+    q.importance = MediaStrategy::integral;
+    compare(q);
+  }
+  CHECK(worst < 0.4);
+  CHECK(worst > 0);
+}
+
+TEST_CASE("instances: cuts go into them, and every light is drawn as often as expected") {
+  for (const bool sun : {false, true}) {
+    const SelectionInput input = test::instanced_lights(6, 41, sun);
+    const std::size_t n = test::size_of(input);
+    const auto selector = make_selector(LightStrategy::tree, input);
+    bool inside = false;
+    const auto check = [&](const auto& q, const CutSettings& settings) {
+      const LightCut cut = selector->cut(q, settings);
+      for (const LightCluster& c : cut) inside = inside || (c.ref / 8 > 8 && c.ref < 0x80000000);
+      std::vector<double> drawn(n);
+      Rng rng(2);
+      constexpr int kDraws = 3000;
+      for (int i = 0; i < kDraws; ++i) {
+        for (const LightCandidate& c : selector->draw(cut, q, rng.uniform_wide())) {
+          drawn[c.light] += 1;
+          REQUIRE(std::abs(c.tries - selector->expected(cut, q, c.light)) <= 1e-5f * c.tries);
+        }
+      }
+      double sum = 0;
+      for (LightId light = 0; light < n; ++light) {
+        const double e = kDraws * double(selector->expected(cut, q, light));
+        sum += e;
+        CHECK(std::abs(drawn[light] - e) <= 6 * std::sqrt(e) + 6);
+        if (e == 0) CHECK(drawn[light] == 0);
+      }
+      CHECK(sum <= kDraws * candidates_of(cut) * (1 + 1e-5));
+    };
+    for (const PointQuery& q : test::instanced_queries(input, 10, 9)) {
+      for (const CutSettings s : {CutSettings{4, 0.5f}, {16, 1}, {0, 0.7f}}) check(q, s);
+    }
+    for (const SegmentQuery& q : test::segments_for(test::world_bounds(input), 6, 9)) check(q, {8, 0.8f});
+    CHECK(inside);
+  }
+}
+
+TEST_CASE("instances: splitting 1 without a limit goes down to single lights") {
+  const SelectionInput input = test::instanced_lights(5, 51);
+  const auto selector = make_selector(LightStrategy::tree, input);
+  for (const PointQuery& q : test::instanced_queries(input, 12, 9)) {
+    const LightCut all = selector->cut(q, {0, 1});
+    for (LightId i = 0; i < test::size_of(input); ++i) {
+      const float expected = selector->expected(all, q, i);
+      CHECK((expected == 0 || expected == 1));
+      if (selector->pmf(q, i) > 0) CHECK(expected == 1);
+    }
+  }
+}
+
+TEST_CASE("instances: scaling the scene by powers of two changes no probability") {
+  const SelectionInput input = test::instanced_lights(5, 61);
+  const Case c(input);
+  for (const int k : {-20, 9}) {
+    const double s = std::ldexp(1.0, k);
+    SelectionInput scaled = input;
+    for (TreeLight& l : scaled.near) l.bounds.box = {l.bounds.box.min * float(s), l.bounds.box.max * float(s)};
+    for (LightInstance& i : scaled.instances) i.to_world = *Similarity::of(Transform::scale(s, s, s) * test::transform_of(i.to_world));
+    const Case d(scaled);
+    for (PointQuery q : test::instanced_queries(input, 20, 5)) {
+      PointQuery large = q;
+      large.p = q.p * float(s);
+      for (LightId light = 0; light < c.leaf.size(); light += 7) {
+        if (c.leaf[light] == InstancedLightTree::kAll) continue;
+        REQUIRE(d.leaf[light] == c.leaf[light]);
+        CHECK(d.tree.pmf(large, c.leaf[light]) == doctest::Approx(c.tree.pmf(q, c.leaf[light])).epsilon(1e-6));
+      }
+    }
+  }
+}
+
+TEST_CASE("instances: other strategies choose among every light on its own") {
+  const SelectionInput input = test::instanced_lights(7, 71);
+  const std::size_t n = test::size_of(input);
+  for (const LightStrategy strategy : {LightStrategy::uniform, LightStrategy::power, LightStrategy::tree_binary}) {
+    const auto selector = make_selector(strategy, input);
+    for (const PointQuery& q : test::instanced_queries(input, 6, 5)) {
+      double sum = 0;
+      for (LightId light = 0; light < n; ++light) sum += selector->pmf(q, light);
+      CHECK(sum <= 1 + 1e-5);
+      if (strategy != LightStrategy::tree_binary) CHECK(sum > 1 - 1e-5);
+    }
+    if (strategy == LightStrategy::tree_binary) continue;
+    const LightInstance& last = input.instances.back();
+    const SharedLights& object = input.objects[last.object];
+    double total = 0;
+    for (const double w : input.power) total += w;
+    for (const LightInstance& i : input.instances)
+      for (const double w : input.objects[i.object].power) total += w * i.growth;
+    for (LightId i = 0; i < object.power.size(); ++i) {
+      const float pmf = selector->pmf(PointQuery{}, last.first + i);
+      CHECK((pmf > 0) == (object.power[i] > 0));
+      if (strategy == LightStrategy::power) CHECK(pmf == doctest::Approx(object.power[i] * last.growth / total));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tyndall
