@@ -3,6 +3,7 @@
 #include <chrono>
 #include <map>
 
+#include "light/instance_runs.h"
 #include "light/lights_parts.h"
 #include "tyndall/error.h"
 
@@ -18,16 +19,20 @@ class Builder {
   }
 
   void add(const Light& light);
-  void add(const EmitterShape& placed);
+  void add_alone(std::span<const EmitterShape> shapes, std::span<const InstanceRun> shared);
   void add(const VolumeEmitter& volume);
+  void add_instance(std::span<const EmitterShape> shapes, const InstanceRun& run);
   Lights finish(const Bounds3& scene_bounds);
 
  private:
   static void require_finite(Rgb value, const Location& where);
+  void require_room(std::size_t lights) const;
   void refer(Kind kind, std::size_t index, std::uint32_t primitive = 0);
+  Emitter emitter(const Shape& shape, const Transform& to_world);
   Emission emission(const Shape& shape);
   std::uint32_t image(const AreaLight& light, const Location& where);
   SelectionInput selection_input() const;
+  void add_instances(SelectionInput& input) const;
   void add_selector(LightStrategy strategy, SelectionInput input);
   void add_selectors_of_surfaces(SelectionInput input);
   void count(const SelectionInput& input);
@@ -35,15 +40,20 @@ class Builder {
   std::unique_ptr<Lights::Parts> parts_;
   LightBuildOptions options_;
   std::map<std::pair<std::string, std::array<float, 9>>, std::uint32_t> images_;
+  std::map<ObjectId, std::uint32_t> objects_;  ///< to those of parts_->instanced
 };
 
 void Builder::require_finite(Rgb value, const Location& where) {
   if (!is_finite(value)) throw Error(where, "the light's strength is not finite; replace its NaN or infinite values");
 }
 
-void Builder::refer(Kind kind, std::size_t index, std::uint32_t primitive) {
-  if (parts_->lights.size() >= 0x3fffffff)
+void Builder::require_room(std::size_t lights) const {
+  if (parts_->lights.size() + parts_->instanced_lights + lights > 0x3fffffff)
     throw Error(Failure::scene, "the scene has more than 2^30 lights; merge some of its emissive primitives");
+}
+
+void Builder::refer(Kind kind, std::size_t index, std::uint32_t primitive) {
+  require_room(1);
   Lights::Parts::Reference& reference = parts_->lights.emplace_back();
   reference.kind = kind;
   reference.index = static_cast<std::uint32_t>(index) & 0x1fffffff;
@@ -106,20 +116,50 @@ Emission Builder::emission(const Shape& shape) {
   return e;
 }
 
-void Builder::add(const EmitterShape& placed) {
-  const Shape& shape = *placed.shape;
+Emitter Builder::emitter(const Shape& shape, const Transform& to_world) {
   const Emission e = emission(shape);
   const auto surface = [&]() -> Emitter::Surface {
     const bool with_uvs = e.image || e.alpha;
     if (const auto* mesh = std::get_if<TriangleMesh>(&shape.kind))
-      return TriangleEmitter(*mesh, placed.to_world, shape.reverse_orientation, with_uvs);
+      return TriangleEmitter(*mesh, to_world, shape.reverse_orientation, with_uvs);
     if (const auto* mesh = std::get_if<BilinearMesh>(&shape.kind))
-      return PatchEmitter(*mesh, placed.to_world, shape.reverse_orientation, with_uvs);
-    return QuadricEmitter(shape, placed.to_world, !e.alpha && !e.invisible);
+      return PatchEmitter(*mesh, to_world, shape.reverse_orientation, with_uvs);
+    return QuadricEmitter(shape, to_world, !e.alpha && !e.invisible);
   };
-  parts_->first_light.push_back(static_cast<LightId>(parts_->lights.size()));
-  const Emitter& emitter = parts_->emitters.emplace_back(surface(), e);
-  for (std::uint32_t i = 0; i < emitter.size(); ++i) refer(Kind::emitter, parts_->emitters.size() - 1, i);
+  return Emitter(surface(), e);
+}
+
+/// Those that are in none of the runs.
+void Builder::add_alone(std::span<const EmitterShape> shapes, std::span<const InstanceRun> shared) {
+  parts_->first_light.resize(shapes.size());
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    if (!shared.empty() && i == shared.front().begin) {
+      i = shared.front().end - 1;
+      shared = shared.subspan(1);
+      continue;
+    }
+    parts_->first_light[i] = static_cast<LightId>(parts_->lights.size());
+    const Emitter& added = parts_->emitters.emplace_back(emitter(*shapes[i].shape, shapes[i].to_world));
+    for (std::uint32_t k = 0; k < added.size(); ++k) refer(Kind::emitter, parts_->emitters.size() - 1, k);
+  }
+}
+
+/// After all others: ids of instances' lights are computed.
+void Builder::add_instance(std::span<const EmitterShape> shapes, const InstanceRun& run) {
+  InstancedEmitters& instanced = parts_->instanced;
+  const auto [known, is_new] = objects_.try_emplace(shapes[run.begin].instance->object);
+  if (is_new) {
+    std::vector<Emitter> emitters;
+    for (const EmitterShape& s : shapes.subspan(run.begin, run.end - run.begin))
+      emitters.push_back(emitter(*s.shape, s.shape->to_world));
+    known->second = instanced.add_object(std::move(emitters));
+  }
+  const EmitterObject& object = instanced.objects()[known->second];
+  require_room(object.size());
+  const auto first = static_cast<LightId>(parts_->lights.size() + parts_->instanced_lights);
+  instanced.add_instance(known->second, run.to_world, first);
+  for (std::size_t i = run.begin; i < run.end; ++i) parts_->first_light[i] = first + object.first(i - run.begin);
+  parts_->instanced_lights += object.size();
 }
 
 void Builder::add(const VolumeEmitter& volume) {
@@ -156,17 +196,45 @@ SelectionInput Builder::selection_input() const {
       add_near(bounds, id);
     }
   }
+  add_instances(input);
   return input;
+}
+
+void Builder::add_instances(SelectionInput& input) const {
+  const InstancedEmitters& instanced = parts_->instanced;
+  for (const EmitterObject& object : instanced.objects()) {
+    SharedLights& lights = input.objects.emplace_back();
+    for (const Emitter& e : object.emitters()) {
+      for (std::uint32_t i = 0; i < e.size(); ++i) {
+        const double power = e.power(i);
+        const auto number = static_cast<LightId>(lights.power.size());
+        lights.power.push_back(std::isfinite(power) ? power : 0);
+        if (lights.power.back() > 0) lights.near.push_back({e.bounds(i), number});
+      }
+    }
+  }
+  for (const EmitterInstance& i : instanced.instances()) {
+    const double growth = power_scale(instanced.object_of(i).emitters().front(), i.to_world);
+    input.instances.push_back({i.object, i.first, i.to_world, growth});
+  }
 }
 
 void Builder::count(const SelectionInput& input) {
   LightStats& stats = parts_->stats;
-  stats.lights = parts_->lights.size();
+  stats.lights = parts_->lights.size() + parts_->instanced_lights;
   stats.infinite = parts_->infinite.size();
   for (const Emitter& e : parts_->emitters) stats.emitters += e.size();
   for (const double power : input.power) {
     stats.power += power;
     if (!(power > 0)) ++stats.dark;
+  }
+  stats.shared = parts_->instanced_lights;
+  stats.emitters += stats.shared;
+  for (const LightInstance& i : input.instances) {
+    for (const double power : input.objects[i.object].power) {
+      stats.power += power * i.growth;
+      if (!(power > 0)) ++stats.dark;
+    }
   }
 }
 
@@ -207,8 +275,10 @@ Lights build_lights(const Scene& scene, std::span<const EmitterShape> shapes, co
                     const LightBuildOptions& options) {
   Builder builder(options);
   for (const Light& light : scene.lights) builder.add(light);
-  for (const EmitterShape& shape : shapes) builder.add(shape);
+  const std::vector<InstanceRun> shared = shared_runs(shapes);
+  builder.add_alone(shapes, shared);
   for (const VolumeEmitter& volume : options.volumes) builder.add(volume);
+  for (const InstanceRun& run : shared) builder.add_instance(shapes, run);
   return builder.finish(scene_bounds);
 }
 

@@ -13,10 +13,16 @@ std::optional<LightSample> delta_sample(const std::optional<DeltaArrival>& a) {
   return LightSample{a->wi, a->distance, a->L, 1, true};
 }
 
+std::optional<LightSample> surface_sample(const std::optional<Emitter::Sample>& s, bool delta) {
+  if (!s) return std::nullopt;
+  if (delta) return LightSample{s->point.wi, s->point.distance, s->L * (1 / s->point.pdf), 1, true};
+  return LightSample{s->point.wi, s->point.distance, s->L, s->point.pdf, false};
+}
+
 }  // namespace
 
 double Lights::Parts::power(LightId light) const {
-  const Reference r = lights[light];
+  const Reference r = find(light);
   const double disk = kPi * scene_radius * scene_radius;
   switch (r.kind) {
     case Kind::point:
@@ -31,6 +37,8 @@ double Lights::Parts::power(LightId light) const {
       return emitters[r.index].power(r.primitive);
     case Kind::volume:
       return volumes[r.index].power();
+    case Kind::instanced:
+      return instanced.power(instanced.find(light));
   }
   return 0;
 }
@@ -41,7 +49,7 @@ Lights::~Lights() = default;
 Lights::Lights(Lights&&) noexcept = default;
 Lights& Lights::operator=(Lights&&) noexcept = default;
 
-std::size_t Lights::size() const { return parts_->lights.size(); }
+std::size_t Lights::size() const { return parts_->lights.size() + parts_->instanced_lights; }
 const LightStats& Lights::stats() const { return parts_->stats; }
 double Lights::power(LightId light) const { return parts_->power(light); }
 std::span<const LightId> Lights::infinite() const { return parts_->infinite; }
@@ -49,7 +57,7 @@ LightId Lights::first_light(std::size_t emitter_shape) const { return parts_->fi
 
 std::span<const SelectorStats> Lights::selectors() const { return parts_->selector_stats; }
 
-LightId Lights::first_volume() const { return static_cast<LightId>(size() - parts_->volumes.size()); }
+LightId Lights::first_volume() const { return static_cast<LightId>(parts_->lights.size() - parts_->volumes.size()); }
 
 const LightSelector& Lights::selector(LightStrategy strategy, bool with_volumes) const {
   const auto& selectors = with_volumes || parts_->volumes.empty() ? parts_->selectors : parts_->selectors_of_surfaces;
@@ -61,7 +69,7 @@ const LightSelector& Lights::selector(LightStrategy strategy, bool with_volumes)
 }
 
 std::optional<LightSample> Lights::sample(LightId light, Vec3 p, Vec2 u, bool mis_partner) const {
-  const Parts::Reference r = parts_->lights[light];
+  const Parts::Reference r = parts_->find(light);
   switch (r.kind) {
     case Kind::point:
       return delta_sample(parts_->points[r.index].arrival(p));
@@ -76,10 +84,11 @@ std::optional<LightSample> Lights::sample(LightId light, Vec3 p, Vec2 u, bool mi
     }
     case Kind::emitter: {
       const Emitter& emitter = parts_->emitters[r.index];
-      const auto s = emitter.sample(parts_->maps, r.primitive, p, u);
-      if (!s) return std::nullopt;
-      if (emitter.delta()) return LightSample{s->point.wi, s->point.distance, s->L * (1 / s->point.pdf), 1, true};
-      return LightSample{s->point.wi, s->point.distance, s->L, s->point.pdf, false};
+      return surface_sample(emitter.sample(parts_->maps, r.primitive, p, u), emitter.delta());
+    }
+    case Kind::instanced: {
+      const auto ref = parts_->instanced.find(light);
+      return surface_sample(parts_->instanced.sample(parts_->maps, ref, p, u), parts_->instanced.delta(ref));
     }
     case Kind::volume:
       break;
@@ -94,10 +103,16 @@ LightPlace place_of(const Bounds3& box) {
   return {box.min + half, length(half)};
 }
 
+LightPlace place_of(const InstancedEmitters& instanced, InstancedEmitters::Ref light) {
+  const LightPlace inner = place_of(instanced.inner_box(light));
+  const Similarity& to_world = instanced.to_world(light);
+  return {to_vec3(to_world.point(Vec3d(*inner.center))), static_cast<float>(inner.radius * to_world.scale())};
+}
+
 }  // namespace
 
 LightPlace Lights::place(LightId light) const {
-  const Parts::Reference r = parts_->lights[light];
+  const Parts::Reference r = parts_->find(light);
   switch (r.kind) {
     case Kind::point:
       return {parts_->points[r.index].position(), 0};
@@ -107,6 +122,8 @@ LightPlace Lights::place(LightId light) const {
       return place_of(parts_->emitters[r.index].box(r.primitive));
     case Kind::volume:
       return place_of(parts_->volumes[r.index].box);
+    case Kind::instanced:
+      return place_of(parts_->instanced, parts_->instanced.find(light));
     case Kind::distant:
     case Kind::environment:
       break;
@@ -115,13 +132,19 @@ LightPlace Lights::place(LightId light) const {
 }
 
 float Lights::pdf(LightId light, Vec3 p, const EmitterHit& hit) const {
-  const Parts::Reference r = parts_->lights[light];
+  const Parts::Reference r = parts_->find(light);
+  if (r.kind == Kind::instanced) {
+    const auto ref = parts_->instanced.find(light);
+    return parts_->instanced.delta(ref) ? 0 : parts_->instanced.pdf(ref, p, hit.p);
+  }
   if (r.kind != Kind::emitter || parts_->emitters[r.index].delta()) return 0;
   return parts_->emitters[r.index].pdf(r.primitive, p, hit.p);
 }
 
 Rgb Lights::emitted(LightId light, const EmitterHit& hit, Vec3 wo) const {
-  const Parts::Reference r = parts_->lights[light];
+  const Parts::Reference r = parts_->find(light);
+  if (r.kind == Kind::instanced)
+    return parts_->instanced.radiance(parts_->maps, parts_->instanced.find(light), hit.uv, hit.ng, wo);
   if (r.kind != Kind::emitter) return {};
   return parts_->emitters[r.index].radiance(parts_->maps, r.primitive, hit.uv, hit.ng, wo);
 }
@@ -136,7 +159,8 @@ std::size_t Lights::memory_bytes() const {
   const Parts& p = *parts_;
   std::size_t bytes = p.lights.capacity() * sizeof(Parts::Reference) + p.points.capacity() * sizeof(PointEmitter) +
                       p.spots.capacity() * sizeof(SpotEmitter) + p.distants.capacity() * sizeof(DistantEmitter) +
-                      p.volumes.capacity() * sizeof(VolumeEmitter);
+                      p.volumes.capacity() * sizeof(VolumeEmitter) + p.first_light.capacity() * sizeof(LightId) +
+                      p.instanced.memory_bytes();
   for (const SelectorStats& s : p.selector_stats) bytes += s.memory_bytes;
   for (const Environment& e : p.environments) bytes += e.memory_bytes();
   for (const Emitter& e : p.emitters) bytes += e.memory_bytes();

@@ -43,13 +43,14 @@ struct EmitterHit {
 struct EmitterShape {
   const Shape* shape;
   Transform to_world;
+  const Instance* instance = nullptr;  ///< whose shape it is; those of one instance follow each other
 };
 
 struct LightBuildOptions {
   std::vector<LightStrategy> strategies{LightStrategy::tree};  ///< a selector is built for each
   const Textures* textures = nullptr;  ///< read for the alpha of emissive shapes; null: opaque. Must outlive the lights
   int threads = 0;                     ///< to build with; 0: one a core
-  std::span<const VolumeEmitter> volumes{};  ///< pieces of glowing media; their ids come last
+  std::span<const VolumeEmitter> volumes{};  ///< pieces of glowing media; their ids are consecutive
 };
 
 /// Where a light is, roughly.
@@ -61,6 +62,7 @@ struct LightPlace {
 /// For the summary of a build.
 struct LightStats {
   std::size_t lights = 0, emitters = 0, infinite = 0;  ///< all; primitives of emissive shapes; environments
+  std::size_t shared = 0;                              ///< of the primitives, those that instances of an object share
   std::size_t dark = 0;                                ///< lights without power, which are never chosen
   double power = 0;  ///< W, mean of the channels, all lights
 };
@@ -104,7 +106,7 @@ class Lights {
 
   /// The light that is primitive 0 of the emitter shape (in the order given to build_lights); primitive i follows at +i.
   LightId first_light(std::size_t emitter_shape) const;
-  /// The light that is the first of LightBuildOptions::volumes, the others follow; size() without any.
+  /// The light that is the first of LightBuildOptions::volumes, the others follow.
   LightId first_volume() const;
   double power(LightId light) const;  ///< W, mean of the channels
   LightPlace place(LightId light) const;
@@ -115,7 +117,8 @@ class Lights {
   std::unique_ptr<const Parts> parts_;
 };
 
-/// `shapes` are the placed shapes that have `emission`, `scene_bounds` encloses everything that can be hit.
+/// `shapes` are the placed shapes that have `emission`, `scene_bounds` encloses everything that can be hit. Instances of
+/// one object share its lights' geometry and their part of the light tree, see instance_runs.h for which.
 /// Copies what it needs of the scene. Throws Error (scene) when an image cannot be read or used.
 Lights build_lights(const Scene& scene, std::span<const EmitterShape> shapes, const Bounds3& scene_bounds,
                     const LightBuildOptions& options = {});

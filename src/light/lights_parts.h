@@ -8,12 +8,13 @@
 #include "light/delta_lights.h"
 #include "light/emitter.h"
 #include "light/environment.h"
+#include "light/instanced_emitters.h"
 #include "light/lights.h"
 
 namespace tyndall {
 
 struct Lights::Parts {
-  enum class Kind : std::uint32_t { point, spot, distant, environment, emitter, volume };
+  enum class Kind : std::uint32_t { point, spot, distant, environment, emitter, volume, instanced };
   /// Where a light is to be found: eight bytes, since there may be millions.
   struct Reference {
     Kind kind : 3;
@@ -22,6 +23,10 @@ struct Lights::Parts {
   };
 
   double power(LightId light) const;  ///< W, mean of the channels; 0: it can never contribute
+  /// Lights of instances come last, and are found by who knows the instances.
+  Reference find(LightId light) const {
+    return light < lights.size() ? lights[light] : Reference{Kind::instanced, 0, 0};
+  }
 
   std::vector<Reference> lights;
   std::vector<PointEmitter> points;
@@ -32,6 +37,8 @@ struct Lights::Parts {
   std::vector<LightId> first_light;  ///< of each emitter shape
   std::vector<LightId> infinite;
   std::vector<VolumeEmitter> volumes;
+  InstancedEmitters instanced;
+  std::size_t instanced_lights = 0;
   EmissionMaps maps;
   double scene_radius = 1;
   std::vector<SelectorStats> selector_stats;

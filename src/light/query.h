@@ -9,7 +9,7 @@
 
 namespace tyndall {
 
-/// Scene::lights in order, then the primitives of every emissive shape.
+/// Scene::lights in order, then the primitives of emissive shapes, of glowing media, of emissive instances.
 using LightId = std::uint32_t;
 
 /// A lobe of microfacets about the surface's normal n: light from wi is scattered by facets whose normals are along

@@ -64,6 +64,7 @@ FireLights::FireLights(const std::vector<ParticipatingMedium>& media, const std:
     media_.push_back({i, next, std::move(bricks), reach});
     next += count;
   }
+  count_ = next;
   place_ = place_of(emitters());
 }
 

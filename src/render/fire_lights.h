@@ -33,7 +33,7 @@ class FireLights {
   std::vector<VolumeEmitter> emitters() const;  ///< in the order of their ids; bricks beyond their groups have no power
   void set_first(LightId first) { first_ = first; }  ///< what the first of emitters() became
 
-  bool holds(LightId light) const { return !media_.empty() && light >= first_; }
+  bool holds(LightId light) const { return light - first_ < count_; }
   /// Unit direction from `p` toward a point of the light.
   Vec3 sample(LightId light, Vec3 p, Vec2 u) const;
   FiresOnRay along(const Ray& ray) const;
@@ -53,7 +53,7 @@ class FireLights {
   const Glow& glow_of(LightId light) const;
 
   std::vector<Glow> media_;
-  LightId first_ = 0;
+  LightId first_ = 0, count_ = 0;
   LightPlace place_;
 };
 

@@ -63,7 +63,8 @@ Emitters find_emitters(const Scene& scene, const Geometry& geometry, BuildSummar
       ++without_surface;
       continue;
     }
-    emitters.shapes.push_back({placed.shape, placed.to_world});
+    const Instance* instance = placed.instance == kNone ? nullptr : &scene.instances[placed.instance];
+    emitters.shapes.push_back({placed.shape, placed.to_world, instance});
     emitters.placed.push_back(i);
   }
   if (without_surface > 0) {
