@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
+#include <xmmintrin.h>
 
+#include <atomic>
 #include <cmath>
 
 #include "unit/render/sphere_scene.h"
@@ -74,6 +76,24 @@ TEST_CASE("a pass can be given up") {
   CHECK_FALSE(job.advance(1, [&](double) { return ++calls < 2; }));
   CHECK(calls == 2);
   CHECK(job.samples() == 1);
+}
+
+TEST_CASE("denormals are flushed alike on every thread, and the caller's mode stays as it was") {
+  constexpr unsigned kFlushToZero = 0x8000, kDenormalsAreZero = 0x0040;
+  const World world = world_of();
+  RenderSettings s = settings_of(1);
+  s.threads = 2;
+  RenderJob job(world, s);
+  const unsigned before = _mm_getcsr();
+  std::atomic<int> calls{0}, flushed{0};
+  job.advance(4, [&](double) {
+    ++calls;
+    if ((_mm_getcsr() & kFlushToZero) && (_mm_getcsr() & kDenormalsAreZero)) ++flushed;
+    return true;
+  });
+  CHECK(calls > 0);
+  CHECK(flushed == calls);
+  CHECK((_mm_getcsr() & (kFlushToZero | kDenormalsAreZero)) == (before & (kFlushToZero | kDenormalsAreZero)));
 }
 
 TEST_CASE("the estimated error is what the variance channels say") {
