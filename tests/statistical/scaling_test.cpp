@@ -109,6 +109,8 @@ MakeNamedMedium "fog" "string type" "homogeneous" "rgb sigma_s" [~1 ~1.5 ~2] "rg
 MakeNamedMedium "grid" "string type" "uniformgrid" "integer nx" 3 "integer ny" 3 "integer nz" 3
   "point3 p0" [@-0.5 @-0.5 @-0.5] "point3 p1" [@0.5 @0.5 @0.5] "rgb sigma_s" [~4 ~4 ~5] "rgb sigma_a" [~1 ~1 ~1]
   "float density" [0 1 2 1 0.5 1 2 1 0 0 1 2 1 0.5 1 2 1 0 0 1 2 1 0.5 1 2 1 0]
+MakeNamedMedium "colours" "string type" "rgbgrid" "integer nx" 2 "integer ny" 1 "integer nz" 1 "float scale" ~2
+  "point3 p0" [@-2 @0 @-1] "point3 p1" [@-1 @1 @0] "rgb sigma_s" [1 2 1 2 1 1] "rgb sigma_a" [0.5 0 0.5 0 0.5 1]
 ObjectBegin "ball"
   MediumInterface "fog" ""
   Material "interface"
@@ -123,6 +125,12 @@ AttributeBegin
   MediumInterface "grid" ""
   Material "interface"
   Shape "sphere" "float radius" @0.875
+AttributeEnd
+AttributeBegin
+  MediumInterface "colours" ""
+  Material "interface"
+  Translate @-1.5 @0.5 @-0.5
+  Shape "sphere" "float radius" @0.5
 AttributeEnd
 )");
 }

@@ -7,6 +7,7 @@
 #include "light_cases.h"
 #include "math/warp.h"
 #include "support/chi_squared.h"
+#include "support/relative.h"
 #include "tyndall/error.h"
 
 namespace tyndall {
@@ -113,7 +114,7 @@ void check_map(int width, int height, const Transform& to_world, bool overcast) 
       counts[std::size_t(t)] += 1;
       if (i % 16 == 0 && weights[std::size_t(t)] > 0 && to_world.is_identity())
         CHECK(s->pdf ==
-              doctest::Approx(weights[std::size_t(t)] / total / texel_solid_angle(t / width, width, height)).epsilon(0.02));
+              test::relative(weights[std::size_t(t)] / total / texel_solid_angle(t / width, width, height)).epsilon(0.02));
     }
     double statistic = 0, rest = 0, rest_expected = 0;
     int bins = 0;

@@ -6,6 +6,7 @@
 
 #include "math/rng.h"
 #include "support/chi_squared.h"
+#include "support/relative.h"
 
 namespace tyndall {
 namespace {
@@ -48,7 +49,7 @@ TEST_CASE("an alias table draws indices with their stated probability") {
     std::vector<double> counts(n), pmf(n);
     for (std::uint32_t i = 0; i < n; ++i) {
       pmf[i] = table.pmf(i);
-      CHECK(pmf[i] == doctest::Approx(weights[i] / total));
+      CHECK(pmf[i] == test::relative(weights[i] / total));
     }
     Rng rng(7 + n);
     constexpr int kDraws = 400'000;
@@ -127,7 +128,7 @@ TEST_CASE("a two-dimensional density draws cells with their probability, and eva
     const float ux = rng.uniform(), uy = rng.uniform();
     const auto s = d.sample({ux, uy});
     REQUIRE(s.pdf == d.pdf(s.p));
-    REQUIRE(s.pdf == doctest::Approx(pmf[s.y * kWidth + s.x] * kWidth * kHeight).epsilon(1e-4));
+    REQUIRE(s.pdf == test::relative(pmf[s.y * kWidth + s.x] * kWidth * kHeight).epsilon(1e-4));
     counts[s.y * kWidth + s.x] += 1;
   }
   CHECK(p_value(counts, pmf, kDraws) > 1e-4);

@@ -8,6 +8,7 @@
 
 #include "math/rng.h"
 #include "support/chi_squared.h"
+#include "support/relative.h"
 
 using namespace tyndall;
 using namespace tyndall::test;
@@ -43,6 +44,14 @@ Case two_stretches(float scale) {
     part.box = {Vec3(-kInfinity), Vec3(kInfinity)};
     c.span.parts.push_back(part);
   }
+  return c;
+}
+
+Case one_stretch(float length) {
+  Case c = two_stretches(length / 3);
+  c.span.parts.erase(c.span.parts.begin() + 1);
+  c.span.parts[0].t0 = 0;
+  c.span.parts[0].t1 = c.span.t_end = length;
   return c;
 }
 
@@ -109,7 +118,7 @@ void check_sampler(const SpanProfile& profile, const DistanceSampler& sampler, f
     REQUIRE(std::isfinite(s.t));
     REQUIRE(s.t >= profile.begin());
     REQUIRE(s.t <= profile.end());
-    CHECK(sampler.pdf(s.t) == doctest::Approx(s.pdf).epsilon(1e-4));
+    CHECK(sampler.pdf(s.t) == test::relative(s.pdf).epsilon(1e-4));
     const auto next = std::upper_bound(bounds.begin(), bounds.end(), s.t);
     ++observed[std::min<std::size_t>(static_cast<std::size_t>(std::max<std::ptrdiff_t>(next - bounds.begin() - 1, 0)), observed.size() - 1)];
   }
@@ -193,11 +202,37 @@ TEST_CASE("distances stay sound at every scale") {
   }
 }
 
+TEST_CASE("the equi-angular density keeps its digits for short stretches far away and long ones close by") {
+  for (const float length : {1e-6f, 1e-3f, 1.0f, 1e3f, 1e6f}) {
+    const Case c = one_stretch(length);
+    const auto profile = SpanProfile::of(c.span);
+    REQUIRE(profile);
+    for (const float off : {1e-6f, 1e-3f, 1.0f, 1e3f, 1e6f}) {
+      for (const float along : {-3.0f, 0.0f, 0.4f, 7.0f}) {
+        const float closest = along * std::max(length, 0.1f * off);
+        if (off < 1e-4f * std::abs(closest)) continue;  // the light is then taken to be farther off
+        CAPTURE(length);
+        CAPTURE(off);
+        CAPTURE(closest);
+        const DistanceSampler sampler(*profile, c.span.ray, {Vec3(off, 0, closest), 0}, std::nullopt);
+        const long double D = off, a = -static_cast<long double>(closest), b = static_cast<long double>(length) - closest;
+        const long double angle = std::atan2(D * (b - a), D * D + a * b);
+        for (const float share : {0.01f, 0.5f, 0.99f}) {
+          const float t = share * length;
+          const long double from = static_cast<long double>(t) - closest;
+          const auto expected = static_cast<double>(D / (angle * (D * D + from * from)));
+          CHECK(sampler.pdf(t) / expected == doctest::Approx(1).epsilon(1e-4));
+        }
+      }
+    }
+  }
+}
+
 TEST_CASE("the profile of a homogeneous medium is exact at its edges") {
   const Case c = endless(0.7f);
   const auto profile = SpanProfile::of(c.span);
   REQUIRE(profile);
-  for (float t = 0; t < 20; t += 0.37f) CHECK(profile->transmittance(t) == doctest::Approx(std::exp(-0.77f * t)).epsilon(1e-4));
+  for (float t = 0; t < 20; t += 0.37f) CHECK(profile->transmittance(t) == test::relative(std::exp(-0.77f * t)).epsilon(1e-4));
   CHECK(profile->scattered() == doctest::Approx(0.7f / 0.77f).epsilon(1e-3));
 }
 
