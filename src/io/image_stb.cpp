@@ -120,7 +120,7 @@ Image from_floats(const float* samples, int width, int height) {
 }  // namespace
 
 ImageSize stb_size(std::string_view bytes, const std::string& path) {
-  const StbMemory memory;
+  StbMemory memory;  // not const: it is written through `current`
   Source source{bytes};
   ImageSize size;
   int count = 0;
@@ -131,7 +131,7 @@ ImageSize stb_size(std::string_view bytes, const std::string& path) {
 }
 
 Image decode_stb(std::string_view bytes, const Encoding& encoding, const std::string& path) {
-  const StbMemory memory;
+  StbMemory memory;  // not const: it is written through `current`
   Source source{bytes};
   const auto fail = [&](const std::string& reason) { throw Error(Failure::scene, path + ": cannot be read: " + reason); };
   auto [width, height] = stb_size(bytes, path);
