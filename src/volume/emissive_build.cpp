@@ -102,8 +102,9 @@ Box3d BrickFinder::where_it_glows() const {
   const EmissionField& e = data_.emission;
   Box3d box = data_.clip;
   if (e.scale) box = overlap(box, reach_of(*e.scale));
+  const float kelvin_around = -e.temperature_offset * e.temperature_scale;
   const bool dark_around = e.kind == EmissionField::Kind::rgb_grid ||
-                           (e.kind == EmissionField::Kind::blackbody && -e.temperature_offset * e.temperature_scale < BlackbodyTable::kMin);
+                           (e.kind == EmissionField::Kind::blackbody && kelvin_around < BlackbodyTable::kMin);
   if (e.values && dark_around) box = overlap(box, reach_of(*e.values));
   return box;
 }
@@ -160,7 +161,8 @@ void BrickFinder::fill(const Index3& corner, std::int64_t side) {
                      static_cast<int>(corner[2] / cells_) + i / (count * count)};
     Blocks blocks;
     for (int b = 0; b < static_cast<int>(kBlocks); ++b) {
-      const Index3 at{place[0] * cells_ + b % 4 * block, place[1] * cells_ + b / 4 % 4 * block, place[2] * cells_ + b / 16 * block};
+      const Index3 at{place[0] * cells_ + b % 4 * block, place[1] * cells_ + b / 4 % 4 * block,
+                      place[2] * cells_ + b / 16 * block};
       blocks[static_cast<std::size_t>(b)] = emission * volume(overlap(cube(at, block), all));
     }
     add(place, blocks);
