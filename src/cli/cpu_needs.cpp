@@ -3,7 +3,7 @@
 
 namespace tyndall::cli {
 
-extern constinit const CpuFeature kCpuNeeds[] = {
+constinit const CpuFeature kCpuNeeds[] = {
 #ifdef __AVX__
     {"AVX", x86_cpu_AVX},
 #endif
