@@ -35,6 +35,12 @@ constexpr std::array<Ray, 3> kRays{
 
 std::string looking_along(const Ray& ray) { return view({.eye = ray.o, .look = ray.at(1)}); }
 
+const std::string kGlow =
+    "AreaLightSource \"diffuse\" \"rgb L\" [1 1 1] \"bool twosided\" true\nMaterial \"diffuse\" \"rgb reflectance\" [0 0 0]\n";
+
+/// Walls of radiance 1, each triangle a light.
+std::string glowing_box() { return block(kGlow + box_mesh({{-4, -5, -6}, {7, 6, 5}})); }
+
 }  // namespace
 
 TEST_CASE("F1: scattering without absorption inside uniform radiance changes no pixel") {
@@ -62,12 +68,26 @@ TEST_CASE("F1: a homogeneous medium, backward scattering, a diffuse white plane 
   check_agrees("F1 with a white plane", scene, {1.0, 1.0, 1.0}, kFurnace);
 }
 
+// The weights of scattered rays that hit a light must know how seldom it is chosen among the others.
+TEST_CASE("F1: a white plane in a box of twelve lights, however a light is chosen") {
+  const std::string scene =
+      view({.eye = {0.1f, 0.2f, 2}, .look = {0.1f, 0.2f, 0}}) + glowing_box() + diffuse_plane(0.1f, 0.5f, 1);
+  using enum LightStrategy;
+  for (const LightStrategy lights : {tree, tree_binary, power, uniform, exhaustive}) {
+    Agreement how{.d = nightly() ? 0.002 : 0.006};
+    how.variant.lights = lights;
+    check_agrees("F1 in a box of lights, " + std::string(name_of(lights)), scene, {1.0, 1.0, 1.0}, how);
+    if (lights == exhaustive) continue;
+    how.variant.candidates = 4;
+    check_agrees("F1 in a box of lights, 4 candidates, " + std::string(name_of(lights)), scene, {1.0, 1.0, 1.0}, how);
+  }
+}
+
 // A uniform sky is found by scattered rays alone; walls that glow are sampled as lights as well, with shared weights.
 TEST_CASE("F1: inside a glowing box, and a glowing ball") {
   const std::string smoke = uniform_grid("m", {.sigma_s = {6, 4, 8}, .g = 0.5f}, lumpy_grid()) + medium_box("m", "", kBox);
-  const std::string glow = "AreaLightSource \"diffuse\" \"rgb L\" [1 1 1] \"bool twosided\" true\nMaterial \"diffuse\" \"rgb reflectance\" [0 0 0]\n";
-  const std::string ball = block(glow + "Shape \"sphere\" \"float radius\" 6\n");
-  const std::string walls = block(glow + box_mesh({{-4, -5, -6}, {7, 6, 5}}));
+  const std::string ball = block(kGlow + "Shape \"sphere\" \"float radius\" 6\n");
+  const std::string walls = glowing_box();
   const Agreement glowing{.d = nightly() ? 0.002 : 0.006};
   check_agrees("F1 in a glowing box", view(perspective()) + walls + smoke, {1.0, 1.0, 1.0}, glowing);
   check_agrees("F1 in a glowing ball", view(perspective()) + ball + smoke + diffuse_plane(0.1f, 0.5f, 1), {1.0, 1.0, 1.0}, glowing);

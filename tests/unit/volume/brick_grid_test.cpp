@@ -178,6 +178,27 @@ TEST_CASE("ranges of every node bound what interpolation gives") {
   }
 }
 
+TEST_CASE("the range of a brick, and of an octant, holds its least and its largest voxel wherever they lie") {
+  constexpr int kY = BrickStore::kVoxelSide, kZ = kY * kY;
+  std::vector<float> voxels(BrickStore::kVoxels, 2.0f);
+  for (const int cells : {BrickStore::kSide, BrickOctants::kCells}) {
+    int wrong = 0;
+    for (int z = 0; z <= cells; ++z)
+      for (int y = 0; y <= cells; ++y)
+        for (int x = 0; x <= cells; ++x) {
+          float& voxel = voxels[static_cast<std::size_t>(z * kZ + y * kY + x)];
+          voxel = 1;
+          const ValueRange low = range_of_cells(voxels.data(), cells);
+          voxel = 3;
+          const ValueRange high = range_of_cells(voxels.data(), cells);
+          voxel = 2;
+          wrong += low.min <= 1 && low.max >= 2 && high.min <= 2 && high.max >= 3 ? 0 : 1;
+          wrong += low.min > 0.999f && high.max < 3.001f ? 0 : 1;
+        }
+    CHECK(wrong == 0);
+  }
+}
+
 TEST_CASE("the mean of a node is the mean of its cells") {
   OracleSource ramp;
   for (std::int64_t x = 0; x < 16; x += 8)
