@@ -5,6 +5,7 @@
 #include <set>
 #include <utility>
 
+#include "light/instance_runs.h"
 #include "math/process_memory.h"
 #include "render/film_buffer.h"
 #include "tyndall/error.h"
@@ -18,6 +19,7 @@ constexpr std::size_t kTriangle = 130;          // positions, and the ray tracin
 constexpr std::size_t kBoundaryTriangle = 300;  // kept in a tree of its own as well
 constexpr std::size_t kInstance = 300;
 constexpr std::size_t kLight = 200;  // with its share of the light tree while it is built
+constexpr std::size_t kLightInstance = 1000;  // all lights of an instance that shares them
 constexpr std::size_t kTexel = 16, kTexelWhileRead = 20, kTexelOfSky = 60;
 constexpr std::size_t kDenseVoxel = 12;  // values, and the bricks made of them
 
@@ -63,14 +65,20 @@ std::size_t plan_film(const Scene& scene) {
   return sum.bytes();
 }
 
-std::size_t plan_lights(const Scene& scene) {
-  double count = static_cast<double>(scene.lights.size()) + emitters_of(scene.shapes);
+/// `shared`: instances that can share their lights do, as in shared_runs().
+std::size_t plan_lights(const Scene& scene, bool shared) {
+  Sum sum;
+  sum.add(static_cast<double>(scene.lights.size()) + emitters_of(scene.shapes), kLight);
   std::vector<double> of_object;
   for (const Object& object : scene.objects) of_object.push_back(emitters_of(object.shapes));
-  for (const Instance& instance : scene.instances)
-    if (instance.object < of_object.size()) count += of_object[instance.object];
-  Sum sum;
-  sum.add(count, kLight);
+  if (shared)
+    for (const double lights : of_object) sum.add(lights, kLight);
+  for (const Instance& instance : scene.instances) {
+    if (instance.object >= of_object.size()) continue;
+    const double lights = of_object[instance.object];
+    const bool shares = shared && lights >= kFewestShared && Similarity::of(instance.to_world);
+    sum.add(shares ? 1 : lights, shares ? kLightInstance : kLight);
+  }
   return sum.bytes();
 }
 
@@ -154,11 +162,12 @@ std::string MemoryPlan::str() const {
   return text;
 }
 
-MemoryPlan plan_memory(const Scene& scene) {
+MemoryPlan plan_memory(const Scene& scene, std::span<const LightStrategy> lights) {
+  const bool shared = std::all_of(lights.begin(), lights.end(), [](LightStrategy s) { return s == LightStrategy::tree; });
   return {process_memory().resident,
           {{"film", plan_film(scene)},
            {"geometry", plan_geometry(scene)},
-           {"lights", plan_lights(scene)},
+           {"lights", plan_lights(scene, shared)},
            {"textures", plan_pictures(scene)},
            {"volumes", plan_volumes(scene)}}};
 }

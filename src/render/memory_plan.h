@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,7 +20,8 @@ struct MemoryPlan {
   std::size_t total() const;
   std::string str() const;  ///< "film 0.5, geometry 2.1 GB"
 };
-MemoryPlan plan_memory(const Scene& scene);
+/// `lights`: the strategies that it is built for.
+MemoryPlan plan_memory(const Scene& scene, std::span<const LightStrategy> lights);
 
 /// Throws Error (scene) with the estimate when the plan exceeds `limit` bytes.
 void require_memory(const MemoryPlan& plan, const Scene& scene, std::size_t limit);

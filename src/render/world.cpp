@@ -116,7 +116,7 @@ World build(Scene scene, const BuildSettings& settings) {
   constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
   std::size_t volume_memory = kNoLimit;
   if (settings.max_memory != kNoLimit) {
-    const MemoryPlan plan = plan_memory(scene);
+    const MemoryPlan plan = plan_memory(scene, settings.lights);
     require_memory(plan, scene, settings.max_memory);
     volume_memory = left_for_volumes(plan, settings.max_memory);
   }

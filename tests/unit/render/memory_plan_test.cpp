@@ -3,12 +3,15 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 
 #include "support/scratch.h"
 #include "tyndall/io.h"
 
 namespace tyndall {
 namespace {
+
+constexpr std::array kTree{LightStrategy::tree};
 
 std::size_t part(const MemoryPlan& plan, const std::string& name) {
   const auto found = std::find_if(plan.parts.begin(), plan.parts.end(), [&](const auto& p) { return p.first == name; });
@@ -30,11 +33,11 @@ TEST_CASE("pictures that shine are planned wherever they hang, and once") {
   in_object.objects.push_back({.name = "sign", .shapes = {sign}});
   both.shapes = alone.shapes;
   both.objects = in_object.objects;
-  CHECK(part(plan_memory(bare), "textures") == 0);
-  const std::size_t bytes = part(plan_memory(alone), "textures");
+  CHECK(part(plan_memory(bare, kTree), "textures") == 0);
+  const std::size_t bytes = part(plan_memory(alone, kTree), "textures");
   CHECK(bytes >= 64 * 32 * 16);
-  CHECK(part(plan_memory(in_object), "textures") == bytes);
-  CHECK(part(plan_memory(both), "textures") == bytes);
+  CHECK(part(plan_memory(in_object, kTree), "textures") == bytes);
+  CHECK(part(plan_memory(both, kTree), "textures") == bytes);
 }
 
 }  // namespace
