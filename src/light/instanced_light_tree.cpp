@@ -89,7 +89,8 @@ double InstancedLightTree::world_importance(const Instance& i, const WideSegment
 }
 
 template <typename Query>
-std::optional<InstancedLightTree::Choice> InstancedLightTree::descend(NodeRef top, const Localized<Query>& query, double u) const {
+std::optional<InstancedLightTree::Choice> InstancedLightTree::descend(NodeRef top, const Localized<Query>& query,
+                                                                      double u) const {
   if (top_.empty()) return std::nullopt;
   if (is_leaf(top)) return Choice{light_at(place(top)), 1};
   if (u < kByNumber) return select_by_number(top, query, u / kByNumber);

@@ -70,7 +70,8 @@ class InstancedLightTree {
     return descend(top, query, u);
   }
   template <typename Query>
-  void select_below(std::span<const Draw> draws, const Localized<Query>& query, std::span<std::optional<Choice>> choices) const {
+  void select_below(std::span<const Draw> draws, const Localized<Query>& query,
+                    std::span<std::optional<Choice>> choices) const {
     for (std::size_t i = 0; i < draws.size(); ++i) choices[i] = descend(draws[i].top, query, draws[i].u);
   }
   template <typename Query>

@@ -91,14 +91,18 @@ float WideSelector<Tree>::tries(const LightCut& cut, const Query& query, LightId
 }
 
 template <typename Tree>
-LightCandidates WideSelector<Tree>::draw(const LightCut& cut, const PointQuery& query, double u) const { return draw_all(cut, query, u); }
+LightCandidates WideSelector<Tree>::draw(const LightCut& cut, const PointQuery& query, double u) const {
+  return draw_all(cut, query, u);
+}
 template <typename Tree>
 LightCandidates WideSelector<Tree>::draw(const LightCut& cut, const SegmentQuery& query, double u) const {
   return draw_all(cut, Segment(query), u);
 }
 
 template <typename Tree>
-float WideSelector<Tree>::expected(const LightCut& cut, const PointQuery& query, LightId light) const { return tries(cut, query, light); }
+float WideSelector<Tree>::expected(const LightCut& cut, const PointQuery& query, LightId light) const {
+  return tries(cut, query, light);
+}
 template <typename Tree>
 float WideSelector<Tree>::expected(const LightCut& cut, const SegmentQuery& query, LightId light) const {
   return tries(cut, Segment(query), light);

@@ -15,7 +15,9 @@ std::optional<double> similarity_scale(const Transform::Matrix& m) {
   return s;
 }
 
-Similarity::Map Similarity::map_of(const Transform::Matrix& m) { return {column(m, 0), column(m, 1), column(m, 2), column(m, 3)}; }
+Similarity::Map Similarity::map_of(const Transform::Matrix& m) {
+  return {column(m, 0), column(m, 1), column(m, 2), column(m, 3)};
+}
 
 std::optional<Similarity> Similarity::of(const Transform& map) {
   const auto scale = similarity_scale(map.matrix());

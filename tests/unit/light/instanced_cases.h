@@ -28,7 +28,8 @@ inline SelectionInput instanced_lights(std::size_t instances, std::uint64_t seed
     input.power.push_back(l.intensity);
   }
   if (sun) {
-    input.far.push_back({{{DirectionCone::around({0, 0, 1}), {0, 0, 1}, 3e3f, 3e3f}}, static_cast<LightId>(input.power.size())});
+    input.far.push_back(
+        {{{DirectionCone::around({0, 0, 1}), {0, 0, 1}, 3e3f, 3e3f}}, static_cast<LightId>(input.power.size())});
     input.power.push_back(10);
   }
   for (const std::size_t size : {40u, 150u}) {

@@ -66,7 +66,8 @@ struct Stage {
     object.shapes.back().reverse_orientation = true;
     for (Shape& s : object.shapes)
       if (with_power) s.emission->power = 5;
-    scene.textures = {{ConstantTexture{Rgb(0.2f)}, {}}, {ConstantTexture{Rgb(0.9f)}, {}}, {CheckerboardTexture{3, {}, 0, 1}, {}}};
+    scene.textures = {
+        {ConstantTexture{Rgb(0.2f)}, {}}, {ConstantTexture{Rgb(0.9f)}, {}}, {CheckerboardTexture{3, {}, 0, 1}, {}}};
     textures = build_textures(scene.textures);
     scene.shapes.push_back(emissive(Sphere{}, Rgb(1)));
     Rng rng(seed);
@@ -91,7 +92,8 @@ std::vector<std::pair<LightId, LightId>> same_lights(const Stage& stage, const L
   const auto placed = stage.placed(false);
   for (std::size_t i = 0; i < placed.size(); ++i) {
     LightId size = 1;
-    if (const auto* mesh = std::get_if<TriangleMesh>(&placed[i].shape->kind)) size = static_cast<LightId>(mesh->indices.size() / 3);
+    if (const auto* mesh = std::get_if<TriangleMesh>(&placed[i].shape->kind))
+      size = static_cast<LightId>(mesh->indices.size() / 3);
     for (LightId k = 0; k < size; ++k) pairs.emplace_back(a.first_light(i) + k, b.first_light(i) + k);
   }
   return pairs;
@@ -173,9 +175,7 @@ TEST_CASE("emitters of instances: a hit emits what a sample says, on the same si
   }
 }
 
-TEST_CASE("emitters of instances: lights that selection leaves out give nothing") {
-  const Stage stage(false, 4);
-  const Lights lights = stage.build(true);
+void check_left_out(const Lights& lights) {
   const LightSelector& tree = lights.selector(LightStrategy::tree);
   Rng rng(9);
   std::size_t left_out = 0;
@@ -184,7 +184,10 @@ TEST_CASE("emitters of instances: lights that selection leaves out give nothing"
     const auto near = lights.place(static_cast<LightId>(rng.next() % lights.size()));
     if (i % 2) q.p = *near.center + test::random_direction(rng) * (near.radius * 2 * rng.uniform());
     for (LightId light = 0; light < lights.size(); ++light) {
-      if (tree.pmf(q, light) > 0) continue;
+      if (tree.pmf(q, light) > 0) {
+        REQUIRE(lights.power(light) > 0);
+        continue;
+      }
       ++left_out;
       for (int k = 0; k < 4; ++k) {
         const float x = rng.uniform(), y = rng.uniform();
@@ -194,6 +197,12 @@ TEST_CASE("emitters of instances: lights that selection leaves out give nothing"
     }
   }
   CHECK(left_out > 10'000);
+}
+
+TEST_CASE("emitters of instances: lights that selection leaves out give nothing") {
+  Stage all(false, 4), sheets(false, 4);
+  sheets.scene.objects[0].shapes.resize(1);  // whose normals are all on one side
+  for (const Stage* stage : {&all, &sheets}) check_left_out(stage->build(true));
 }
 
 TEST_CASE("emitters of instances: lights that are left out for a segment give nothing to any point of it") {
@@ -233,6 +242,71 @@ TEST_CASE("emitters of instances: a surface does not light its own points, far f
       REQUIRE(!lights.sample(lights.first_light(1 + i) + k, p, {0.4f, 0.6f}, false));
     }
   }
+}
+
+/// Disks of radius r, two instances of them.
+Scene disks(float r, float spread, const Transform& to_world) {
+  Scene scene;
+  Object& object = scene.objects.emplace_back();
+  Rng rng(5);
+  for (int i = 0; i < 40; ++i) {
+    object.shapes.push_back(emissive(Disk{0, r, 0, 360}, Rgb(1)));
+    const Vec3 at = test::random_in_cube(rng, spread), axis = test::random_direction(rng);
+    object.shapes.back().to_world = Transform::translate(at.x, at.y, spread > 1 ? 0 : at.z);
+    if (spread <= 1)
+      object.shapes.back().to_world = object.shapes.back().to_world * Transform::rotate(77, axis.x, axis.y, axis.z);
+  }
+  for (const double turn : {20.0, 130.0}) scene.instances.push_back({0, to_world * Transform::rotate(turn, 0, 0, 1)});
+  return scene;
+}
+
+Lights lights_of(const Scene& scene) {
+  std::vector<EmitterShape> placed;
+  for (const Instance& i : scene.instances)
+    for (const Shape& s : scene.objects[i.object].shapes) placed.push_back({&s, i.to_world * s.to_world, &i});
+  return build_lights(scene, placed, {{-1, -1, -1}, {1, 1, 1}}, {});
+}
+
+TEST_CASE("emitters of instances: nothing is left out by rounding, at points that nearly touch tiny lights") {
+  const Lights lights = lights_of(disks(1e-8f, 1, Transform::rotate(33, 1, 2, 3)));
+  REQUIRE(lights.stats().shared == 80);
+  const LightSelector& tree = lights.selector(LightStrategy::tree);
+  Rng rng(4);
+  int left_out = 0;
+  for (int i = 0; i < 40'000; ++i) {
+    const auto light = static_cast<LightId>(rng.next() % lights.size());
+    const Vec3 away = test::random_direction(rng), side = normalize(cross(away, test::random_direction(rng)));
+    PointQuery q{.p = *lights.place(light).center + away * 1e-5f,
+                 .n = normalize(side + away * (0.01f * (rng.uniform() - 0.5f)))};
+    if (tree.pmf(q, light) > 0) continue;
+    ++left_out;
+    const auto l = lights.sample(light, q.p, {0.5f, 0.5f}, false);
+    REQUIRE((!l || dot(q.n, l->wi) <= 0));
+  }
+  CHECK(left_out > 1000);
+}
+
+TEST_CASE("emitters of instances: nothing is left out by rounding, for segments far from the origin") {
+  const Lights lights =
+      lights_of(disks(1e-3f, 10, Transform::translate(5000, 3000, -2000) * Transform::scale(0.01, 0.01, 0.01)));
+  REQUIRE(lights.stats().shared == 80);
+  const LightSelector& tree = lights.selector(LightStrategy::tree);
+  Rng rng(4);
+  int left_out = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const auto light = static_cast<LightId>(rng.next() % lights.size());
+    const Vec3 d = normalize(Vec3{0, 1, 0.04f * (rng.uniform() - 0.5f)});
+    SegmentQuery q{.o = *lights.place(light).center - d * 0.01f, .d = d, .t0 = 0, .t1 = 0.02f};
+    q.o.x += 0.02f;
+    q.o.z += (i % 8 == 0 ? 0.05f : 0.001f) * (rng.uniform() - 0.5f);
+    if (tree.pmf(q, light) > 0) continue;
+    ++left_out;
+    for (int k = 0; k < 20; ++k) {
+      const Vec3 p = q.o + q.d * (q.t0 + (q.t1 - q.t0) * rng.uniform());
+      REQUIRE(!lights.sample(light, p, {0.5f, 0.5f}, false));
+    }
+  }
+  CHECK(left_out > 200);
 }
 
 TEST_CASE("instances share where they can, and are lights like others where they cannot") {

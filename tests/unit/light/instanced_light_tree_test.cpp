@@ -125,6 +125,21 @@ TEST_CASE("instances: what select() returns is what pmf() says") {
   CHECK(selected > 40'000);
 }
 
+TEST_CASE("instances: by number every light that can contribute is chosen, once") {
+  const SelectionInput input = test::instanced_lights(6, 15);
+  const Case c(input);
+  for (const PointQuery& q : test::instanced_queries(input, 20, 5)) {
+    const std::uint32_t n = c.tree.count_of(c.tree.root());
+    std::vector<int> times(c.leaf.size());
+    for (std::uint32_t i = 0; i < n; ++i)
+      if (const auto s = c.tree.select(q, (i + 0.5) / n * 0x1p-20)) ++times[s->light];
+    for (LightId light = 0; light < times.size(); ++light) {
+      const NodeRef leaf = c.leaf[light];
+      REQUIRE(times[light] == (leaf != InstancedLightTree::kAll && c.tree.pmf(q, leaf) > 0));
+    }
+  }
+}
+
 template <typename Query>
 void check_frequencies(const Case& c, const Query& q) {
   constexpr int kDraws = 40'000;
@@ -187,12 +202,17 @@ TEST_CASE("instances: importance is comparable with that of the same lights alon
       if (x > 2000 && y > 2000) worst = std::max(worst, std::abs(std::log(x / y)));
     }
   };
-  for (const PointQuery& q : test::instanced_queries(input, 40, 3))
-    if (std::max({std::abs(q.p.x), std::abs(q.p.y), std::abs(q.p.z)}) > 20) compare(q);
+  Rng rng(3);
+  for (PointQuery q : test::instanced_queries(input, 60, 3)) {
+    q.p = test::random_direction(rng) * 40.0f;
+    if (q.g > 0) q.forward = normalize(test::random_direction(rng) - q.p * 0.05f);
+    compare(q);
+  }
   for (SegmentQuery q : test::segments_for(test::world_bounds(input), 60, 3)) {
     q.o = normalize(q.o) * 60.0f;
-    q.t1 = q.t0 + 1;
-    q.importance = MediaStrategy::integral;
+    q.t0 = 0;
+    q.t1 = 5;
+    q.profile = test::homogeneous_profile(q.t0, q.t1, 0.1f, 60, 0.3f);
     compare(q);
   }
   CHECK(worst < 0.2);  // factors of scale would be two orders larger
@@ -224,6 +244,31 @@ TEST_CASE("instances: from afar each gets the share that its lights get alone") 
   }
   CHECK(worst < 0.4);
   CHECK(worst > 0);
+}
+
+TEST_CASE("instances: they are reckoned with where most of their power is") {
+  SelectionInput input;
+  SharedLights& object = input.objects.emplace_back();
+  for (LightBounds l : test::mixed_lights(64, 4)) {
+    l = test::point_bounds(l.box.min, object.near.empty() ? 1000.0f : 0.01f);
+    if (object.near.empty()) l.box.min = l.box.max = {0.9f, 0.9f, 0.9f};
+    object.near.push_back({l, static_cast<LightId>(object.power.size())});
+    object.power.push_back(l.intensity);
+  }
+  for (LightId i = 0; i < 2; ++i) {
+    const Transform map =
+        Transform::translate(i * 20.0, 0, 0) * Transform::rotate(200.0 * i, 1, 2, 3) * Transform::scale(2, 2, 2);
+    input.instances.push_back({0, 64 * i, *Similarity::of(map), 4});
+  }
+  const Case c(input);
+  Rng rng(3);
+  for (int k = 0; k < 40; ++k) {
+    const PointQuery q{.p = Vec3{20.0f * (k % 2), 0, 0} + test::random_direction(rng) * 6.0f, .n = {}};
+    const Vec3d lamp(0.9, 0.9, 0.9);
+    const double a = length(Vec3d(q.p) - input.instances[0].to_world.point(lamp)),
+                 b = length(Vec3d(q.p) - input.instances[1].to_world.point(lamp));
+    CHECK(c.tree.pmf(q, c.leaf[0]) == doctest::Approx(b * b / (a * a + b * b)).epsilon(0.05));
+  }
 }
 
 TEST_CASE("instances: cuts go into them, and every light is drawn as often as expected") {
@@ -281,7 +326,8 @@ TEST_CASE("instances: scaling the scene by powers of two changes no probability"
     const double s = std::ldexp(1.0, k);
     SelectionInput scaled = input;
     for (TreeLight& l : scaled.near) l.bounds.box = {l.bounds.box.min * float(s), l.bounds.box.max * float(s)};
-    for (LightInstance& i : scaled.instances) i.to_world = *Similarity::of(Transform::scale(s, s, s) * test::transform_of(i.to_world));
+    for (LightInstance& i : scaled.instances)
+      i.to_world = *Similarity::of(Transform::scale(s, s, s) * test::transform_of(i.to_world));
     const Case d(scaled);
     for (PointQuery q : test::instanced_queries(input, 20, 5)) {
       PointQuery large = q;
