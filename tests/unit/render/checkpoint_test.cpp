@@ -182,20 +182,5 @@ TEST_CASE("a scene that is estimated not to fit is refused before it is built") 
   CHECK_THROWS_WITH_AS(build(scene, {.max_memory = 1000}), doctest::Contains("--max-memory"), Error);
 }
 
-TEST_CASE("lights that instances share are estimated once, for who shares them") {
-  Scene scene = read_scene_text(kScene, "test.pbrt").scene;
-  TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {}, {}, {}};
-  for (int i = 0; i < 3000; ++i) mesh.indices.push_back(static_cast<std::uint32_t>(i % 3));
-  Shape lamp = scene.shapes.at(0);
-  lamp.kind = mesh;
-  lamp.emission = AreaLight{.L = Rgb(1), .path = {}, .power = {}};
-  const auto object = static_cast<ObjectId>(scene.objects.size());
-  scene.objects.push_back({"lamp", {lamp}});
-  for (int i = 0; i < 5000; ++i) scene.instances.push_back({object, Transform::translate(i, 0, 0)});
-  constexpr std::size_t kLimit = std::size_t{1} << 29;  // 5 million lights of 200 bytes do not fit
-  CHECK_NOTHROW(build(scene, {.max_memory = kLimit}));
-  CHECK_THROWS_WITH_AS(build(scene, {.lights = {LightStrategy::power}, .max_memory = kLimit}), doctest::Contains("lights"), Error);
-}
-
 }  // namespace
 }  // namespace tyndall

@@ -40,5 +40,21 @@ TEST_CASE("pictures that shine are planned wherever they hang, and once") {
   CHECK(part(plan_memory(both, kTree), "textures") == bytes);
 }
 
+TEST_CASE("lights that instances share are planned once, for who shares them") {
+  TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {}, {}, {}};
+  for (std::uint32_t i = 0; i < 3000; ++i) mesh.indices.push_back(i % 3);
+  Scene scene;
+  scene.objects.push_back({.name = "lamp", .shapes = {Shape{.kind = mesh, .emission = AreaLight{}}}});
+  const auto lights = [&](std::initializer_list<LightStrategy> strategies) {
+    return part(plan_memory(scene, std::vector<LightStrategy>(strategies)), "lights");
+  };
+  for (int i = 0; i < 1000; ++i) scene.instances.push_back({0, Transform::translate(i, 0, 0)});
+  CHECK(lights({LightStrategy::tree}) < 2'000'000);
+  CHECK(lights({LightStrategy::power}) > 150'000'000);
+  CHECK(lights({LightStrategy::tree, LightStrategy::power}) > 150'000'000);
+  for (int i = 0; i < 100; ++i) scene.instances.push_back({0, Transform::scale(1, 2, 1)});
+  CHECK(lights({LightStrategy::tree}) > 15'000'000);
+}
+
 }  // namespace
 }  // namespace tyndall
