@@ -13,7 +13,7 @@ namespace {
 constexpr Bounds3 kBox{{-1, -1, -1}, {1, 1, 1}};
 constexpr Coefficients kSmoke{.sigma_a = {0.2f, 0.1f, 0.4f}, .sigma_s = {1.5f, 1, 0.6f}, .g = 0.5f};
 
-View camera() { return {.eye = {1.6f, 1.2f, -3.2f}, .look = {0, -0.1f, 0}, .fov_degrees = 42, .resolution = 24, .max_depth = 12}; }
+View camera() { return {.eye = {1.6f, 1.2f, -3.2f}, .look = {0, -0.1f, 0}, .fov_degrees = 42, .resolution = 32, .max_depth = 12}; }
 
 std::string lights() { return point_light({1.5f, 2, -1.5f}, 6) + emitting_square({-1.2f, 0.8f, 1.4f}, 0.5f, 4) + environment(0.15f); }
 

@@ -27,7 +27,7 @@ Grid lumpy_grid() {
 }
 
 /// The box from a corner, so that the view holds empty rays, grazing ones and long ones.
-View perspective() { return {.eye = {2.2f, 1.8f, -2.6f}, .look = {0, 0, 0}, .fov_degrees = 35, .resolution = 16}; }
+View perspective() { return {.eye = {2.2f, 1.8f, -2.6f}, .look = {0, 0, 0}, .fov_degrees = 35, .resolution = 32}; }
 
 /// Three rays through the lumps.
 constexpr std::array<Ray, 3> kRays{

@@ -20,12 +20,15 @@ std::string look(int max_depth) {
   return view({.eye = {1.4f, 0.9f, -3.4f}, .look = {0, -0.1f, 0}, .fov_degrees = 38, .resolution = 32, .max_depth = max_depth});
 }
 
-/// Point and area lights in the box and around it, a sun and a sky.
+/// Point and area lights in the box and around it, a sun and a sky. A point light in a medium has no variance where it is
+/// sought from collisions, for these can be as near to it as you like: those within are dim, so that they do not rule the
+/// errors of the whole, and a share of the light all the same.
 std::string lights() {
   std::string text = environment(0.08f) + distant_light({1, -1, 2}, 0.2f);
   for (int i = 0; i < 12; ++i) {
-    const float a = 0.9f * i;
-    text += point_light({(0.4f + 0.1f * i) * std::cos(a), -0.9f + 0.15f * i, (0.4f + 0.1f * i) * std::sin(a)}, 0.03f * (1 + i % 4));
+    const float a = 0.9f * i, r = 0.4f + 0.1f * i, y = -0.9f + 0.15f * i;
+    const bool within = std::abs(r * std::cos(a)) < 1.1f && std::abs(r * std::sin(a)) < 1.1f && std::abs(y) < 1.1f;
+    text += point_light({r * std::cos(a), y, r * std::sin(a)}, (within ? 0.004f : 0.03f) * (1 + i % 4));
   }
   for (int i = 0; i < 4; ++i) text += emitting_square({-0.9f + 0.6f * i, 0.3f * i - 0.4f, 0.5f}, 0.06f, 3.0f + i);
   text += emitting_square({0, 1.4f, 1.6f}, 0.4f, 1.5f);
@@ -48,7 +51,8 @@ struct Factors {
                                          DistanceStrategy::profile};
   std::vector<float> splitting{0, 0.6f};
   std::vector<std::pair<std::optional<int>, int>> candidates{{std::nullopt, 1}, {1, 1}, {5, 2}, {0, 0}};  ///< and shadow rays
-  std::vector<LightStrategy> lights{LightStrategy::tree, LightStrategy::tree_binary, LightStrategy::power};
+  /// Not power: the dim lights in the smoke would be as rare as they are bright from nearby.
+  std::vector<LightStrategy> lights{LightStrategy::tree, LightStrategy::tree_binary, LightStrategy::uniform};
   std::vector<TransmittanceStrategy> transmittance{TransmittanceStrategy::residual, TransmittanceStrategy::ratio,
                                                    TransmittanceStrategy::delta};
 
@@ -70,7 +74,8 @@ struct Factors {
 
 bool allowed(const Combination& c) { return c[0] != 0 || c[1] == 0; }  // a collision's light has no distance of its own
 
-void check_media(const std::string& name, const std::string& scene) {
+/// `per_commit`: the precision that a commit can afford; nightly it is that of all tests.
+void check_media(const std::string& name, const std::string& scene, double per_commit) {
   const Factors factors;
   std::vector<std::pair<std::string, Variant>> variants;
   for (const Combination& c : nightly() ? all_combinations(factors.sizes(), allowed) : covering_combinations(factors.sizes(), allowed)) {
@@ -78,9 +83,8 @@ void check_media(const std::string& name, const std::string& scene) {
     for (const std::size_t i : c) title += std::to_string(i);
     variants.emplace_back(title, factors.variant(c));
   }
-  // At 1 % a scene takes minutes on two cores; nightly all are held at 0.3 % by all combinations.
   Agreement how;
-  if (!nightly()) how.d = 0.02;
+  if (!nightly()) how.d = per_commit;
   check_all_agree(name, scene, variants, how);
 }
 
@@ -101,26 +105,27 @@ TEST_CASE("covering combinations hold every allowed pair") {
 
 TEST_CASE("thin medium") {
   check_media("thin", look(2) + lights() + homogeneous("m", {.sigma_a = {0.02f, 0.05f, 0.1f}, .sigma_s = {0.3f, 0.2f, 0.1f}, .g = 0.2f}) +
-                          medium_box("m", "", kBox));
+                          medium_box("m", "", kBox),
+              0.01);
 }
 
 TEST_CASE("dense medium") {
-  if (!nightly()) return;
-  check_media("dense", look(3) + lights() + homogeneous("m", {.sigma_a = {0.5f, 0.2f, 1}, .sigma_s = {5, 6, 3}}) + medium_box("m", "", kBox));
+  check_media("dense", look(3) + lights() + homogeneous("m", {.sigma_a = {0.5f, 0.2f, 1}, .sigma_s = {5, 6, 3}}) + medium_box("m", "", kBox),
+              0.04);
 }
 
 TEST_CASE("forward scattering, g = 0.9") {
-  if (!nightly()) return;
   check_media("forward", look(3) + lights() + homogeneous("m", {.sigma_a = {0.1f, 0.1f, 0.2f}, .sigma_s = {1.2f, 1, 0.8f}, .g = 0.9f}) +
-                             medium_box("m", "", kBox));
+                             medium_box("m", "", kBox),
+              0.04);
 }
 
 TEST_CASE("a grid with holes and a homogeneous medium that overlap, camera in unbounded fog") {
-  if (!nightly()) return;
   const View fog{.eye = {1.4f, 0.9f, -3.4f}, .look = {0, -0.1f, 0}, .fov_degrees = 38, .resolution = 32, .max_depth = 3,
                  .before_camera = homogeneous("fog", {.sigma_a = Rgb(0.02f), .sigma_s = Rgb(0.08f)}), .medium = "fog"};
   check_media("overlapping", view(fog) + lights() + diffuse_plane(1.8f, 3, 0.5f) +
                                  uniform_grid("smoke", {.sigma_a = {0.3f, 0.2f, 0.2f}, .sigma_s = {2, 3, 2.5f}, .g = 0.5f}, holes()) +
                                  homogeneous("haze", {.sigma_a = Rgb(0.1f), .sigma_s = {0.5f, 0.4f, 0.3f}, .g = -0.3f}) +
-                                 medium_box("smoke", "", kBox) + medium_box("haze", "", {{-0.5f, -1.2f, -0.6f}, {1.3f, 0.4f, 0.7f}}));
+                                 medium_box("smoke", "", kBox) + medium_box("haze", "", {{-0.5f, -1.2f, -0.6f}, {1.3f, 0.4f, 0.7f}}),
+              0.08);
 }

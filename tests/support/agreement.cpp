@@ -70,6 +70,8 @@ Measured measure_share(const std::string& name, const Contender& c, double share
   };
   Measured measured = measure(subject, {.excess = too_much, .seconds = budget(how), .stream = stream_of(name + c.name)});
   check_faults(name + ", " + c.name, subject);
+  std::printf("  %s, %s: %.3g spp, %.1f s\n", name.c_str(), c.name.c_str(), measured.spp, measured.seconds);
+  std::fflush(stdout);
   return measured;
 }
 
