@@ -69,6 +69,17 @@ struct Stripes {
   }
 };
 
+/// Estimates of the transmittance of so many walks, red.
+Moments marched(const Stripes& walk, int count, std::uint64_t seed, TrackingStats& stats) {
+  Moments moments;
+  Rng rng(seed);
+  for (int i = 0; i < count; ++i) {
+    Stripes one = walk;
+    moments.add(kernel::ray_marching(one, rng, stats).r);
+  }
+  return moments;
+}
+
 const Ray kDiagonal{{-1.3f, -0.9f, -1.1f}, normalize({1.1f, 0.8f, 0.9f})};
 
 }  // namespace
@@ -124,13 +135,8 @@ TEST_CASE("a constant grid is as exact as a homogeneous medium under residual tr
 
 TEST_CASE("ray marching corrects what its optical depths scatter by, however much") {
   for (const double length : {0.25, 1.0, 2.0}) {
-    Moments moments;
-    Rng rng(3);
     TrackingStats stats;
-    for (int i = 0; i < 1'000'000; ++i) {
-      Stripes walk{length};
-      moments.add(kernel::ray_marching(walk, rng, stats).r);
-    }
+    const Moments moments = marched({length}, 1'000'000, 3, stats);
     const double worst = moments.deviation(std::exp(-length));
     CHECK_MESSAGE(worst < 4, length << ": " << worst << " standard errors");
     CHECK(moments.standard_error() < 0.01 * std::exp(-length));
@@ -142,13 +148,8 @@ TEST_CASE("ray marching of one piece stops where nothing is left, at any depth a
   for (const double length : {0.0, 0.1, 1.0, 4.0, 10.0, 100.0, 1e4, 1e6})
     for (const float subtracted : {0.0f, 1.0f, 3.0f}) {
       constexpr int kCount = 100'000;
-      Moments moments;
-      Rng rng(5);
       TrackingStats stats;
-      for (int i = 0; i < kCount; ++i) {
-        Stripes walk{length, 0.25, subtracted};
-        moments.add(kernel::ray_marching(walk, rng, stats).r);
-      }
+      const Moments moments = marched({length, 0.25, subtracted}, kCount, 5, stats);
       const double T = std::exp(-length), worst = moments.deviation(T, 0.3 / kCount);
       CHECK_MESSAGE(worst < 4, length << ", subtracted " << subtracted << ": " << worst << " standard errors");
       // 37 teeth reach a depth of 4.6 on the average, 16 more lose all but exp(-2), and a comb in eight corrects.
@@ -159,13 +160,8 @@ TEST_CASE("ray marching of one piece stops where nothing is left, at any depth a
 
 TEST_CASE("ray marching does not give up light for a control that turns out to be too much") {
   for (const double length : {10.0, 100.0, 1000.0}) {
-    Moments moments;
-    Rng rng(6);
     TrackingStats stats;
-    for (int i = 0; i < 20'000; ++i) {
-      Stripes walk{length, 0, 4};
-      moments.add(kernel::ray_marching(walk, rng, stats).r);
-    }
+    const Moments moments = marched({length, 0, 4}, 20'000, 6, stats);
     CHECK(moments.deviation(1) < 4);
     CHECK(moments.standard_error() < 0.01);
   }

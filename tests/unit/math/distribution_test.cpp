@@ -11,27 +11,6 @@
 namespace tyndall {
 namespace {
 
-/// p-value of counts against probabilities; outcomes that expect fewer than 5 are pooled.
-double p_value(const std::vector<double>& counts, const std::vector<double>& probabilities, double samples) {
-  double statistic = 0, pooled_count = 0, pooled_expected = 0;
-  int bins = 0;
-  const auto add = [&](double count, double expected) {
-    statistic += (count - expected) * (count - expected) / expected;
-    ++bins;
-  };
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    const double expected = probabilities[i] * samples;
-    if (expected >= 5) {
-      add(counts[i], expected);
-    } else {
-      pooled_count += counts[i];
-      pooled_expected += expected;
-    }
-  }
-  if (pooled_expected >= 5) add(pooled_count, pooled_expected);
-  return test::chi_squared_tail(statistic, bins - 1);
-}
-
 std::vector<double> random_weights(std::size_t n, std::uint64_t seed) {
   Rng rng(seed);
   std::vector<double> weights(n);
@@ -59,7 +38,7 @@ TEST_CASE("an alias table draws indices with their stated probability") {
       REQUIRE(s.pmf == table.pmf(s.index));
       counts[s.index] += 1;
     }
-    if (n > 1) CHECK(p_value(counts, pmf, kDraws) > 1e-4);
+    if (n > 1) CHECK(test::count_p_value(counts, pmf, kDraws) > 1e-4);
   }
 }
 
@@ -131,7 +110,7 @@ TEST_CASE("a two-dimensional density draws cells with their probability, and eva
     REQUIRE(s.pdf == test::relative(pmf[s.y * kWidth + s.x] * kWidth * kHeight).epsilon(1e-4));
     counts[s.y * kWidth + s.x] += 1;
   }
-  CHECK(p_value(counts, pmf, kDraws) > 1e-4);
+  CHECK(test::count_p_value(counts, pmf, kDraws) > 1e-4);
 }
 
 }  // namespace
