@@ -66,7 +66,7 @@ void read_own_options(State& state, ParamList& params) {
     if (!(*splitting >= 0 && *splitting <= 1)) throw params.error("splitting", "splitting must be from 0 to 1");
     s.splitting = static_cast<float>(*splitting);
   }
-  s.shadow_rays = at_least(params, "shadow-rays", s.shadow_rays, 0);
+  if (params.find("shadow-rays", {ParamType::integer})) s.shadow_rays = at_least(params, "shadow-rays", 0, 0);
   for (const StrategyAxis& axis : strategy_axes()) read_strategy(params, axis, s);  // "lights" wins over "lightsampler"
   s.reproducible = params.boolean("reproducible", s.reproducible);
   if (params.find("aov", {ParamType::string})) s.aovs = params.strings("aov");

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <optional>
 
 #include "math/small_vector.h"
 
@@ -43,7 +42,7 @@ void for_each_candidate(const LightCut& cut, double u, const F& f) {
 
 /// What a cut may cost.
 struct CutSettings {
-  std::optional<int> candidates{};  ///< in all; 0: as many as splitting makes clusters; unset: by the query
+  int candidates = 1;   ///< in all; 0: as many as splitting makes clusters
   float splitting = 0;  ///< clusters with a lower score are split while candidates allow; 0: none, 1: down to single lights
 };
 

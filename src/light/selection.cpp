@@ -17,7 +17,7 @@ std::vector<double> equal_weights(std::vector<double> power) {
 
 LightCut all_as_one(const CutSettings& settings) {
   LightCut whole;
-  whole.push_back({0, static_cast<float>(std::max(settings.candidates.value_or(1), 1))});
+  whole.push_back({0, static_cast<float>(std::max(settings.candidates, 1))});
   return whole;
 }
 

@@ -44,7 +44,7 @@ class CutBuilder {
   CutBuilder(const Tree& tree, const Local& local, const CutSettings& settings)
       : tree_(tree),
         local_(local),
-        candidates_(settings.candidates.value_or(1)),
+        candidates_(settings.candidates),
         most_(candidates_ > 0 ? static_cast<std::size_t>(std::max(candidates_, kClusters)) : std::numeric_limits<std::size_t>::max()),
         split_above_(settings.splitting > 0 ? 1 / settings.splitting - 1 : kInfinity) {}
 
@@ -96,15 +96,13 @@ class CutBuilder {
     return rest;
   }
 
-  /// At least one candidate each if there are enough; the rest, or all, by importance.
+  /// By importance: a candidate for each cluster, were there enough, would take most of them from the few that matter.
   LightCut shared_out() const {
     LightCut result;
-    const auto size = static_cast<float>(cut_.size());
-    const float n = candidates_ > 0 ? static_cast<float>(candidates_) : size;
     float total = 0;
     for (const Open& c : cut_) total += c.importance;
-    const float least = n >= size ? 1.0f : 0.0f, rest = n - least * size;
-    for (const Open& c : cut_) result.push_back({c.ref, least + rest * (c.importance / total)});
+    const auto n = static_cast<float>(candidates_);
+    for (const Open& c : cut_) result.push_back({c.ref, candidates_ > 0 ? n * (c.importance / total) : 1.0f});
     return result;
   }
 

@@ -9,8 +9,8 @@ namespace tyndall {
 
 /// Clusters by their NodeRef. Clusters that cannot contribute are left out. Those with the largest predicted deviation
 /// are split first, as long as one has a score below `settings.splitting` and there is room: for as many clusters as
-/// candidates, and for 15 at least. Every cluster has a candidate if there are enough, and the rest goes by importance;
-/// else all do, as fractions that sum to `settings.candidates`.
+/// candidates, and for 15 at least. Candidates go by importance, as fractions that sum to `settings.candidates`; without a
+/// limit every cluster has one.
 /// `Tree` is WideLightTree or InstancedLightTree, `Query` PointQuery or Segment.
 template <typename Tree, typename Query>
 LightCut wide_cut(const Tree& tree, const Query& query, const CutSettings& settings);

@@ -11,10 +11,6 @@ namespace {
 // None of the tree's clusters; its own stay far below, but for the one of all lights.
 constexpr std::uint32_t kFarCluster = 0xfffffffd;  ///< all lights at infinity
 
-/// Bounds of clusters tell little of where a narrow lobe meets a light. Elsewhere one light is as good as several, and
-/// what is left of the variance is in what lies between.
-constexpr int kGlossyCandidates = 4;
-
 const LightCluster* find(const LightCut& cut, std::uint32_t ref) {
   const auto it = std::find_if(cut.begin(), cut.end(), [ref](const LightCluster& c) { return c.ref == ref; });
   return it == cut.end() ? nullptr : it;
@@ -39,11 +35,11 @@ LightCut WideSelector<Tree>::split(const Query& query, int candidates, float spl
 
 template <typename Tree>
 LightCut WideSelector<Tree>::cut(const PointQuery& query, const CutSettings& settings) const {
-  return split(query, settings.candidates.value_or(query.glossy() ? kGlossyCandidates : 1), settings.splitting);
+  return split(query, settings.candidates, settings.splitting);
 }
 template <typename Tree>
 LightCut WideSelector<Tree>::cut(const SegmentQuery& query, const CutSettings& settings) const {
-  return split(Segment(query), settings.candidates.value_or(1), settings.splitting);
+  return split(Segment(query), settings.candidates, settings.splitting);
 }
 
 template <typename Tree>

@@ -1,5 +1,6 @@
 #include "render/direct_light.h"
 
+#include "render/light_counts.h"
 #include "render/vertex_light.h"
 
 namespace tyndall {
@@ -32,10 +33,11 @@ Rgb visibility(const LightContext& context, const MediaState& media, Vec3 origin
 }
 
 LightSearch light_search(const LightContext& context, const Vertex& vertex) {
-  const RenderSettings& settings = context.settings;
-  LightSearch search{vertex.light_query(), {}};
+  LightSearch search{.query = vertex.light_query(), .cut = {}};
   if (context.world.lights.empty() || !vertex.has_smooth() || context.selector.exhaustive()) return search;
-  search.cut = context.selector.cut(search.query, {.candidates = settings.candidates, .splitting = settings.splitting});
+  const auto [candidates, shadow_rays] = counts_at_vertex(context, search.query);
+  search.cut = context.selector.cut(search.query, {.candidates = candidates, .splitting = context.settings.splitting});
+  search.shadow_rays = shadow_rays;
   return search;
 }
 

@@ -31,12 +31,13 @@ Rgb visibility(const LightContext& context, const MediaState& media, Vec3 origin
 struct LightSearch {
   PointQuery query;
   LightCut cut;
+  int shadow_rays = 0;  ///< to trace, 0: to all candidates
 };
 LightSearch light_search(const LightContext& context, const Vertex& vertex);
 
 /// Unbiased estimate of the light scattered at `vertex` toward the path, weighted by MIS against scattered rays that
-/// hit emitters. `settings.candidates` lights are chosen and looked at without visibility; of these
-/// `settings.shadow_rays` are traced, resampled by their contribution [Talbot et al. 2005] (0: all of them).
+/// hit emitters. Lights are chosen and looked at without visibility; of these some are traced, resampled by their
+/// contribution [Talbot et al. 2005]; light_counts.h says how many.
 /// Multiply by the throughput `beta`, which is passed for the densities only.
 Rgb direct_light(const LightContext& context, const Vertex& vertex, const LightSearch& search, Rgb beta);
 

@@ -28,7 +28,7 @@ float fire_density(const LightContext& context, const Search& search, const Fire
 /// the direction by all the lights; its radiance is a guess without media in between, for choosing.
 template <typename Search>
 std::optional<LightSample> sample_fire(const LightContext& context, const Search& search, LightCandidate tried, Vec3 p, Vec2 u) {
-  if (!seeks_fire(context) || !context.emission_counts) return std::nullopt;
+  if (!seeks_fire(context) || is_last_event(context)) return std::nullopt;
   const Vec3 wi = context.world.fire.sample(tried.light, p, u);
   const FiresOnRay fires = context.world.fire.along({p, wi});
   float glow = 0;

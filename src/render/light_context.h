@@ -13,7 +13,10 @@ struct LightContext {
   const RenderSettings& settings;
   Sampler& sampler;
   Counters& counters;
-  bool emission_counts = true;  ///< of media, on the ray after the event at hand: not after a path's last one
+  int event = 0;  ///< scattering events of the path before the one at hand
 };
+
+/// What the ray after it meets counts no more, but for lights.
+inline bool is_last_event(const LightContext& context) { return context.event + 1 >= context.settings.max_depth; }
 
 }  // namespace tyndall

@@ -51,7 +51,7 @@ PathRecord Path::run() {
 
 /// Next-event estimation, then the direction of the next ray. False ends the path.
 bool Path::scatter(const Vertex& vertex) {
-  context_.emission_counts = depth_ < limits_.max_depth;
+  context_.event = depth_ - 1;
   add(beta_ * light_at(vertex), depth_);
 
   const float uc = context_.sampler.next_1d();
@@ -127,10 +127,10 @@ std::optional<Vertex> Path::pass_media(const Trace& trace) {
 
 /// Next-event estimation for the whole span.
 void Path::gather(const Span& span) {
-  span_search_ = span_search(context_, span, depth_);
+  context_.event = depth_;
+  span_search_ = span_search(context_, span);
   if (!span_search_ || !pairs_along_spans(context_.settings)) return;
   if (depth_ == 0) first_event_in_medium_ = true;  // of this light's path
-  context_.emission_counts = depth_ + 1 < limits_.max_depth;
   add(beta_ * span_light(context_, span, *span_search_, beta_), depth_ + 1);
 }
 

@@ -53,7 +53,7 @@ void check(const RenderSettings& settings) {
     throw Error(Failure::usage, "media vertex chooses a light at a collision that has been tracked, so its distance is tracking; "
                                 "leave distance out, or choose media closest, integral or product");
   }
-  if (settings.shadow_rays < 0) throw Error(Failure::usage, "shadow rays is negative; give 0 or more");
+  if (settings.shadow_rays && *settings.shadow_rays < 0) throw Error(Failure::usage, "shadow rays is negative; give 0 or more");
   if (settings.max_depth < 0) throw Error(Failure::usage, "max depth is negative; give 0 or more");
   if (settings.error && !(*settings.error > 0)) throw Error(Failure::usage, "error must be positive; give a relMSE");
   if (settings.time && !(*settings.time > 0)) throw Error(Failure::usage, "time must be positive; give seconds");

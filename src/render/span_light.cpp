@@ -5,16 +5,13 @@
 
 #include "math/small_vector.h"
 #include "render/fire_light.h"
+#include "render/light_counts.h"
 #include "render/resampling.h"
 #include "volume/coarse.h"
 
 namespace tyndall {
 namespace {
 
-/// Spans that scatter less than this share of the light take one candidate.
-constexpr float kThin = 1e-3f;
-/// Camera spans are looked at by every sample of a pixel, and later ones are many: they take fewer candidates.
-constexpr int kCandidates = 8, kLaterCandidates = 4;
 /// Transmittances below this do not count as less in choices: the medium may be thinner than it looks.
 constexpr float kLeastTransmittance = 1e-3f;
 constexpr int kShadowReads = 4;
@@ -146,8 +143,7 @@ class TransmittanceWalk {
   float passed_ = 0;
 };
 
-Rgb evaluate(const LightContext& context, const Span& span, const Pairs& pairs, double u, Sampler& sampler) {
-  Survivors survivors = resample(pairs, context.selector.exhaustive() ? 0 : context.settings.shadow_rays, u);
+Rgb evaluate(const LightContext& context, const Span& span, const Pairs& pairs, Survivors survivors, Sampler& sampler) {
   std::sort(survivors.begin(), survivors.end(), [&](const Survivor& a, const Survivor& b) { return pairs[a.index].t < pairs[b.index].t; });
   TransmittanceWalk walk(context, span, sampler);
   Rgb sum;
@@ -186,12 +182,6 @@ float mean_cosine(const Span& span) {
   return weight > 0 ? sum / weight : 0.0f;
 }
 
-int candidates(const RenderSettings& settings, const SpanProfile& profile, int depth) {
-  if (settings.candidates) return *settings.candidates;
-  if (profile.scattered() < kThin) return 1;
-  return depth == 0 ? kCandidates : kLaterCandidates;
-}
-
 }  // namespace
 
 bool pairs_along_spans(const RenderSettings& settings) {
@@ -202,7 +192,7 @@ bool tracks(const RenderSettings& settings) {
   return settings.distance == DistanceStrategy::tracking || settings.distance == DistanceStrategy::both;
 }
 
-std::optional<SpanSearch> span_search(const LightContext& context, const Span& span, int depth) {
+std::optional<SpanSearch> span_search(const LightContext& context, const Span& span) {
   const RenderSettings& settings = context.settings;
   if (settings.media == MediaStrategy::vertex || context.world.lights.empty() || span.empty()) return std::nullopt;
   const auto profile = SpanProfile::of(span);
@@ -210,7 +200,9 @@ std::optional<SpanSearch> span_search(const LightContext& context, const Span& s
   SpanSearch search{.query = {}, .cut = {}, .profile = *profile, .g = mean_cosine(span)};
   search.query = query_of(settings, span, *profile, search.g);
   if (!context.selector.exhaustive()) {
-    search.cut = context.selector.cut(search.query, {.candidates = candidates(settings, *profile, depth), .splitting = settings.splitting});
+    const auto [candidates, shadow_rays] = counts_along_span(context, profile->scattered());
+    search.cut = context.selector.cut(search.query, {.candidates = candidates, .splitting = settings.splitting});
+    search.shadow_rays = shadow_rays;
   }
   return search;
 }
@@ -221,7 +213,7 @@ Rgb span_light(const LightContext& context, const Span& span, const SpanSearch& 
   const PairFinder finder(context, span, search, beta);
   const bool all = context.selector.exhaustive();
   const Pairs pairs = all ? all_lights(context, finder, sampler) : chosen_lights(context, search, finder, sampler);
-  return evaluate(context, span, pairs, u, sampler);
+  return evaluate(context, span, pairs, resample(pairs, search.shadow_rays, u), sampler);
 }
 
 float collision_density(const Span& span, const SpanSearch& search, float t) {

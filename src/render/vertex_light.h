@@ -10,7 +10,7 @@
 
 namespace tyndall {
 
-/// A vertex whose light is sought. `Search` has a query and the cut made for it; `Share` is a function of a LightSample and
+/// A vertex whose light is sought. `Search` has a query, the cut made for it and shadow_rays; `Share` is a function of a LightSample and
 /// the density of the candidates that found it: its weight in MIS.
 template <typename Search, typename Share>
 class VertexLight {
@@ -65,7 +65,7 @@ class VertexLight {
       if (const auto c = look_at(tried, sampler.next_2d())) candidates.push_back(*c);
     }
     Rgb sum;
-    for (const Survivor& s : resample(candidates, context_.settings.shadow_rays, u)) {
+    for (const Survivor& s : resample(candidates, search_.shadow_rays, u)) {
       sum += trace(candidates[s.index], sampler) * s.scale;
     }
     return sum;

@@ -17,7 +17,7 @@ struct Variant {
   TransmittanceStrategy transmittance = TransmittanceStrategy::residual;
   int threads = 0;
   std::optional<int> candidates{};
-  int shadow_rays = 1;
+  std::optional<int> shadow_rays{};
   float splitting = RenderSettings{}.splitting;
   MediaStrategy media = MediaStrategy::product;
   DistanceStrategy distance = DistanceStrategy::automatic;

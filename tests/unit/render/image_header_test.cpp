@@ -10,7 +10,9 @@ namespace {
 TEST_CASE("the text of the options is as typed, and tells the nearest of settings apart") {
   RenderSettings s;
   s.splitting = 0.7f;
-  CHECK(options_text(s).find(" --splitting 0.7 --shadow-rays 1") != std::string::npos);
+  CHECK(options_text(s).ends_with(" --splitting 0.7"));
+  s.shadow_rays = 1;
+  CHECK(options_text(s).ends_with(" --splitting 0.7 --shadow-rays 1"));
   for (const float splitting : {0.5f, 0.7f, 1e-3f, 0.1234567f}) {
     RenderSettings a, b;
     a.splitting = splitting;

@@ -1,0 +1,20 @@
+/// How many lights an event looks at, and to how many of them it traces a ray.
+#pragma once
+
+#include "light/query.h"
+#include "render/light_context.h"
+
+namespace tyndall {
+
+struct LightCounts {
+  int candidates;   ///< 0: as many as splitting makes clusters
+  int shadow_rays;  ///< 0: to all candidates
+};
+
+/// As the settings say; unset ones by what follows the event: a path that ends there shares its cost with nothing else, so
+/// it pays to look at more. Other numbers were tried on the examples (README, "Choosing lights").
+LightCounts counts_at_vertex(const LightContext& context, const PointQuery& query);
+/// `scattered`: the share of light that the span scatters, roughly.
+LightCounts counts_along_span(const LightContext& context, float scattered);
+
+}  // namespace tyndall

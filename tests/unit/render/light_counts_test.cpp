@@ -1,0 +1,88 @@
+#include "render/light_counts.h"
+
+#include <doctest/doctest.h>
+
+#include "light/query.h"
+#include "sphere_scene.h"
+
+namespace tyndall {
+namespace {
+
+/// Counts in a world with as many point lights, and a lamp with an area or none.
+class Counted {
+ public:
+  Counted(int points, bool lamp) : world_(test::world_of(scene(points, lamp), {})) {}
+
+  LightCounts vertex(const RenderSettings& settings, int event, bool glossy = false) {
+    PointQuery query{.p = {0, 0, 0}, .n = {0, 0, -1}};
+    query.lobe_count = glossy ? 1 : 0;
+    return counts_at_vertex(context(settings, event), query);
+  }
+  LightCounts span(const RenderSettings& settings, int event, float scattered) {
+    return counts_along_span(context(settings, event), scattered);
+  }
+
+ private:
+  static std::string scene(int points, bool lamp) {
+    std::string text = test::sphere_scene(4, 4);
+    for (int i = 1; i < points; ++i) text += "LightSource \"point\" \"point3 from\" [2 0 " + std::to_string(i) + "]\n";
+    if (lamp) text += "AreaLightSource \"diffuse\"\nShape \"sphere\" \"float radius\" 0.1\n";
+    return text;
+  }
+  LightContext context(const RenderSettings& settings, int event) {
+    return {world_.parts(), world_.parts().lights.selector(settings.lights), settings, sampler_, counters_, event};
+  }
+
+  World world_;
+  Sampler sampler_{{0, 0, 0, 0}};
+  Counters counters_;
+};
+
+void check(LightCounts counts, int candidates, int shadow_rays) {
+  CHECK(counts.candidates == candidates);
+  CHECK(counts.shadow_rays == shadow_rays);
+}
+
+TEST_CASE("events look at more lights where less follows them, and on glossy surfaces") {
+  Counted many(3, true);
+  RenderSettings deep, direct;
+  deep.max_depth = 5;
+  direct.max_depth = 1;
+  for (const int event : {0, 1, 4}) {
+    check(many.vertex(deep, event), 2, 2);
+    check(many.vertex(deep, event, true), 4, 2);
+  }
+  check(many.span(deep, 0, 0.5f), 8, 4);
+  check(many.span(deep, 1, 0.5f), 4, 2);
+  check(many.vertex(direct, 0), 8, 0);
+  check(many.vertex(direct, 0, true), 8, 0);
+  check(many.span(direct, 0, 0.5f), 16, 0);
+}
+
+TEST_CASE("stretches that scatter next to nothing look at one light") {
+  check(Counted(3, true).span({}, 0, 0.9e-3f), 1, 1);
+}
+
+TEST_CASE("from one point a light without extent is looked at once") {
+  RenderSettings direct;
+  direct.max_depth = 1;
+  check(Counted(1, false).vertex({}, 0), 1, 2);
+  check(Counted(5, false).vertex(direct, 0), 5, 0);
+  check(Counted(5, true).vertex(direct, 0), 8, 0);
+  check(Counted(1, false).span(direct, 0, 0.5f), 16, 0);  // from several points along the stretch
+}
+
+TEST_CASE("what is set holds everywhere") {
+  Counted many(3, false);
+  RenderSettings set;
+  set.candidates = 12;
+  set.shadow_rays = 0;
+  for (const int event : {0, 1}) {
+    check(many.vertex(set, event), 12, 0);
+    check(many.vertex(set, event, true), 12, 0);
+    for (const float scattered : {0.5f, 1e-5f}) check(many.span(set, event, scattered), 12, 0);
+  }
+}
+
+}  // namespace
+}  // namespace tyndall
