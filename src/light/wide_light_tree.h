@@ -128,8 +128,8 @@ class WideLightTree {
     double u, chance;
     std::uint32_t draw;  ///< which
   };
-  template <typename Query>
-  bool step(Descent& d, const Query& query) const;
+  struct Ends;
+  bool step(Descent& d, std::uint32_t index, const Ends& ends) const;
   Choice choice(const Descent& d) const;
   template <typename Query>
   void descend_all(std::span<const Draw> draws, const Query& query, std::span<std::optional<Choice>> choices) const;

@@ -5,8 +5,16 @@
 namespace tyndall {
 namespace {
 
+double total(const ChildImportance& children) {
+  double sum = 0;
+  for (const float x : children.of) sum += x;
+  return sum;
+}
+
+}  // namespace
+
 /// Ends of the children's parts of [0, sum], the first at [1].
-struct Ends {
+struct WideLightTree::Ends {
   std::array<double, WideNode::kWidth + 1> at{};
 
   explicit Ends(const ChildImportance& children) {
@@ -22,10 +30,6 @@ struct Ends {
   double sum() const { return at.back(); }
   double width(std::size_t child) const { return at[child + 1] - at[child]; }
 };
-
-double total(const ChildImportance& children) { return Ends(children).sum(); }
-
-}  // namespace
 
 double WideLightTree::to_unit(Vec3 p) const {
   if (to_unit_ > 0) return to_unit_;
@@ -60,11 +64,8 @@ WideSegment WideLightTree::localize(const Segment& query) const {
   return WideSegment::from_segment(query, to_unit(to_vec3({largest, 0, 0})), middle);
 }
 
-/// One decision. False: nothing here has importance.
-template <typename Query>
-bool WideLightTree::step(Descent& d, const Query& query) const {
-  const std::uint32_t index = node_of(d.ref);
-  const Ends ends(child_importance(nodes_[index], query));
+/// One decision among the children of node `index`. False: nothing here has importance.
+bool WideLightTree::step(Descent& d, std::uint32_t index, const Ends& ends) const {
   const double place = d.u * ends.sum();
   if (!(ends.sum() > 0)) return false;
   std::size_t child = 0;  // counted without branches: which it is cannot be guessed
@@ -89,7 +90,8 @@ std::optional<WideLightTree::Choice> WideLightTree::descend(NodeRef top, const Q
 template <typename Query>
 bool WideLightTree::run(Descent& d, const Query& query) const {
   do {
-    if (!step(d, query)) return false;
+    const std::uint32_t index = node_of(d.ref);
+    if (!step(d, index, Ends(child_importance(nodes_[index], query)))) return false;
   } while (!is_leaf(d.ref));
   return true;
 }
@@ -101,7 +103,8 @@ std::optional<WideLightTree::Reached> WideLightTree::decide_all(NodeRef top, con
   return Reached{d.ref, d.u, d.chance};
 }
 
-// In turns: while one waits for its next node, the others go on.
+// In turns: while one waits for its next node, the others go on. Neighbours are often at the same one, which is then looked
+// at once.
 template <typename Query>
 void WideLightTree::descend_all(std::span<const Draw> draws, const Query& query,
                                 std::span<std::optional<Choice>> choices) const {
@@ -114,10 +117,13 @@ void WideLightTree::descend_all(std::span<const Draw> draws, const Query& query,
       under_way.push_back({top, top, rest(u), 1, i});
     }
   }
+  std::uint32_t seen = kAll;  // no node
+  std::optional<Ends> ends;
   while (!under_way.empty()) {
     for (std::size_t i = under_way.size(); i-- > 0;) {
       Descent& d = under_way[i];
-      const bool alive = step(d, query);
+      if (const std::uint32_t index = node_of(d.ref); index != seen) ends.emplace(child_importance(nodes_[seen = index], query));
+      const bool alive = step(d, seen, *ends);
       if (alive && !is_leaf(d.ref)) continue;
       choices[d.draw] = alive ? std::optional(choice(d)) : std::nullopt;
       d = under_way.back();
