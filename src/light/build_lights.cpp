@@ -79,6 +79,7 @@ void Builder::add(const Light& light) {
     parts_->infinite.push_back(static_cast<LightId>(parts_->lights.size()));
     refer(Kind::environment, parts_->environments.size());
     parts_->environments.emplace_back(infinite, light.where);
+    if (parts_->environments.back().even()) ++parts_->even_skies;
   }
 }
 

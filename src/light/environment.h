@@ -34,6 +34,7 @@ class Environment {
   float pdf(Vec3 w, bool mis_partner) const;  ///< 1/sr
 
   Rgb mean_radiance() const { return mean_; }  ///< over all directions
+  bool even() const { return !has_excess_; }   ///< nothing exceeds the mean: sample() with an MIS partner gives nothing
   std::vector<FarCone> cones() const;          ///< one an octant
   std::size_t memory_bytes() const;
 

@@ -34,7 +34,7 @@ Rgb visibility(const LightContext& context, const MediaState& media, Vec3 origin
 
 LightSearch light_search(const LightContext& context, const Vertex& vertex) {
   LightSearch search{.query = vertex.light_query(), .cut = {}};
-  if (context.world.lights.empty() || !vertex.has_smooth() || context.selector.exhaustive()) return search;
+  if (!context.world.lights.sought() || !vertex.has_smooth() || context.selector.exhaustive()) return search;
   const auto [candidates, shadow_rays] = counts_at_vertex(context, search.query);
   search.cut = context.selector.cut(search.query, {.candidates = candidates, .splitting = context.settings.splitting});
   search.shadow_rays = shadow_rays;
@@ -43,7 +43,7 @@ LightSearch light_search(const LightContext& context, const Vertex& vertex) {
 
 Rgb direct_light(const LightContext& context, const Vertex& vertex, const LightSearch& search, Rgb beta) {
   Sampler sampler = context.sampler.fork();
-  if (context.world.lights.empty() || !vertex.has_smooth()) return {};
+  if (!context.world.lights.sought() || !vertex.has_smooth()) return {};
   // The density of the candidates stands for the technique: it is known for every direction, unlike the resampled one.
   const auto share = [&](const LightSample& light, LightId, float density) {
     return light.delta ? 1.0f : mis_weight(density, vertex.pdf(light.wi, beta));

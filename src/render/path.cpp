@@ -171,7 +171,7 @@ Vertex Path::surface_vertex(const SurfaceHit& hit) {
 
 /// MIS weight of a scattered ray that found light `id`, which next-event estimation samples with `light_pdf`.
 float Path::scattering_share(LightId id, float light_pdf) const {
-  if (!light_sampled_) return 1;
+  if (!light_sampled_ || light_pdf == 0) return 1;
   if (span_event_) {
     const SpanDensities others = span_densities(context_, *span_event_, id);
     return mis_weight(span_event_->density * pdf_, others.pair * light_pdf, others.tracked * light_pdf);

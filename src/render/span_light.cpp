@@ -194,7 +194,7 @@ bool tracks(const RenderSettings& settings) {
 
 std::optional<SpanSearch> span_search(const LightContext& context, const Span& span) {
   const RenderSettings& settings = context.settings;
-  if (settings.media == MediaStrategy::vertex || context.world.lights.empty() || span.empty()) return std::nullopt;
+  if (settings.media == MediaStrategy::vertex || !context.world.lights.sought() || span.empty()) return std::nullopt;
   const auto profile = SpanProfile::of(span);
   if (!profile) return std::nullopt;
   SpanSearch search{.query = {}, .cut = {}, .profile = *profile, .g = mean_cosine(span)};

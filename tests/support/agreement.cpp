@@ -107,7 +107,7 @@ MeanImage mean_of_others(const std::vector<MeanImage>& images, std::size_t one) 
 
 double required_precision() { return nightly() ? 0.003 : 0.01; }
 
-void check_agrees(const std::string& name, const std::string& scene, const Expected& expected, const Agreement& how) {
+Measured check_agrees(const std::string& name, const std::string& scene, const Expected& expected, const Agreement& how) {
   const double d = how.d.value_or(required_precision());
   Subject subject(scene, how.variant);
   const Measured m = measure(subject, {.excess = [&](const MeanImage& image) {
@@ -127,6 +127,7 @@ void check_agrees(const std::string& name, const std::string& scene, const Expec
     check_difference(name, k, *expected[k], welch_test(image_mean(m.image, k), exact), m, {d, how.rounding});
   }
   check_faults(name, subject);
+  return m;
 }
 
 void check_vanishes(const std::string& name, const std::string& scene, double bound, const Agreement& how) {

@@ -26,7 +26,8 @@ using Expected = std::array<std::optional<double>, 3>;
 inline Expected grey(double value) { return {value, std::nullopt, std::nullopt}; }
 
 /// The image mean of `scene` agrees with `expected` at d. CHECKs, and prints what was measured in a line a channel.
-void check_agrees(const std::string& name, const std::string& scene, const Expected& expected, const Agreement& how = {});
+/// Returns what was measured.
+Measured check_agrees(const std::string& name, const std::string& scene, const Expected& expected, const Agreement& how = {});
 
 /// The image mean of `scene`, expected to be 0, is at most `bound` plus 4 standard errors, themselves at most bound / 4.
 void check_vanishes(const std::string& name, const std::string& scene, double bound, const Agreement& how = {});

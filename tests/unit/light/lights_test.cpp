@@ -277,6 +277,24 @@ TEST_CASE("all kinds together: no light of probability 0 contributes, and none t
   CHECK(zero > 100'000);
 }
 
+TEST_CASE("even skies alone are not worth seeking: a scattered ray that finds them has all of their light") {
+  CHECK(!Lights().sought());
+  CHECK(lights_of({emissive(Disk{0, 2, 0, 360}, Rgb(3))}).sought());
+  CHECK(Zoo().build(LightStrategy::tree).sought());
+  const auto sky = [](const std::string& path) {
+    Scene scene;
+    scene.lights = {{InfiniteLight{}, {}}};
+    InfiniteLight light;
+    light.path = path;
+    scene.lights.push_back({light, {}});
+    return build_lights(scene, {}, {{-1, -1, -1}, {1, 1, 1}});
+  };
+  const test::ScratchMap even("even", 8, 8, [](int, int) { return Rgb(3); });
+  const test::ScratchMap spotted("spotted", 8, 8, [](int x, int y) { return Rgb(x == 3 && y == 4 ? 9 : 3); });
+  CHECK(!sky(even.path()).sought());
+  CHECK(sky(spotted.path()).sought());
+}
+
 TEST_CASE("all kinds together: every strategy gives the same irradiance") {
   const Zoo zoo;
   const Lights exhaustive = zoo.build(LightStrategy::exhaustive);
