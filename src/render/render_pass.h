@@ -12,22 +12,25 @@
 namespace tyndall {
 
 struct RenderPass {
-  static constexpr int kTile = 16;  ///< pixels a side: small enough to balance, large enough for coherent memory
+  /// Pixels a side of a tile: small enough to balance, also in small frames, large enough for coherent memory.
+  static constexpr int kTile = 16, kSmallTile = 8;
+  static constexpr int kSmallFrame = 128 * 128;
 
   /// `samples` for every pixel of `frame`; `pass_watch` must outlive the pass.
   RenderPass(const PixelBounds& frame, int samples, const RenderJob::PassWatch& pass_watch)
       : crop(frame),
-        across((frame.width() + kTile - 1) / kTile),
-        down((frame.height() + kTile - 1) / kTile),
+        side(frame.width() * frame.height() <= kSmallFrame ? kSmallTile : kTile),
+        across((frame.width() + side - 1) / side),
+        down((frame.height() + side - 1) / side),
         count(samples),
         watch(pass_watch),
         finished(tiles(), 0) {}
 
   std::size_t tiles() const { return static_cast<std::size_t>(across) * static_cast<std::size_t>(down); }
   PixelBounds tile(std::size_t i) const {
-    const int x0 = crop.x0 + static_cast<int>(i % static_cast<std::size_t>(across)) * kTile;
-    const int y0 = crop.y0 + static_cast<int>(i / static_cast<std::size_t>(across)) * kTile;
-    return {x0, y0, std::min(x0 + kTile, crop.x1), std::min(y0 + kTile, crop.y1)};
+    const int x0 = crop.x0 + static_cast<int>(i % static_cast<std::size_t>(across)) * side;
+    const int y0 = crop.y0 + static_cast<int>(i / static_cast<std::size_t>(across)) * side;
+    return {x0, y0, std::min(x0 + side, crop.x1), std::min(y0 + side, crop.y1)};
   }
   /// `pixels` more have all their samples of the pass.
   void tell(int pixels) {
@@ -39,7 +42,7 @@ struct RenderPass {
   }
 
   PixelBounds crop;
-  int across, down, count;
+  int side, across, down, count;
   const RenderJob::PassWatch& watch;
   std::mutex mutex;
   std::uint64_t pixels_done = 0;
