@@ -93,28 +93,51 @@ std::string Subject::faults() const {
          std::to_string(total_.parity_errors) + " parity errors in " + std::to_string(total_.rays) + " rays";
 }
 
+namespace {
+
+/// Of two independent measurements, in the proportion of their samples.
+Estimate joined(const Estimate& a, double part_of_a, const Estimate& b) {
+  const double u = part_of_a * part_of_a, v = (1 - part_of_a) * (1 - part_of_a);
+  Estimate e{part_of_a * a.mean + (1 - part_of_a) * b.mean, u * a.variance + v * b.variance, 0};
+  const double fourth = u * u * a.variance * a.variance / a.dof + v * v * b.variance * b.variance / b.dof;
+  e.dof = fourth > 0 ? e.variance * e.variance / fourth : a.dof + b.dof;  // Welch and Satterthwaite
+  return e;
+}
+
+MeanImage joined(const MeanImage& a, double part_of_a, MeanImage b) {
+  for (std::size_t k = 0; k < b.channels.size(); ++k) {
+    for (std::size_t i = 0; i < b.channels[k].size(); ++i) b.channels[k][i] = joined(a.channels[k][i], part_of_a, b.channels[k][i]);
+  }
+  return b;
+}
+
+}  // namespace
+
 Measured measure(Subject& subject, const Goal& goal) {
   const double start = seconds();
   std::uint64_t seed = base_seed() * 10'000'000'000 + std::uint64_t(goal.stream) * 10'000;
   int spp = goal.first_spp;
   MeanImageBuilder builder;
+  std::optional<MeanImage> first;  // what the first renders gave, once larger ones have taken over
+  const double first_samples = double(goal.first_spp) * kFewest;
   Measured measured;
   for (;;) {
     builder.add(subject.render(spp, seed++));
     measured.seconds = seconds() - start;
-    measured.spp = double(spp) * builder.count();
-    measured.renders = builder.count();
+    measured.spp = double(spp) * builder.count() + (first ? first_samples : 0);
+    measured.renders = builder.count() + (first ? kFewest : 0);
     const bool out_of_budget = measured.seconds > goal.seconds || measured.spp + spp > goal.max_spp;
     if (builder.count() < kFewest && !out_of_budget) continue;
 
-    measured.image = builder.result();
+    measured.image = first ? joined(*first, first_samples / measured.spp, builder.result()) : builder.result();
     const double excess = goal.excess(measured.image);
     measured.reached = excess <= 1;
     if (measured.reached || out_of_budget) return measured;
 
     const double needed = builder.count() * std::max(excess, 1.0) / kWanted;  // in units of spp
     const double room = goal.max_spp / double(spp) / kFewest;
-    if (builder.count() == kFewest && std::min(needed, room) >= 2) {
+    if (!first && builder.count() == kFewest && std::min(needed, room) >= 2) {
+      first = std::move(measured.image);
       // A power of two, a factor of 16 at most: the first guess of the excess is a guess.
       spp *= 1 << std::clamp(int(std::lround(std::log2(std::min(needed, room)))), 1, 4);
       builder = {};

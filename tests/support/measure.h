@@ -64,8 +64,8 @@ struct Measured {
   bool reached = false;  ///< the goal, before time and samples ran out
 };
 
-/// At least four renders. While the goal is many renders away, fewer and larger ones start afresh (Sobol points like
-/// company, and an error that rare events have not shown yet does not stop a measurement early).
+/// At least four renders. When these show the goal to be many renders away, four or more larger ones are added to them
+/// (Sobol points like company, and an error that rare events have not shown yet does not stop a measurement early).
 Measured measure(Subject& subject, const Goal& goal);
 
 /// A stream for each name.
