@@ -80,7 +80,7 @@ TEST_CASE("F1: a white plane in a box of twelve lights, however a light is chose
 
 // A uniform sky is found by scattered rays alone; walls that glow are sampled as lights as well, with shared weights.
 TEST_CASE("F1: inside a glowing box, and a glowing ball") {
-  const std::string smoke = uniform_grid("m", {.sigma_s = {6, 4, 8}, .g = 0.5f}, lumpy_grid()) + medium_box("m", "", kBox);
+  const std::string smoke = uniform_grid("m", {.sigma_s = {6, 5, 7}, .g = 0.5f}, lumpy_grid()) + medium_box("m", "", kBox);
   const std::string ball = block(kGlow + "Shape \"sphere\" \"float radius\" 6\n");
   const std::string walls = glowing_box();
   const Agreement glowing{.d = nightly() ? 0.002 : 0.006};
@@ -107,7 +107,7 @@ TEST_CASE("F2: an absorbing and emitting slab adds 1 - exp(-tau) and lets T thro
 }
 
 TEST_CASE("thermal equilibrium: as hot as its surroundings, a medium is invisible") {
-  const Coefficients warm{.sigma_a = {1, 2, 0.5f}, .sigma_s = {3, 2, 4}, .g = 0.9f, .Le = Rgb(1.0f)};
+  const Coefficients warm{.sigma_a = {1, 1.5f, 0.7f}, .sigma_s = {3, 2.5f, 3.5f}, .g = 0.9f, .Le = Rgb(1.0f)};
   check_agrees("equilibrium, lumpy grid",
                view(perspective()) + environment(1) + uniform_grid("m", warm, lumpy_grid()) + medium_box("m", "", kBox),
                {1.0, 1.0, 1.0}, kFurnace);
