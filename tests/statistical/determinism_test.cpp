@@ -95,7 +95,7 @@ TEST_CASE("the Variance AOV is the variance of a pixel's mean") {
     Subject subject(scene);
     MeanImageBuilder spread;
     Moments claimed;
-    constexpr int kRenders = 24, kSpp = 32;
+    constexpr int kRenders = 24, kSpp = 16;
     for (int i = 0; i < kRenders; ++i) {
       const Image image = subject.render(kSpp, 100 + i, {"Variance"});
       spread.add(image);
