@@ -43,7 +43,7 @@ std::string many_lights() {
   }
   for (int i = 0; i < 6; i += step) text += emitting_square({-1.5f + 0.6f * i, 1.3f, 1.2f}, 0.03f * (1 + i), 3.0f + i);
   text += "LightSource \"spot\" \"point3 from\" [0 2.5 -2] \"point3 to\" [0 0 0] \"float coneangle\" 25 \"rgb I\" [8 6 4]\n";
-  text += block("Translate 0.5 -0.9 0.9\nAreaLightSource \"diffuse\" \"rgb L\" [5 2 1]\nShape \"sphere\" \"float radius\" 0.1\n");
+  text += block("Translate 0.5 -0.9 0.9\nAreaLightSource \"diffuse\" \"rgb L\" [2.5 2 1.5]\nShape \"sphere\" \"float radius\" 0.1\n");
   return text + uniform_grid("m", kSmoke, wispy_grid()) + medium_box("m", "", kBox);
 }
 
