@@ -103,6 +103,63 @@ MeanImage mean_of_others(const std::vector<MeanImage>& images, std::size_t one) 
   return result;
 }
 
+/// a - b, pixel by pixel.
+Image difference(Image a, const Image& b) {
+  for (std::size_t k = 0; k < a.channels.size(); ++k) {
+    for (std::size_t i = 0; i < a.channels[k].values.size(); ++i) a.channels[k].values[i] -= b.channels[k].values[i];
+  }
+  return a;
+}
+
+MeanImage zero(MeanImage like) {
+  for (auto& channel : like.channels) {
+    for (Estimate& e : channel) e = {0, 0, 1};
+  }
+  return like;
+}
+
+/// Contenders rendered with the same seeds.
+class PairedRenders {
+ public:
+  static constexpr int kSpp = 32, kFewest = 8, kMost = 512;
+
+  explicit PairedRenders(const std::vector<Contender>& contenders) : images_(contenders.size()), differences_(contenders.size()) {
+    for (const Contender& c : contenders) subjects_.emplace_back(c.scene, c.variant);
+    for (std::size_t j = 0; j < contenders.size(); ++j) differences_[j].resize(j);
+  }
+
+  void add(std::uint64_t seed) {
+    std::vector<Image> images;
+    for (std::size_t j = 0; j < subjects_.size(); ++j) {
+      images.push_back(subjects_[j].render(kSpp, seed));
+      images_[j].add(images[j]);
+      for (std::size_t i = 0; i < j; ++i) differences_[j][i].add(difference(images[j], images[i]));
+    }
+  }
+  int count() const { return images_[0].count(); }
+  const Subject& subject(std::size_t i) const { return subjects_[i]; }
+  MeanImage image(std::size_t i) const { return images_[i].result(); }
+  MeanImage difference_of(std::size_t j, std::size_t i) const { return differences_[j][i].result(); }
+
+  bool known_to(double d) const {
+    for (std::size_t j = 1; j < subjects_.size(); ++j) {
+      const MeanImage reference = image(0);
+      for (std::size_t i = 0; i < j; ++i) {
+        const MeanImage pair = difference_of(j, i);
+        for (int k = 0; k < 3; ++k) {
+          if (excess(image_mean(pair, k), d / kResolution * image_mean(reference, k).mean) > 1) return false;
+        }
+      }
+    }
+    return true;
+  }
+
+ private:
+  std::vector<Subject> subjects_;
+  std::vector<MeanImageBuilder> images_;
+  std::vector<std::vector<MeanImageBuilder>> differences_;  ///< [j][i]: j - i
+};
+
 }  // namespace
 
 double required_precision() { return nightly() ? 0.003 : 0.01; }
@@ -159,6 +216,36 @@ void check_same(const std::string& name, const std::vector<Contender>& contender
         check_difference(title, k, b.mean, welch_test(a, b), measured[j], {1.05 * d, 0});  // both errors are estimates
       }
       const auto blocks = block_test(block_means(measured[j].image, 8), block_means(measured[i].image, 8));
+      const BlockDifference& w = worst(blocks);
+      CHECK_MESSAGE(w.welch.p >= sidak(1e-3, pairs * double(blocks.size())), title, ": block ", w.x, ",", w.y,
+                    " differs by ", w.welch.t, " standard errors");
+    }
+  }
+}
+
+void check_same_paired(const std::string& name, const std::vector<Contender>& contenders, const Agreement& how) {
+  const double d = how.d.value_or(required_precision());
+  PairedRenders renders(contenders);
+  std::uint64_t seed = base_seed() * 10'000'000'000 + std::uint64_t(stream_of(name)) * 10'000;
+  do {
+    renders.add(seed++);
+  } while (renders.count() < PairedRenders::kFewest ||
+           (renders.count() < PairedRenders::kMost * (nightly() ? 16 : 1) && !renders.known_to(d)));
+
+  const std::size_t n = contenders.size();
+  const auto pairs = static_cast<double>(n * (n - 1) / 2);
+  Measured effort;
+  effort.renders = renders.count();
+  effort.spp = double(renders.count()) * PairedRenders::kSpp;
+  for (std::size_t j = 0; j < n; ++j) {
+    check_faults(name + ", " + contenders[j].name, renders.subject(j));
+    for (std::size_t i = 0; i < j; ++i) {
+      const std::string title = name + ": " + contenders[j].name + " - " + contenders[i].name;
+      const MeanImage difference = renders.difference_of(j, i), none = zero(difference), reference = renders.image(i);
+      for (int k = 0; k < 3; ++k) {
+        check_difference(title, k, image_mean(reference, k).mean, mean_test(difference, none, k), effort, {1.05 * d, 0});
+      }
+      const auto blocks = block_test(block_means(difference, 8), block_means(none, 8));
       const BlockDifference& w = worst(blocks);
       CHECK_MESSAGE(w.welch.p >= sidak(1e-3, pairs * double(blocks.size())), title, ": block ", w.x, ",", w.y,
                     " differs by ", w.welch.t, " standard errors");
