@@ -35,7 +35,7 @@ ActiveMedia MediaState::active(const std::vector<BoundaryGroup>& groups,
 }
 
 Bounds3 MediaState::bounds(const std::vector<BoundaryGroup>& groups) const {
-  if (unbounded_) return {Vec3(-kInfinity), Vec3(kInfinity)};
+  if (unbounded_) return {{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
   Bounds3 box;
   for (const Membership& m : inside_) {
     if (groups[m.group].inside) box.expand(groups[m.group].bounds);

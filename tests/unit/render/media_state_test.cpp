@@ -97,3 +97,13 @@ TEST_CASE("leaving what was never entered is counted") {
   CHECK_FALSE(walk.next());
   CHECK(walk.parity_errors() == 1);
 }
+
+TEST_CASE("the box around media holds those that bring them, and everything in a medium without bounds") {
+  const std::vector<BoundaryGroup> groups{{0, {}, {{-1, -1, -1}, {1, 1, 1}}}, {1, {}, {{0, 0, 0}, {3, 2, 2}}}, {{}, 1, {{-9, -9, -9}, {9, 9, 9}}}};
+  MediaState state;
+  for (const std::uint32_t group : {0u, 1u, 2u}) state.cross(group, 1);
+  CHECK(state.bounds(groups).min == Vec3{-1, -1, -1});
+  CHECK(state.bounds(groups).max == Vec3{3, 2, 2});
+  state.set_unbounded(MediumId{2});
+  for (const Vec3 far : {Vec3{1e30f, 0, 0}, Vec3{0, -1e30f, 0}, Vec3{0, 0, 1e30f}}) CHECK(state.bounds(groups).contains(far));
+}

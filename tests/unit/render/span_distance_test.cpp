@@ -41,7 +41,7 @@ Case two_stretches(float scale) {
     part.t0 = (1 + 4 * static_cast<float>(i)) * scale;
     part.t1 = part.t0 + 3 * scale;
     part.media.push_back(&c.media[i]);
-    part.box = {Vec3(-kInfinity), Vec3(kInfinity)};
+    part.box = {{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
     c.span.parts.push_back(part);
   }
   return c;
@@ -64,7 +64,7 @@ Case endless(float sigma_s) {
   part.t0 = 0;
   part.t1 = kInfinity;
   part.media.push_back(&c.media[0]);
-  part.box = {Vec3(-kInfinity), Vec3(kInfinity)};
+  part.box = {{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
   c.span.parts.push_back(part);
   return c;
 }
