@@ -1,10 +1,10 @@
 #include "render/path.h"
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
 
 #include "math/hash.h"
+#include "render/collision_place.h"
 #include "render/fire_light.h"
 
 namespace tyndall {
@@ -16,15 +16,6 @@ float hash_to_unit(Vec3 p, Vec3 w) {
   const auto bits = [](float f) { return static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(f)); };
   const std::uint64_t h = hash(bits(p.x), bits(p.y), bits(p.z), bits(w.x), bits(w.y), bits(w.z));
   return static_cast<float>(h >> 40) * 0x1p-24f;
-}
-
-/// `t` a little away from the ends of its interval. Rounded, a position right at a boundary could lie across it, and
-/// the next ray would never pass it: 200 roundings are enough unless the ray all but grazes it.
-float away_from_ends(const Interval& interval, const Ray& ray, float t) {
-  const Vec3 reach = max(ray.o, -ray.o);
-  const float size = std::max({reach.x, reach.y, reach.z}) + t;
-  const float margin = std::min(0x1p-15f * size, 0.5f * (interval.t1 - interval.t0));
-  return std::min(std::max(t, interval.t0 + margin), interval.t1 - margin);
 }
 
 }  // namespace
@@ -122,7 +113,7 @@ std::optional<Vertex> Path::pass_media(const Trace& trace) {
     return std::nullopt;
   }
   gather(span);
-  return fly(span);
+  return fly(span, trace);
 }
 
 /// Next-event estimation for the whole span.
@@ -134,7 +125,7 @@ void Path::gather(const Span& span) {
   add(beta_ * span_light(context_, span, *span_search_, beta_), depth_ + 1);
 }
 
-std::optional<Vertex> Path::fly(const Span& span) {
+std::optional<Vertex> Path::fly(const Span& span, const Trace& trace) {
   Rng rng = context_.sampler.stream();
   float u = context_.sampler.next_1d();
   for (const SpanPart& part : span.parts) {
@@ -143,7 +134,7 @@ std::optional<Vertex> Path::fly(const Span& span) {
     beta_ *= flight.weight;
     if (is_black(beta_)) return std::nullopt;
     if (flight.collided) {
-      collision_t_ = away_from_ends(part, ray_, flight.t);
+      collision_t_ = collision_place(context_.world.geometry, ray_, part, trace.hit, flight.t);
       if (span_search_) collision_density_ = collision_density(span, *span_search_, collision_t_);
       if (depth_ == 0) record_collision(collision_t_);
       return Vertex(Vertex::InMedium{ray_.at(collision_t_), flight.phase}, -ray_.d, part.state);

@@ -25,7 +25,7 @@ class Path {
   std::optional<Vertex> next_vertex();
   std::optional<Vertex> pass_media(const Trace& trace);
   void gather(const Span& span);
-  std::optional<Vertex> fly(const Span& span);
+  std::optional<Vertex> fly(const Span& span, const Trace& trace);
   void dim(const Span& span);
   Rgb light_at(const Vertex& vertex);
   float scattering_share(LightId id, float light_pdf) const;
