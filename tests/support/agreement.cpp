@@ -46,11 +46,11 @@ void check_difference(const std::string& name, int channel, double value, const 
                       Tolerance tolerance) {
   print(name, kChannel[channel], value, w, m);
   CAPTURE(name);
-  CAPTURE(kChannel[channel]);
+  CAPTURE(std::string(kChannel[channel]));
   // A difference of the last bits of a float is none.
   const double exempt = std::max(tolerance.rounding, 1e-5 * std::abs(value));
   const bool within = std::abs(w.difference) <= kErrors * w.standard_error + exempt;
-  CHECK_MESSAGE(within, name, " ", kChannel[channel], ": ", value + w.difference, " instead of ", value, ", ", w.t,
+  CHECK_MESSAGE(within, name, " ", std::string(kChannel[channel]), ": ", value + w.difference, " instead of ", value, ", ", w.t,
                 " standard errors");
   CHECK_MESSAGE(w.standard_error <= tolerance.d / kResolution * std::abs(value), name, ": not precise enough after ", m.seconds,
                 " s and ", m.spp, " samples a pixel");
