@@ -1,6 +1,8 @@
 /// From the scene's description of a medium to one that can be tracked.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <utility>
 
 #include "math/hash.h"
@@ -21,6 +23,12 @@ struct BuildContext {
   std::string name() const { return "medium \"" + medium.name + "\""; }
   [[noreturn]] void fail(const std::string& what) const { throw Error(medium.where, name() + ": " + what); }
 };
+
+std::string shortest(float v) {
+  std::array<char, 32> text;
+  std::snprintf(text.data(), text.size(), "%g", double{v});
+  return text.data();
+}
 
 Box3d box_of(const Bounds3& b) { return {{{b.min.x, b.min.y, b.min.z}}, {{b.max.x, b.max.y, b.max.z}}}; }
 
@@ -253,6 +261,23 @@ void build(const VdbMedium& vdb, const BuildContext& context, MediumData& data) 
   if (burns && emission.kind != EmissionField::Kind::none) emission.scale = std::move(grids.flame);
 }
 
+/// Denormals are flushed to zero while rendering, and what lies near the largest float overflows: a medium that comes to
+/// something only as the product of two such numbers would vanish without a word.
+void require_range(const BuildContext& context, const MediumData& data) {
+  if (data.kind != MediumData::Kind::grid) return;
+  constexpr float kLeast = 0x1p-104f, kMost = 0x1p120f;
+  const auto fits = [](float v) { return v >= kLeast && v <= kMost; };
+  for (int channel = 0; channel < data.density.grid.channels(); ++channel) {
+    const float density = data.density.grid.range(channel).max;
+    for (const Rgb& sigma : {data.optics.sigma_a, data.optics.sigma_s}) {
+      const float most = max_component(sigma);
+      if (double{density} * most > 1e-9 && !(fits(density) && fits(most) && fits(density * most)))
+        context.fail("densities up to " + shortest(density) + " times a sigma of " + shortest(most) +
+                     " cannot be reckoned with; bring both nearer to 1");
+    }
+  }
+}
+
 }  // namespace
 
 ParticipatingMedium build_medium(const Medium& medium, const MediumBuildOptions& options, std::vector<std::string>& notes) {
@@ -260,6 +285,7 @@ ParticipatingMedium build_medium(const Medium& medium, const MediumBuildOptions&
   auto data = std::make_unique<MediumData>();
   data->optics = medium.optics;
   std::visit([&](const auto& kind) { build(kind, context, *data); }, medium.kind);
+  require_range(context, *data);
   // What cannot absorb cannot emit either.
   if (is_black(data->optics.sigma_a)) data->emission = {};
   if (data->emission.kind == EmissionField::Kind::blackbody) data->emission.table.emplace();

@@ -22,11 +22,11 @@ struct VdbGrid {
     float value;
   };
   std::string name = "density";
-  Transform index_to_world;
+  Transform index_to_world{};
   bool frustum = false;
   float background = 0;
-  std::vector<Box> boxes;
-  std::vector<Voxel> voxels;
+  std::vector<Box> boxes{};
+  std::vector<Voxel> voxels{};
 };
 
 /// vec3 grids hold (v, v/2, v/4).
