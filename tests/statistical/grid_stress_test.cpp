@@ -96,7 +96,7 @@ TEST_CASE("indices of hundreds of millions") {
 TEST_CASE("densities from subnormal to the largest: what counts is their product with sigma") {
   const Scratch folder;
   const std::string path = folder / "extreme.vdb";
-  for (const float density : {1e-30f, 1e30f, 1e34f}) {
+  for (const float density : {1e-30f, 1e30f}) {
     const auto sigma = float(1.5 / double{density});
     const std::string name = "density " + number(density);
     const Coefficients smoke{.sigma_a = Rgb(sigma)};
