@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <cmath>
 #include <filesystem>
 
 #include "cli/log.h"
@@ -11,14 +12,22 @@
 
 namespace tyndall::cli {
 
-bool CheckpointFile::resume(RenderJob& job, int most_samples) const {
+bool CheckpointFile::resume(RenderJob& job, const RenderSettings& limits) const {
   std::error_code code;
   if (!std::filesystem::exists(path_, code)) return false;
   job.restore(read_file(path_), path_);
-  if (job.samples() > most_samples) {
-    throw Error(Failure::scene, fmt::format("{}: holds {} samples a pixel, more than the {} asked for; give --spp {} or more, or remove "
-                                            "it, or leave out --resume, to begin anew",
-                                            path_, job.samples(), most_samples, job.samples()));
+  const auto refuse = [&](const std::string& holds, const std::string& give) {
+    throw Error(Failure::scene, fmt::format("{}: holds {}; give {}, or remove it, or leave out --resume, to begin anew", path_, holds, give));
+  };
+  if (job.samples() > limits.spp) {
+    refuse(fmt::format("{} samples a pixel, more than the {} asked for", job.samples(), limits.spp), fmt::format("--spp {} or more", job.samples()));
+  }
+  // The time counts from the beginning of the unbroken render. One that was cut off after its last pass holds a little more
+  // than it was given, and is complete; more than that is another wish than the checkpoint's.
+  const double a_sample = job.seconds() / job.samples();
+  if (limits.time && job.seconds() > *limits.time + 1 + 2 * a_sample) {
+    refuse(fmt::format("{:.1f} seconds of rendering, more than the {} asked for", job.seconds(), *limits.time),
+           fmt::format("--time {:.0f} or more", std::ceil(job.seconds())));
   }
   return true;
 }

@@ -14,8 +14,8 @@ class CheckpointFile {
 
   const std::string& path() const { return path_; }
   /// Takes up what the file holds; false when there is none. Throws Error (scene) when it is damaged or of another scene,
-  /// other options or another build, or holds more than `most_samples` a pixel.
-  bool resume(RenderJob& job, int most_samples) const;
+  /// other options or another build, or holds more samples or seconds than `limits` allow.
+  bool resume(RenderJob& job, const RenderSettings& limits) const;
   /// A failure is told on stderr, once for each reason, and costs no render.
   void save(const RenderJob& job);
   void remove() const;

@@ -44,8 +44,8 @@ struct Companions {
   CheckpointFile checkpoint;
   std::optional<ErrorLog> errors;
 
-  void resume(RenderJob& job, int most_samples, bool quiet) {
-    const bool found = checkpoint.resume(job, most_samples);
+  void resume(RenderJob& job, const RenderSettings& limits, bool quiet) {
+    const bool found = checkpoint.resume(job, limits);
     if (found && errors) errors->resume(job.samples());
     if (quiet) return;
     if (found) log("{}: going on from {} samples a pixel\n", checkpoint.path(), job.samples());
@@ -58,7 +58,7 @@ Rendering render_with(Companions& companions, const World& world, const RenderSe
   ProgressDisplay display(options.quiet ? "none" : options.progress);
   RenderControl control{.progress = [&](const Progress& p) { display.show(p); }, .stop = &stop_requested()};
   if (companions.errors) control.checkpoint = [&](const RenderJob& job) { companions.errors->add(job); };
-  if (options.resume) control.begin = [&](RenderJob& job) { companions.resume(job, settings.spp, options.quiet); };
+  if (options.resume) control.begin = [&](RenderJob& job) { companions.resume(job, settings, options.quiet); };
   if (options.keeps_checkpoints()) control.save = [&](const RenderJob& job) { companions.checkpoint.save(job); };
   control.save_seconds = options.checkpoint.value_or(std::numeric_limits<double>::infinity());  // --resume alone: at a stop
   Rendering rendering = render(world, settings, control);

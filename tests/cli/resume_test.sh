@@ -61,6 +61,16 @@ says "going on from $samples samples" err.txt
 expect 0 "$T" render s.pbrt --resolution 80x48 --reproducible --spp $((samples + 3)) --quiet -o c.exr
 cmp b.exr c.exr || fail "an interrupted and resumed picture is not the unbroken one"
 
+# Less time than the checkpoint has taken is refused, and the checkpoint kept; as much is complete.
+"$T" render s.pbrt --resolution 80x48 --reproducible --time 60 --quiet --checkpoint 60 -o t.exr 2>err.txt &
+sleep 3
+kill -INT $!
+wait $!
+cp t.exr.checkpoint t.kept
+expect 3 "$T" render s.pbrt --resolution 80x48 --reproducible --time 0.1 --quiet --resume -o t.exr
+says "seconds of rendering, more than the 0.1 asked for; give --time" err.txt
+cmp t.exr.checkpoint t.kept || fail "a refused checkpoint is gone or another one"
+
 # The error log goes on too: a line for each power of two, none from after the checkpoint.
 expect 0 "$T" render s.pbrt --resolution 80x48 --seed 77 --spp 4 --quiet -o reference.exr
 logged="--resolution 80x48 --reproducible --quiet --reference reference.exr --error-log log.jsonl -o e.exr"
