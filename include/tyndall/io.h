@@ -40,6 +40,9 @@ SceneCheck check_scene(const std::string& path);
 /// 8-bit values are made linear by `encoding` ("": sRGB for 8-bit colour). Throws Error (scene).
 Image read_image(const std::string& path, const std::string& encoding = "");
 
+/// The most threads that pack and unpack a large .exr, in the whole program; <= 0, as it starts: one a core, 8 at most.
+void limit_image_threads(int threads);
+
 /// What the header of an image file declares; no pixel is read. Throws Error (scene).
 struct ImageSize {
   int width = 0, height = 0;

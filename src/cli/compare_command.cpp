@@ -114,6 +114,7 @@ int run_compare(const CompareOptions& o, const std::string& command) {
   apply(o.methods, file.scene.settings);
   RenderSettings base = file.scene.settings;
   if (o.threads) base.threads = *o.threads;
+  limit_image_threads(base.threads);
   base.reproducible = true;
   base.aovs = {"Variance"};
   const ComparePlan plan = plan_of(o, base);

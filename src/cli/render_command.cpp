@@ -81,6 +81,7 @@ int run_render(const RenderOptions& options) {
   SceneFile file = read_scene(options.scene);
   apply(options, file.scene);
   const RenderSettings settings = file.scene.settings;
+  limit_image_threads(settings.threads);
   summary.output = output_path(options, file.scene);
   Companions companions{CheckpointFile(summary.output), {}};
   if (options.keeps_checkpoints()) companions.checkpoint.tidy();

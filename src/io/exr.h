@@ -17,7 +17,8 @@ struct ExrFile {
   std::string storage;                     ///< "scanlines" or "tiles"
 };
 
-/// Threads that the library may use to pack or unpack an image of this many values, made available to it.
+/// Threads that the library may use to pack or unpack an image of this many values, made available to it; 0: the caller's
+/// alone. limit_image_threads() in tyndall/io.h sets the most.
 int exr_threads(std::size_t values);
 
 /// True when the file begins as OpenEXR files do; false also when it cannot be opened.

@@ -13,6 +13,7 @@
 #include <OpenEXR/ImfThreading.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cstring>
 #include <filesystem>
 #include <thread>
@@ -200,15 +201,20 @@ auto guarded(const std::string& path, const Read& read) {
   }
 }
 
+constexpr int kUsefulThreads = 8;
+std::atomic<int> most_threads{kUsefulThreads};  ///< OpenEXR's pool is one for the whole program, and so is this
+
 }  // namespace
 
 int exr_threads(std::size_t values) {
   constexpr std::size_t kSmall = 1 << 21;
-  if (values < kSmall) return 0;
-  const int wanted = static_cast<int>(std::min(std::thread::hardware_concurrency(), 8u));
+  const int wanted = std::min(static_cast<int>(std::thread::hardware_concurrency()), most_threads.load());
+  if (values < kSmall || wanted <= 1) return 0;
   if (Imf::globalThreadCount() < wanted) Imf::setGlobalThreadCount(wanted);
   return wanted;
 }
+
+void limit_image_threads(int threads) { most_threads = threads > 0 ? std::min(threads, kUsefulThreads) : kUsefulThreads; }
 
 bool is_exr(const std::string& path) { return Imf::isOpenExrFile(path.c_str()); }
 

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <thread>
 #include <cstring>
 #include <limits>
 
@@ -102,6 +103,17 @@ TEST_CASE("the same image gives the same bytes, and a new one replaces the old")
   CHECK(bytes != read_bytes(folder / "a.exr"));
   CHECK(exr_holds(folder / "a.exr", image));
   CHECK_FALSE(exr_holds(folder / "b.exr", image));
+}
+
+TEST_CASE("large images are packed by no more threads than the limit, small ones by the caller's") {
+  const int cores = static_cast<int>(std::thread::hardware_concurrency());
+  limit_image_threads(1);
+  CHECK(exr_threads(100'000'000) == 0);
+  limit_image_threads(2);
+  CHECK(exr_threads(100'000'000) == (cores > 1 ? 2 : 0));
+  CHECK(exr_threads(1000) == 0);
+  limit_image_threads(0);
+  CHECK(exr_threads(100'000'000) == (cores > 1 ? std::min(cores, 8) : 0));
 }
 
 TEST_CASE("writing through a symbolic link keeps the link") {
