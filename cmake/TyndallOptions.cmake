@@ -30,6 +30,9 @@ if(TYNDALL_SANITIZE)
   target_compile_options(tyndall_options INTERFACE
     ${TYNDALL_SANITIZE_FLAG} -fno-sanitize-recover=all -fno-omit-frame-pointer)
   target_link_options(tyndall_options INTERFACE ${TYNDALL_SANITIZE_FLAG})
+  if(TYNDALL_SANITIZE MATCHES "thread")
+    target_compile_definitions(tyndall_options INTERFACE TYNDALL_STD_THREADS)  # math/std_thread_pool.h says why
+  endif()
 endif()
 if(TYNDALL_FUZZ)
   target_compile_options(tyndall_options INTERFACE -fsanitize=fuzzer-no-link)

@@ -1,6 +1,10 @@
 /// The one door to the thread library.
 #pragma once
 
+#ifdef TYNDALL_STD_THREADS
+#include "math/std_thread_pool.h"
+#else
+
 #include <cstddef>
 
 #include <optional>
@@ -12,6 +16,8 @@
 #include <tbb/task_arena.h>
 
 namespace tyndall {
+
+inline constexpr bool kThreadsAreWatched = false;  ///< by a sanitizer
 
 /// A pool of `threads` threads (<= 0: one a core) that runs work given to it.
 class ThreadPool {
@@ -39,3 +45,5 @@ class ThreadPool {
 };
 
 }  // namespace tyndall
+
+#endif

@@ -5,6 +5,7 @@
 #include <string>
 #include <thread>
 
+#include "math/parallel.h"
 #include "surface/geometry_impl.h"
 #include "texture/textures.h"
 
@@ -134,6 +135,7 @@ void GeometryImpl::bound_groups() {
 void GeometryImpl::create_device(int threads) {
   // The library's limit holds for all of TBB as long as the device lives: as many threads as cores or more must stay
   // the default, or a render could not use them.
+  if (kThreadsAreWatched) threads = 1;  // Embree builds with TBB, which a sanitizer cannot follow
   const bool fewer = threads > 0 && static_cast<unsigned>(threads) < std::thread::hardware_concurrency();
   const std::string count = fewer ? "threads=" + std::to_string(threads) + "," : "";
   device.reset(rtcNewDevice((count + "set_affinity=0").c_str()));
