@@ -19,7 +19,7 @@ struct RenderPass {
   /// `samples` for every pixel of `frame`; `pass_watch` must outlive the pass.
   RenderPass(const PixelBounds& frame, int samples, const RenderJob::PassWatch& pass_watch)
       : crop(frame),
-        side(frame.width() * frame.height() <= kSmallFrame ? kSmallTile : kTile),
+        side(std::int64_t{frame.width()} * frame.height() <= kSmallFrame ? kSmallTile : kTile),
         across((frame.width() + side - 1) / side),
         down((frame.height() + side - 1) / side),
         count(samples),
