@@ -1,0 +1,24 @@
+#!/usr/bin/env bash
+# The whole test suite of a commit under the address and undefined-behaviour sanitizers, division by zero and casts out of
+# range of floats included: no report, and every test passes.
+#   suite.bash [PROGRAM...]   only these of the programs in tests/, e.g. unit_volume threads
+#   TYNDALL_SOURCE_DIR        the checkout [this one]
+#   TYNDALL_JOBS              compilers at once [one a core]
+#   CXX                       as CMake takes it
+# The build stays in the current folder, so that the next run is short.
+set -uo pipefail
+source_dir=${TYNDALL_SOURCE_DIR:-$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)}
+unset TYNDALL_NIGHTLY  # a commit's precision: what is looked for here does not hide in the noise
+here=$PWD
+options=(--preset asan-ubsan -B "$here/build")
+command -v ccache >/dev/null && options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+export ASAN_OPTIONS="detect_stack_use_after_return=1 ${ASAN_OPTIONS-}" UBSAN_OPTIONS="print_stacktrace=1 ${UBSAN_OPTIONS-}"
+
+(cd "$source_dir" && cmake "${options[@]}") >configure.log 2>&1 || { cat configure.log; exit 1; }
+cmake --build build --target "${@:-all}" -j "${TYNDALL_JOBS:-$(nproc)}" >build.log 2>&1 || { tail -n 40 build.log; exit 1; }
+if [ $# -gt 0 ]; then
+  names=$(printf '|%s' "$@")
+  exec ctest --test-dir build --output-on-failure -LE nightly -R "^(${names:1})(\.|$)"
+fi
+# Left out: what builds Tyndall anew, or does not run it.
+exec ctest --test-dir build --output-on-failure -LE nightly -E '^(mutation|architecture|package)'
