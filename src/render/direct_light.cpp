@@ -13,16 +13,16 @@ constexpr float kShadowEnd = 1 - 1e-4f;
 
 Rgb visibility(const LightContext& context, const MediaState& media, Vec3 origin, Vec3 wi, float distance, Sampler& sampler) {
   const World::Parts& world = context.world;
-  const float t_end = distance * kShadowEnd;
   ++context.counters.shadow_rays;
   const Ray ray{origin, wi};
-  const auto crossings = world.geometry.trace_shadow(ray, 0, t_end);
+  const auto crossings = world.geometry.trace_shadow(ray, 0, distance * kShadowEnd);
   if (!crossings) return {};
   Rgb T{1.0f};
   if (!world.has_media()) return T;
 
   Rng rng = sampler.stream();
-  SpanWalk walk(world.media_context(), media, *crossings, t_end);
+  // Through media the whole way counts: at depth 4 the last 1e-4 of it is 4e-4 of the light.
+  SpanWalk walk(world.media_context(), media, *crossings, distance);
   while (const auto interval = walk.next()) {
     const MediaView view(interval->media.data(), interval->media.size());
     T *= transmittance(context.settings.transmittance, view, ray, interval->t0, interval->t1, rng, context.counters.tracking);
