@@ -93,6 +93,21 @@ TEST_CASE("a cut keeps to its candidates, and its clusters hold each light once"
   }
 }
 
+TEST_CASE("candidates go to clusters by importance, also where there are enough for each") {
+  SelectionInput input;
+  for (int i = 0; i < 8; ++i) {
+    const float a = static_cast<float>(i) * kPi / 4, intensity = i == 0 ? 100.0f : 1.0f;
+    input.near.push_back({test::point_bounds({10 * std::cos(a), 10 * std::sin(a), 0}, intensity), static_cast<LightId>(i)});
+    input.power.push_back(intensity);
+  }
+  const auto selector = make_selector(LightStrategy::tree, input);
+  const PointQuery middle{};
+  const LightCut cut = selector->cut(middle, {.candidates = 16, .splitting = 1});
+  REQUIRE(cut.size() == 8);
+  CHECK(selector->expected(cut, middle, 0) == doctest::Approx(16 * 100.0 / 107).epsilon(0.01));
+  CHECK(selector->expected(cut, middle, 1) == doctest::Approx(16 * 1.0 / 107).epsilon(0.05));
+}
+
 TEST_CASE("splitting 0 leaves all lights as one; 1 without a limit goes down to single lights") {
   const auto selector = make_selector(LightStrategy::tree, test::lights_of(200, false));
   for (const PointQuery& q : queries()) {
