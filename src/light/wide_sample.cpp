@@ -122,8 +122,10 @@ void WideLightTree::descend_all(std::span<const Draw> draws, const Query& query,
   while (!under_way.empty()) {
     for (std::size_t i = under_way.size(); i-- > 0;) {
       Descent& d = under_way[i];
-      if (const std::uint32_t index = node_of(d.ref); index != seen) ends.emplace(child_importance(nodes_[seen = index], query));
-      const bool alive = step(d, seen, *ends);
+      const std::uint32_t index = node_of(d.ref);
+      if (index != seen) ends.emplace(child_importance(nodes_[index], query));
+      seen = index;
+      const bool alive = step(d, index, *ends);
       if (alive && !is_leaf(d.ref)) continue;
       choices[d.draw] = alive ? std::optional(choice(d)) : std::nullopt;
       d = under_way.back();

@@ -12,7 +12,7 @@ struct LightCounts {
 };
 
 /// As the settings say; unset ones by what follows the event: a path that ends there shares its cost with nothing else, so
-/// it pays to look at more. Other numbers were tried on the examples (README, "Choosing lights").
+/// it pays to look at more.
 LightCounts counts_at_vertex(const LightContext& context, const PointQuery& query);
 /// `scattered`: the share of light that the span scatters, roughly.
 LightCounts counts_along_span(const LightContext& context, float scattered);

@@ -10,8 +10,8 @@
 
 namespace tyndall {
 
-/// A vertex whose light is sought. `Search` has a query, the cut made for it and shadow_rays; `Share` is a function of a LightSample and
-/// the density of the candidates that found it: its weight in MIS.
+/// A vertex whose light is sought. `Search` has a query, the cut made for it and shadow_rays; `Share` is a function of a
+/// LightSample and the density of the candidates that found it: its weight in MIS.
 template <typename Search, typename Share>
 class VertexLight {
  public:

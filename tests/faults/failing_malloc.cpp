@@ -15,8 +15,12 @@ std::atomic<bool> counting{false};
 std::atomic<long> count{0};
 long fail_at = -1;
 
-/// True: this one fails.
-bool next_fails() { return counting.load(std::memory_order_relaxed) && count.fetch_add(1, std::memory_order_relaxed) + 1 == fail_at; }
+/// True: this one fails, and errno says so.
+bool next_fails() {
+  if (!counting.load(std::memory_order_relaxed) || count.fetch_add(1, std::memory_order_relaxed) + 1 != fail_at) return false;
+  errno = ENOMEM;
+  return true;
+}
 
 template <typename Function>
 Function* real(const char* name) {
@@ -33,26 +37,10 @@ void* __libc_calloc(size_t, size_t);
 void* __libc_realloc(void*, size_t);
 void* __libc_memalign(size_t, size_t);
 
-void* malloc(size_t size) {
-  if (!next_fails()) return __libc_malloc(size);
-  errno = ENOMEM;
-  return nullptr;
-}
-void* calloc(size_t n, size_t size) {
-  if (!next_fails()) return __libc_calloc(n, size);
-  errno = ENOMEM;
-  return nullptr;
-}
-void* realloc(void* p, size_t size) {
-  if (!next_fails()) return __libc_realloc(p, size);
-  errno = ENOMEM;
-  return nullptr;
-}
-void* memalign(size_t alignment, size_t size) {
-  if (!next_fails()) return __libc_memalign(alignment, size);
-  errno = ENOMEM;
-  return nullptr;
-}
+void* malloc(size_t size) { return next_fails() ? nullptr : __libc_malloc(size); }
+void* calloc(size_t n, size_t size) { return next_fails() ? nullptr : __libc_calloc(n, size); }
+void* realloc(void* p, size_t size) { return next_fails() ? nullptr : __libc_realloc(p, size); }
+void* memalign(size_t alignment, size_t size) { return next_fails() ? nullptr : __libc_memalign(alignment, size); }
 void* aligned_alloc(size_t alignment, size_t size) { return memalign(alignment, size); }
 int posix_memalign(void** out, size_t alignment, size_t size) {
   *out = memalign(alignment, size);

@@ -147,8 +147,8 @@ class PairedRenders {
   MeanImage difference_of(std::size_t j, std::size_t i) const { return differences_[j][i].result(); }
 
   bool known_to(double d) const {
+    const MeanImage reference = image(0);
     for (std::size_t j = 1; j < subjects_.size(); ++j) {
-      const MeanImage reference = image(0);
       for (std::size_t i = 0; i < j; ++i) {
         const MeanImage pair = difference_of(j, i);
         for (int k = 0; k < 3; ++k) {
