@@ -50,7 +50,7 @@ Lights::Lights(Lights&&) noexcept = default;
 Lights& Lights::operator=(Lights&&) noexcept = default;
 
 std::size_t Lights::size() const { return parts_->lights.size() + parts_->instanced_lights; }
-bool Lights::sought() const { return size() > parts_->even_skies; }
+std::size_t Lights::sought() const { return size() - parts_->even_skies; }
 const LightStats& Lights::stats() const { return parts_->stats; }
 double Lights::power(LightId light) const { return parts_->power(light); }
 std::span<const LightId> Lights::infinite() const { return parts_->infinite; }

@@ -6,7 +6,8 @@ namespace tyndall {
 namespace {
 
 constexpr LightCounts kOnlyVertex{8, 0}, kVertex{2, 2};
-/// Bounds of clusters tell little of where a narrow lobe meets a light.
+/// Bounds of clusters tell little of where a narrow lobe meets a light. Where most is scattered elsewhere, as under a
+/// coat, that is not worth its time: error at equal time 1.2 times that of kVertex with 10 to 1,000 lights.
 constexpr LightCounts kGlossyVertex{4, 2};
 /// Camera spans are looked at by every sample of a pixel, and later ones are many.
 constexpr LightCounts kOnlySpan{16, 0}, kCameraSpan{8, 4}, kLaterSpan{4, 2};
@@ -17,22 +18,35 @@ LightCounts chosen(const RenderSettings& settings, LightCounts unless_set) {
   return {settings.candidates.value_or(unless_set.candidates), settings.shadow_rays.value_or(unless_set.shadow_rays)};
 }
 
+/// Not more candidates than there are lights to seek, and a shadow ray for every other one: with one light, along media,
+/// a single pair gives 1.2 to 1.7 times less error at equal time than eight of them.
+LightCounts among(std::size_t lights, LightCounts counts) {
+  const int n = static_cast<int>(std::clamp<std::size_t>(lights, 1, 1000));
+  return {std::min(counts.candidates, n), std::min(counts.shadow_rays, (n + 1) / 2)};
+}
+
 /// The event is the only one of its path.
 bool only_event(const LightContext& context) { return context.event == 0 && is_last_event(context); }
+
+bool mostly_glossy(const PointQuery& query) { return query.glossy() && query.diffuse < 0.5f; }
 
 }  // namespace
 
 LightCounts counts_at_vertex(const LightContext& context, const PointQuery& query) {
-  LightCounts counts = only_event(context) ? kOnlyVertex : query.glossy() ? kGlossyVertex : kVertex;
-  // From one point a light without extent is always the same.
-  const LightStats& lights = context.world.lights.stats();
-  if (lights.points == lights.lights) counts.candidates = std::min(counts.candidates, static_cast<int>(std::max<std::size_t>(lights.lights, 1)));
-  return chosen(context.settings, counts);
+  const Lights& lights = context.world.lights;
+  if (only_event(context)) {
+    // From one point a light without extent is always the same.
+    LightCounts counts = kOnlyVertex;
+    if (lights.stats().points == lights.stats().lights) counts.candidates = among(lights.sought(), counts).candidates;
+    return chosen(context.settings, counts);
+  }
+  return chosen(context.settings, among(lights.sought(), mostly_glossy(query) ? kGlossyVertex : kVertex));
 }
 
 LightCounts counts_along_span(const LightContext& context, float scattered) {
   if (scattered < kThin) return chosen(context.settings, {1, 1});
-  return chosen(context.settings, only_event(context) ? kOnlySpan : context.event == 0 ? kCameraSpan : kLaterSpan);
+  if (only_event(context)) return chosen(context.settings, kOnlySpan);
+  return chosen(context.settings, among(context.world.lights.sought(), context.event == 0 ? kCameraSpan : kLaterSpan));
 }
 
 }  // namespace tyndall

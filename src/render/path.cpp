@@ -40,11 +40,16 @@ PathRecord Path::run() {
   return record_;
 }
 
+/// Strategies of lighting may draw as many numbers as they like: the path stays the same.
+void Path::begin(Step step) { context_.sampler.begin_step(1 + kSteps * depth_ + static_cast<int>(step)); }
+
 /// Next-event estimation, then the direction of the next ray. False ends the path.
 bool Path::scatter(const Vertex& vertex) {
   context_.event = depth_ - 1;
+  begin(Step::light);
   add(beta_ * light_at(vertex), depth_);
 
+  begin(Step::scatter);
   const float uc = context_.sampler.next_1d();
   const auto s = vertex.sample(beta_, uc, context_.sampler.next_2d());
   if (!s) return false;
@@ -119,6 +124,7 @@ std::optional<Vertex> Path::pass_media(const Trace& trace) {
 /// Next-event estimation for the whole span.
 void Path::gather(const Span& span) {
   context_.event = depth_;
+  begin(Step::gather);
   span_search_ = span_search(context_, span);
   if (!span_search_ || !pairs_along_spans(context_.settings)) return;
   if (depth_ == 0) first_event_in_medium_ = true;  // of this light's path
@@ -126,6 +132,7 @@ void Path::gather(const Span& span) {
 }
 
 std::optional<Vertex> Path::fly(const Span& span, const Trace& trace) {
+  begin(Step::fly);
   Rng rng = context_.sampler.stream();
   float u = context_.sampler.next_1d();
   for (const SpanPart& part : span.parts) {
@@ -145,6 +152,7 @@ std::optional<Vertex> Path::fly(const Span& span, const Trace& trace) {
 }
 
 void Path::dim(const Span& span) {
+  begin(Step::fly);
   Rng rng = context_.sampler.stream();
   for (const SpanPart& part : span.parts) {
     beta_ *= transmittance(context_.settings.transmittance, part.view(), ray_, part.t0, part.t1, rng, context_.counters.tracking);

@@ -22,6 +22,11 @@ class Path {
   PathRecord run();
 
  private:
+  /// What a path draws random numbers for between one event and the next.
+  enum class Step { gather, fly, light, scatter };
+  static constexpr int kSteps = 4;
+  void begin(Step step);
+
   std::optional<Vertex> next_vertex();
   std::optional<Vertex> pass_media(const Trace& trace);
   void gather(const Span& span);

@@ -21,13 +21,16 @@ struct SampleKey {
 /// Padded, Owen-scrambled Sobol: each call takes a fresh pair of dimensions with an order and a scramble of its
 /// own. Even and odd samples are two sequences scrambled independently, so that half the squared difference of
 /// their means estimates the variance, which the samples of one sequence cannot (they are not independent).
-/// A pure function of (key, call count): the same on any thread.
+/// A pure function of (key, step, call count within it): the same on any thread.
 class Sampler {
  public:
   explicit Sampler(const SampleKey& key)
       : key_(hash(key.seed, static_cast<std::uint32_t>(key.x), static_cast<std::uint32_t>(key.y),
                   static_cast<std::uint32_t>(key.sample & 1))),
         index_(static_cast<std::uint32_t>(key.sample) >> 1) {}
+
+  /// Goes on with the numbers of one step of a path, 1, 2, ...: they do not depend on how many the steps before it drew.
+  void begin_step(int step) { block_ = static_cast<std::uint64_t>(step) << 32; }
 
   /// Uniform in [0, 1).
   float next_1d() { return to_unit(point_0(next_block())); }

@@ -13,9 +13,10 @@ class Counted {
  public:
   Counted(int points, bool lamp) : world_(test::world_of(scene(points, lamp), {})) {}
 
-  LightCounts vertex(const RenderSettings& settings, int event, bool glossy = false) {
-    PointQuery query{.p = {0, 0, 0}, .n = {0, 0, -1}};
-    query.lobe_count = glossy ? 1 : 0;
+  /// `lobe`: its share of what is scattered.
+  LightCounts vertex(const RenderSettings& settings, int event, float lobe = 0) {
+    PointQuery query{.p = {0, 0, 0}, .n = {0, 0, -1}, .diffuse = 1 - lobe};
+    query.lobe_count = lobe > 0 ? 1 : 0;
     return counts_at_vertex(context(settings, event), query);
   }
   LightCounts span(const RenderSettings& settings, int event, float scattered) {
@@ -44,18 +45,19 @@ void check(LightCounts counts, int candidates, int shadow_rays) {
 }
 
 TEST_CASE("events look at more lights where less follows them, and on glossy surfaces") {
-  Counted many(3, true);
+  Counted many(8, true);
   RenderSettings deep, direct;
   deep.max_depth = 5;
   direct.max_depth = 1;
   for (const int event : {0, 1, 4}) {
     check(many.vertex(deep, event), 2, 2);
-    check(many.vertex(deep, event, true), 4, 2);
+    check(many.vertex(deep, event, 0.9f), 4, 2);
+    check(many.vertex(deep, event, 0.1f), 2, 2);  // coated
   }
   check(many.span(deep, 0, 0.5f), 8, 4);
   check(many.span(deep, 1, 0.5f), 4, 2);
   check(many.vertex(direct, 0), 8, 0);
-  check(many.vertex(direct, 0, true), 8, 0);
+  check(many.vertex(direct, 0, 0.9f), 8, 0);
   check(many.span(direct, 0, 0.5f), 16, 0);
 }
 
@@ -66,10 +68,25 @@ TEST_CASE("stretches that scatter next to nothing look at one light") {
 TEST_CASE("from one point a light without extent is looked at once") {
   RenderSettings direct;
   direct.max_depth = 1;
-  check(Counted(1, false).vertex({}, 0), 1, 2);
   check(Counted(5, false).vertex(direct, 0), 5, 0);
   check(Counted(5, true).vertex(direct, 0), 8, 0);
   check(Counted(1, false).span(direct, 0, 0.5f), 16, 0);  // from several points along the stretch
+}
+
+TEST_CASE("few lights need few looks, unless the path ends there") {
+  RenderSettings deep, direct;
+  deep.max_depth = 5;
+  direct.max_depth = 1;
+  Counted one(1, false), three(2, true);
+  check(one.vertex(deep, 0), 1, 1);
+  check(one.vertex(deep, 0, 0.9f), 1, 1);
+  check(one.span(deep, 0, 0.5f), 1, 1);
+  check(three.vertex(deep, 1), 2, 2);
+  check(three.vertex(deep, 1, 0.9f), 3, 2);
+  check(three.span(deep, 0, 0.5f), 3, 2);
+  check(three.span(deep, 1, 0.5f), 3, 2);
+  check(three.vertex(direct, 0), 8, 0);
+  check(three.span(direct, 0, 0.5f), 16, 0);
 }
 
 TEST_CASE("what is set holds everywhere") {
@@ -79,7 +96,7 @@ TEST_CASE("what is set holds everywhere") {
   set.shadow_rays = 0;
   for (const int event : {0, 1}) {
     check(many.vertex(set, event), 12, 0);
-    check(many.vertex(set, event, true), 12, 0);
+    check(many.vertex(set, event, 0.9f), 12, 0);
     for (const float scattered : {0.5f, 1e-5f}) check(many.span(set, event, scattered), 12, 0);
   }
 }

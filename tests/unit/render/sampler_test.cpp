@@ -94,6 +94,19 @@ TEST_CASE("the dimensions of one sample are uncorrelated: no number comes twice"
   }
 }
 
+TEST_CASE("what a step draws does not depend on how many numbers the steps before it drew") {
+  Sampler a({9, 1, 2, 3}), b({9, 1, 2, 3});
+  a.next_2d();
+  a.begin_step(4);
+  for (int i = 0; i < 1000; ++i) b.next_1d();
+  b.begin_step(4);
+  const float first = a.next_1d();
+  CHECK(first == b.next_1d());
+  CHECK(a.next_1d() == b.next_1d());
+  a.begin_step(5);
+  CHECK(first != a.next_1d());
+}
+
 TEST_CASE("a stream depends on its key alone") {
   Sampler a({9, 1, 2, 3}), b({9, 1, 2, 3});
   for (int i = 0; i < 10; ++i) CHECK(a.next_1d() == b.next_1d());
