@@ -76,7 +76,7 @@ TEST_CASE("a wispy grid in one piece and as two overlapping halves with differen
 
 TEST_CASE("light strategies") {
   const std::string scene = many_lights();
-  check_same("lights", {{"exhaustive", scene, {.lights = LightStrategy::exhaustive}},
+  check_same_paired("lights", {{"exhaustive", scene, {.lights = LightStrategy::exhaustive}},
                         {"power", scene, {.lights = LightStrategy::power}},
                         {"uniform", scene, {.lights = LightStrategy::uniform}},
                         {"tree", scene, {.lights = LightStrategy::tree}},

@@ -38,6 +38,12 @@ std::string walls() {
 
 constexpr Variant kPaths{.emission = EmissionStrategy::paths};
 
+/// Fire as a light.
+Variant sought(Variant variant = {}) {
+  variant.emission = EmissionStrategy::lights;
+  return variant;
+}
+
 /// At 1 % the scenes here take a quarter of an hour on two cores: `paths` finds small fires by chance. Nightly they are held
 /// at its precision; the defects met while this was written were of 6 to 9 %.
 Agreement at(double per_commit) {
@@ -51,14 +57,14 @@ Agreement at(double per_commit) {
 TEST_CASE("fire lights a diffuse room, however a brick is chosen") {
   const std::string scene = view(camera()) + walls() + fire() + point_light({-0.8f, 0.9f, -0.9f}, 0.3f);
   check_all_agree("fire in a room", scene, {{"paths", kPaths},
-                                            {"tree", {}},
-                                            {"tree-binary", {.lights = LightStrategy::tree_binary}},
-                                            {"power, 3 to 1", {.lights = LightStrategy::power, .candidates = 3}},
-                                            {"uniform", {.lights = LightStrategy::uniform}},
-                                            {"4 split, all traced", {.candidates = 4, .shadow_rays = 0, .splitting = 0.8f}}},
+                                            {"tree", sought()},
+                                            {"tree-binary", sought({.lights = LightStrategy::tree_binary})},
+                                            {"power, 3 to 1", sought({.lights = LightStrategy::power, .candidates = 3})},
+                                            {"uniform", sought({.lights = LightStrategy::uniform})},
+                                            {"4 split, all traced", sought({.candidates = 4, .shadow_rays = 0, .splitting = 0.8f})}},
                   at(0.03));
   if (!nightly()) return;  // every brick at every vertex
-  check_same("every brick of a fire in a room", {{"exhaustive", scene, {.lights = LightStrategy::exhaustive}},
+  check_same("every brick of a fire in a room", {{"exhaustive", scene, sought({.lights = LightStrategy::exhaustive})},
                                                  {"exhaustive paths", scene, {.lights = LightStrategy::exhaustive, .emission = EmissionStrategy::paths}},
                                                  {"paths", scene, kPaths}});
 }
@@ -66,20 +72,20 @@ TEST_CASE("fire lights a diffuse room, however a brick is chosen") {
 TEST_CASE("fire inside smoke that scatters, by every way of gathering along spans") {
   const std::string scene = view(camera(4)) + walls() + fire() + smoke({.sigma_a = {0.1f, 0.1f, 0.1f}, .sigma_s = {0.5f, 0.6f, 0.7f}, .g = 0.2f});
   check_all_agree("fire in smoke", scene, {{"paths", kPaths},
-                                           {"vertex", {.media = MediaStrategy::vertex}},
-                                           {"product", {}},
-                                           {"product, 4 to 2", {.candidates = 4, .shadow_rays = 2}},
-                                           {"integral, both", {.media = MediaStrategy::integral, .distance = DistanceStrategy::both}},
-                                           {"closest, tracking", {.media = MediaStrategy::closest, .distance = DistanceStrategy::tracking}},
-                                           {"equiangular, by power", {.lights = LightStrategy::power, .distance = DistanceStrategy::equiangular}}},
+                                           {"vertex", sought({.media = MediaStrategy::vertex})},
+                                           {"product", sought()},
+                                           {"product, 4 to 2", sought({.candidates = 4, .shadow_rays = 2})},
+                                           {"integral, both", sought({.media = MediaStrategy::integral, .distance = DistanceStrategy::both})},
+                                           {"closest, tracking", sought({.media = MediaStrategy::closest, .distance = DistanceStrategy::tracking})},
+                                           {"equiangular, by power", sought({.lights = LightStrategy::power, .distance = DistanceStrategy::equiangular})}},
                   at(0.03));
 }
 
 TEST_CASE("fire in smoke that scatters forward, g = 0.9") {
   const std::string scene = view(camera(5)) + fire() + smoke({.sigma_s = {1.2f, 1, 1.4f}, .g = 0.9f});
   check_same("fire in forward smoke", {{"paths", scene, kPaths},
-                                       {"vertex", scene, {.media = MediaStrategy::vertex}},
-                                       {"product", scene}}, at(0.03));
+                                       {"vertex", scene, sought({.media = MediaStrategy::vertex})},
+                                       {"product", scene, sought()}}, at(0.03));
 }
 
 TEST_CASE("the camera in the fire, and a wall in it") {
@@ -89,27 +95,27 @@ TEST_CASE("the camera in the fire, and a wall in it") {
   inside.fov_degrees = 80;
   const std::string wall = block("Material \"diffuse\" \"rgb reflectance\" [0.7 0.7 0.7]\nShape \"disk\" \"float radius\" 0.3\n");
   const std::string scene = view(inside) + walls() + fire() + block("Translate 0.1 -0.4 0.2\nRotate 40 1 1 0\n" + wall);
-  check_same("within fire", {{"paths", scene, kPaths}, {"product", scene}, {"vertex", scene, {.media = MediaStrategy::vertex}}}, at(0.03));
+  check_same("within fire", {{"paths", scene, kPaths}, {"product", scene, sought()}, {"vertex", scene, sought({.media = MediaStrategy::vertex})}}, at(0.03));
 }
 
 TEST_CASE("bricks beyond the boundary that brings the fire, a group for each half, fire in an unbounded fog") {
   const Grid grid = flames(kHearth);
   const Bounds3 left{kHearth.min, {-0.1f, 0.05f, 0.3f}}, right{{0.1f, -0.9f, -0.4f}, kHearth.max};
   const std::string scene = view(camera()) + walls() + uniform_grid("fire", kFire, grid) + medium_box("fire", "", left) + medium_box("fire", "", right);
-  check_same("halves of fire", {{"paths", scene, kPaths}, {"product", scene}, {"vertex", scene, {.media = MediaStrategy::vertex}}}, at(0.03));
+  check_same("halves of fire", {{"paths", scene, kPaths}, {"product", scene, sought()}, {"vertex", scene, sought({.media = MediaStrategy::vertex})}}, at(0.03));
 
   View foggy = camera(4);
   foggy.before_camera = homogeneous("fog", {.sigma_s = {0.1f, 0.1f, 0.1f}, .Le = {}});
   foggy.medium = "fog";
   const std::string fog = view(foggy) + walls() + fire();
-  check_same("fire in fog", {{"paths", fog, kPaths}, {"product", fog}}, at(0.03));
+  check_same("fire in fog", {{"paths", fog, kPaths}, {"product", fog, sought()}}, at(0.03));
 }
 
 TEST_CASE("thermal equilibrium with a white wall, the medium's glow sought as a light") {
   const Coefficients warm{.sigma_a = {1, 2, 0.5f}, .sigma_s = {3, 2, 4}, .g = 0.5f, .Le = Rgb(1.0f)};
   const std::string scene = view(camera(1000)) + environment(1) + uniform_grid("m", warm, flames(kHearth)) + medium_box("m", "", kHearth) +
                             diffuse_plane(0.6f, 0.7f, 1);
-  const Agreement furnace{.d = nightly() ? 0.004 : 0.012};
+  const Agreement furnace{.d = nightly() ? 0.004 : 0.012, .variant = sought()};
   check_agrees("equilibrium by spans", scene, {1.0, 1.0, 1.0}, furnace);
   Agreement vertex = furnace;
   vertex.variant.media = MediaStrategy::vertex;

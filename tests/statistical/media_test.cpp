@@ -115,13 +115,13 @@ TEST_CASE("thin medium") {
 
 TEST_CASE("dense medium") {
   check_media("dense", look(3) + lights() + homogeneous("m", {.sigma_a = {0.5f, 0.2f, 1}, .sigma_s = {5, 6, 3}}) + medium_box("m", "", kBox),
-              0.04);
+              0.02);
 }
 
 TEST_CASE("forward scattering, g = 0.9") {
   check_media("forward", look(3) + lights() + homogeneous("m", {.sigma_a = {0.1f, 0.1f, 0.2f}, .sigma_s = {1.2f, 1, 0.8f}, .g = 0.9f}) +
                              medium_box("m", "", kBox),
-              0.04);
+              0.02);
 }
 
 TEST_CASE("a grid with holes and a homogeneous medium that overlap, camera in unbounded fog") {
@@ -131,5 +131,5 @@ TEST_CASE("a grid with holes and a homogeneous medium that overlap, camera in un
                                  uniform_grid("smoke", {.sigma_a = {0.3f, 0.2f, 0.2f}, .sigma_s = {2, 3, 2.5f}, .g = 0.5f}, holes()) +
                                  homogeneous("haze", {.sigma_a = Rgb(0.1f), .sigma_s = {0.5f, 0.4f, 0.3f}, .g = -0.3f}) +
                                  medium_box("smoke", "", kBox) + medium_box("haze", "", {{-0.5f, -1.2f, -0.6f}, {1.3f, 0.4f, 0.7f}}),
-              0.08);
+              0.04);
 }

@@ -80,38 +80,10 @@ Measured measure_share(const std::string& name, const Contender& c, double share
   return measured;
 }
 
-/// The mean of independent estimates, equally weighted; its degrees of freedom by Welch and Satterthwaite.
-Estimate mean_of(const std::vector<Estimate>& estimates) {
-  const auto n = static_cast<double>(estimates.size());
-  Estimate mean{0, 0, 0};
-  double fourth = 0;
-  for (const Estimate& e : estimates) {
-    mean.mean += e.mean / n;
-    mean.variance += e.variance / (n * n);
-    if (e.dof > 0) fourth += e.variance * e.variance / e.dof / (n * n * n * n);
-  }
-  mean.dof = fourth > 0 ? mean.variance * mean.variance / fourth : 1e9;
-  return mean;
-}
-
-MeanImage mean_of_others(const std::vector<MeanImage>& images, std::size_t one) {
-  MeanImage result = images[one];
-  for (int k = 0; k < 3; ++k) {
-    for (std::size_t pixel = 0; pixel < result.channels[k].size(); ++pixel) {
-      std::vector<Estimate> others;
-      for (std::size_t i = 0; i < images.size(); ++i) {
-        if (i != one) others.push_back(images[i].channels[k][pixel]);
-      }
-      result.channels[k][pixel] = mean_of(others);
-    }
-  }
-  return result;
-}
-
-/// a - b, pixel by pixel.
-Image difference(Image a, const Image& b) {
+/// a + factor b, pixel by pixel.
+Image combined(Image a, float factor, const Image& b) {
   for (std::size_t k = 0; k < a.channels.size(); ++k) {
-    for (std::size_t i = 0; i < a.channels[k].values.size(); ++i) a.channels[k].values[i] -= b.channels[k].values[i];
+    for (std::size_t i = 0; i < a.channels[k].values.size(); ++i) a.channels[k].values[i] += factor * b.channels[k].values[i];
   }
   return a;
 }
@@ -138,7 +110,7 @@ class PairedRenders {
     for (std::size_t j = 0; j < subjects_.size(); ++j) {
       images.push_back(subjects_[j].render(kSpp, seed));
       images_[j].add(images[j]);
-      for (std::size_t i = 0; i < j; ++i) differences_[j][i].add(difference(images[j], images[i]));
+      for (std::size_t i = 0; i < j; ++i) differences_[j][i].add(combined(images[j], -1, images[i]));
     }
   }
   int count() const { return images_[0].count(); }
@@ -163,6 +135,85 @@ class PairedRenders {
   std::vector<Subject> subjects_;
   std::vector<MeanImageBuilder> images_;
   std::vector<std::vector<MeanImageBuilder>> differences_;  ///< [j][i]: j - i
+};
+
+/// Many variants rendered with the same seeds, round by round, each held against the mean of the others in its rounds. One
+/// that is known well enough drops out; the first two stay to the end, so that there is always something to be held against.
+class PooledRenders {
+ public:
+  static constexpr int kSpp = 8, kFewest = 8, kMost = 2048;
+  static constexpr std::size_t kStay = 2;
+
+  PooledRenders(const std::string& scene, const std::vector<std::pair<std::string, Variant>>& variants, std::uint64_t seed) : seed_(seed) {
+    for (const auto& [title, variant] : variants) variants_.push_back({Subject(scene, variant)});
+  }
+
+  /// False: all are known so well that an error of d stands out, or there have been enough.
+  bool next_round(double d) {
+    bool any = rounds_ < kFewest;
+    for (VariantOfMany& v : variants_) {
+      v.known = rounds_ >= kFewest && known_to(v, d);
+      any = any || !v.known;
+    }
+    if (!any || rounds_ >= kMost * (nightly() ? 16 : 1)) return false;
+    render_round();
+    return true;
+  }
+
+  const Subject& subject(std::size_t i) const { return variants_[i].subject; }
+  /// From the mean of the others.
+  MeanImage difference(std::size_t i) const { return variants_[i].difference.result(); }
+  double pooled_mean(int channel) const { return image_mean(pool_.result(), channel).mean; }
+  Measured effort(std::size_t i) const {
+    Measured m;
+    m.renders = variants_[i].difference.count();
+    m.spp = double(m.renders) * kSpp;
+    m.seconds = variants_[i].seconds;
+    return m;
+  }
+
+ private:
+  struct VariantOfMany {
+    Subject subject;
+    MeanImageBuilder difference{};
+    bool known = false;
+    double seconds = 0;
+  };
+
+  bool known_to(const VariantOfMany& v, double d) const {
+    const MeanImage difference = v.difference.result();
+    for (int k = 0; k < 3; ++k) {
+      if (excess(image_mean(difference, k), d / kResolution * pooled_mean(k)) > 1) return false;
+    }
+    return true;
+  }
+
+  void render_round() {
+    std::vector<std::pair<VariantOfMany*, Image>> images;
+    for (std::size_t i = 0; i < variants_.size(); ++i) {
+      VariantOfMany& v = variants_[i];
+      if (v.known && i >= kStay) continue;
+      const double start = processor_seconds();
+      images.emplace_back(&v, v.subject.render(kSpp, seed_));
+      v.seconds += processor_seconds() - start;
+    }
+    ++seed_;
+    ++rounds_;
+    Image sum = images[0].second;
+    for (std::size_t i = 1; i < images.size(); ++i) sum = combined(std::move(sum), 1, images[i].second);
+    const auto n = static_cast<float>(images.size());
+    pool_.add(combined(sum, 1 / n - 1, sum));
+    // x_i less the mean of the others: (n x_i - sum) / (n - 1).
+    for (auto& [v, image] : images) {
+      Image difference = combined(combined(image, n / (n - 1) - 1, image), -1 / (n - 1), sum);
+      v->difference.add(difference);
+    }
+  }
+
+  std::vector<VariantOfMany> variants_;
+  MeanImageBuilder pool_;
+  std::uint64_t seed_;
+  int rounds_ = 0;
 };
 
 }  // namespace
@@ -261,25 +312,20 @@ void check_same_paired(const std::string& name, const std::vector<Contender>& co
 void check_all_agree(const std::string& name, const std::string& scene,
                      const std::vector<std::pair<std::string, Variant>>& variants, const Agreement& how) {
   const double d = how.d.value_or(required_precision());
-  const auto n = static_cast<double>(variants.size());
-  std::vector<Measured> measured;
-  std::vector<MeanImage> images, blocks;
-  for (const auto& [title, variant] : variants) {
-    measured.push_back(measure_share(name, {title, scene, variant}, (n - 1) / n, how));
-    images.push_back(measured.back().image);
-    blocks.push_back(block_means(images.back(), 8));
+  PooledRenders renders(scene, variants, base_seed() * 10'000'000'000 + std::uint64_t(stream_of(name)) * 10'000);
+  while (renders.next_round(d)) {
   }
   for (std::size_t i = 0; i < variants.size(); ++i) {
     const std::string title = name + ": " + variants[i].first;
-    const MeanImage others = mean_of_others(images, i);
+    check_faults(title, renders.subject(i));
+    const MeanImage difference = renders.difference(i), none = zero(difference);
     for (int k = 0; k < 3; ++k) {
-      const Estimate a = image_mean(images[i], k), b = image_mean(others, k);
-      check_difference(title, k, b.mean, welch_test(a, b), measured[i], {1.05 * d, 0});  // both errors are estimates
+      check_difference(title, k, renders.pooled_mean(k), mean_test(difference, none, k), renders.effort(i), {1.05 * d, 0});
     }
-    const auto tests = block_test(blocks[i], mean_of_others(blocks, i));
+    const auto tests = block_test(block_means(difference, 8), block_means(none, 8));
     const BlockDifference& w = worst(tests);
-    CHECK_MESSAGE(w.welch.p >= sidak(1e-3, n * double(tests.size())), title, ": block ", w.x, ",", w.y, " differs by ",
-                  w.welch.t, " standard errors");
+    CHECK_MESSAGE(w.welch.p >= sidak(1e-3, double(variants.size()) * double(tests.size())), title, ": block ", w.x, ",", w.y,
+                  " differs by ", w.welch.t, " standard errors");
   }
 }
 

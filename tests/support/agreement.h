@@ -44,8 +44,9 @@ void check_same(const std::string& name, const std::vector<Contender>& contender
 /// are measured as such. For contenders that are alike in cost and noise, as all are given the same number of samples.
 void check_same_paired(const std::string& name, const std::vector<Contender>& contenders, const Agreement& how = {});
 
-/// All variants render the same picture of `scene`: each agrees at d with the mean of all others, channel by channel and
-/// by Welch's test of 8x8 blocks at family level 1e-3. For many: the work grows with their number, not its square.
+/// All variants render the same picture of `scene`: each agrees at d with the mean of the others, channel by channel and by
+/// Welch's test of 8x8 blocks at family level 1e-3. Rendered with the same seeds, as in check_same_paired, each until its
+/// own difference is known. For many: the work grows with their number, not its square.
 void check_all_agree(const std::string& name, const std::string& scene, const std::vector<std::pair<std::string, Variant>>& variants,
                      const Agreement& how = {});
 

@@ -11,13 +11,6 @@
 namespace tyndall::test {
 namespace {
 
-
-/// Processor time of this program in units of what all cores give in a second: how long it would take on an idle machine.
-/// A busy one must not fail a test.
-double seconds() {
-  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC / std::max(1u, std::thread::hardware_concurrency());
-}
-
 constexpr int kFewest = 4;   // renders that an error may rest on
 constexpr int kWanted = 12;  // renders that a measurement is cut into
 
@@ -45,6 +38,10 @@ BuildSettings build_settings_of(const Variant& variant) {
 }
 
 }  // namespace
+
+double processor_seconds() {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC / std::max(1u, std::thread::hardware_concurrency());
+}
 
 bool nightly() {
   const char* value = std::getenv("TYNDALL_NIGHTLY");
@@ -114,7 +111,7 @@ MeanImage joined(const MeanImage& a, double part_of_a, MeanImage b) {
 }  // namespace
 
 Measured measure(Subject& subject, const Goal& goal) {
-  const double start = seconds();
+  const double start = processor_seconds();
   std::uint64_t seed = base_seed() * 10'000'000'000 + std::uint64_t(goal.stream) * 10'000;
   int spp = goal.first_spp;
   MeanImageBuilder builder;
@@ -123,7 +120,7 @@ Measured measure(Subject& subject, const Goal& goal) {
   Measured measured;
   for (;;) {
     builder.add(subject.render(spp, seed++));
-    measured.seconds = seconds() - start;
+    measured.seconds = processor_seconds() - start;
     measured.spp = double(spp) * builder.count() + (first ? first_samples : 0);
     measured.renders = builder.count() + (first ? kFewest : 0);
     const bool out_of_budget = measured.seconds > goal.seconds || measured.spp + spp > goal.max_spp;

@@ -21,7 +21,7 @@ struct Variant {
   float splitting = RenderSettings{}.splitting;
   MediaStrategy media = MediaStrategy::product;
   DistanceStrategy distance = DistanceStrategy::automatic;
-  EmissionStrategy emission = EmissionStrategy::lights;
+  EmissionStrategy emission = RenderSettings{}.emission;
 };
 
 /// Builds a world and renders it as often as asked.
@@ -67,6 +67,10 @@ struct Measured {
 /// At least four renders. When these show the goal to be many renders away, four or more larger ones are added to them
 /// (Sobol points like company, and an error that rare events have not shown yet does not stop a measurement early).
 Measured measure(Subject& subject, const Goal& goal);
+
+/// Processor time of this program in units of what all cores give in a second: how long it would take on an idle machine.
+/// A busy one must not fail a test.
+double processor_seconds();
 
 /// A stream for each name.
 int stream_of(const std::string& name);

@@ -18,7 +18,7 @@ struct View {
   /// every pixel is then an independent estimate of the same radiance.
   float half_width = 1e-5f;
   float fov_degrees = 0;  ///< above 0: a perspective camera instead
-  int resolution = 32;
+  int resolution = 16;
   int max_depth = 1000;
   std::string before_camera{};  ///< media to declare
   std::string medium{};         ///< the camera's; empty: none declared
