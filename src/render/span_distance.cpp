@@ -64,11 +64,11 @@ DistanceSampler::DistanceSampler(const SpanProfile& profile, const Ray& ray, con
 
 void DistanceSampler::weigh(Weights weights) {
   bins_ = kBins;
-  alignas(32) std::array<float, kBins> by_profile, by_angle;
+  Masses by_profile, by_angle;
   const auto& edges = profile_->edges();
   std::array<float, kBins + 1> finite = edges;
   if (finite.back() == kInfinity) finite.back() = finite.front() + 2 * profile_->reach();
-  for (std::size_t i = 0; i < kBins; i += 8) {
+  for (std::size_t i = 0; i < kBins; i += kBlock) {
     const Bins8 bins{load8(&finite[i]) - closest_, load8(&finite[i + 1]) - closest_, load8(&profile_->scatterings()[i]),
                      load8(&profile_->sigmas()[i])};
     const Float8 middle = 0.5f * (bins.begin + bins.end);
@@ -84,7 +84,7 @@ void DistanceSampler::weigh(Weights weights) {
 /// Light from infinity arrives the same everywhere: by what is scattered, and evenly.
 void DistanceSampler::weigh_far() {
   bins_ = kBins;
-  std::array<float, kBins> by_profile, by_length;
+  Masses by_profile, by_length;
   const auto& edges = profile_->edges();
   for (std::size_t i = 0; i < kBins; ++i) {
     const float end = edges[i + 1] < kInfinity ? edges[i + 1] : edges.front() + 2 * profile_->reach();
@@ -94,15 +94,16 @@ void DistanceSampler::weigh_far() {
   mix(by_profile, by_length);
 }
 
-void DistanceSampler::mix(const std::array<float, kBins>& by_profile, const std::array<float, kBins>& by_angle) {
-  float sum_profile = 0, sum_angle = 0;
-  for (std::size_t i = 0; i < kBins; ++i) {
-    sum_profile += by_profile[i];
-    sum_angle += by_angle[i];
+void DistanceSampler::mix(const Masses& by_profile, const Masses& by_angle) {
+  Float8 sums_profile = 0, sums_angle = 0;
+  for (std::size_t i = 0; i < kBins; i += kBlock) {
+    sums_profile += load8(&by_profile[i]);
+    sums_angle += load8(&by_angle[i]);
   }
+  const float sum_profile = reduce(sums_profile), sum_angle = reduce(sums_angle);
   const float share = sum_profile > 0 ? kByAngle : 1.0f;
   const float a = sum_profile > 0 ? (1 - share) / sum_profile : 0.0f, b = sum_angle > 0 ? share / sum_angle : 0.0f;
-  for (std::size_t i = 0; i < kBins; ++i) mass_[i] = a * by_profile[i] + b * by_angle[i];
+  for (std::size_t i = 0; i < kBins; i += kBlock) store8(&mass_[i], a * load8(&by_profile[i]) + b * load8(&by_angle[i]));
 }
 
 /// That the stretch is seen under from the light. As one arc tangent: a difference of two loses narrow bins far away.
@@ -115,15 +116,16 @@ float DistanceSampler::angle(float begin, float end) const {
 DistanceSample DistanceSampler::sample(float u) const {
   std::size_t bin = 0;
   if (bins_ > 1) {
-    // The last bin with mass takes what rounding leaves.
-    std::size_t last = 0;
-    for (; bin < kBins; ++bin) {
-      if (!(mass_[bin] > 0)) continue;
-      last = bin;
-      if (u < mass_[bin]) break;
-      u -= mass_[bin];
+    // Whole blocks are passed first. The last bin with mass takes what rounding leaves.
+    for (; bin + kBlock < kBins; bin += kBlock) {
+      const float block = reduce(load8(&mass_[bin]));
+      if (u < block) break;
+      u -= block;
     }
-    bin = bin < kBins ? bin : last;
+    for (; bin < kBins && !(u < mass_[bin]); ++bin) u -= mass_[bin];
+    if (bin == kBins)
+      do --bin;
+      while (bin > 0 && !(mass_[bin] > 0));
     u = std::min(u / mass_[bin], 0x1.fffffep-1f);
   }
   const float t = sample_in(bin, u);

@@ -32,7 +32,10 @@ class DistanceSampler {
   static constexpr int kBins = SpanProfile::kBins;
   void weigh(Weights weights);
   void weigh_far();
-  void mix(const std::array<float, kBins>& by_profile, const std::array<float, kBins>& by_angle);
+  static constexpr std::size_t kBlock = 8;
+  static_assert(kBins % kBlock == 0);
+  struct alignas(32) Masses : std::array<float, kBins> {};
+  void mix(const Masses& by_profile, const Masses& by_angle);
   float pdf_in(std::size_t bin, float t) const;
   float sample_in(std::size_t bin, float u) const;
   float angle(float begin, float end) const;
@@ -41,7 +44,7 @@ class DistanceSampler {
   bool far_ = false;
   float closest_ = 0, distance_ = 0;  ///< where the ray comes closest to the light, and how close
   int bins_ = 1;
-  std::array<float, kBins> mass_{};  ///< of each bin; they sum to 1
+  Masses mass_{};  ///< of each bin; they sum to 1
 };
 
 }  // namespace tyndall

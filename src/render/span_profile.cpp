@@ -9,13 +9,17 @@ namespace tyndall {
 namespace {
 
 constexpr int kBins = SpanProfile::kBins;
-constexpr int kFirstLook = 12;  ///< reads by which the bins are placed
+constexpr int kFirstLook = 16;  ///< reads by which the bins are placed
 /// Optical depth at which a span without end is taken to be over.
 constexpr float kDeep = 16;
 /// A medium so thin that it is this wide has nothing to show: squares of distances must stay finite.
 constexpr float kFarthest = 1e18f;
 /// Share of the bins that lie evenly, whatever is scattered where.
 constexpr float kEvenShare = 0.25f;
+/// Out of the media it is this many times as far as to the nearer of their ends on the span, in optical depth. Measured
+/// in a plume of depth 10 among a thousand lights: without this bound the variance is 1.8 times as high, with 1 or 3
+/// nearly as low.
+constexpr float kSideways = 2;
 
 /// (1 - exp(-x)) / x: the mean of exp over [0, x].
 float mean_exponential(float x) { return x > 1e-3f ? (1 - std::exp(-x)) / x : 1 - 0.5f * x; }
@@ -127,6 +131,8 @@ std::optional<SpanProfile> SpanProfile::of(const Span& span) {
   const Extent extent = extent_of(span);
   if (!(extent.begin < extent.end)) return std::nullopt;
   SpanProfile profile;
+  profile.enters_ = extent.begin > 0;
+  profile.leaves_ = extent.end < span.t_end;
   if (extent.uniform) {
     const CoarseOptics o = optics_at(span, extent.begin);
     if (!(o.sigma_s > 0) || !(kDeep / o.sigma_t < kFarthest)) return std::nullopt;
@@ -163,6 +169,13 @@ float SpanProfile::transmittance(float t) const {
   return std::exp(-(depth_[i] + sigma_t_[i] * std::max(t - edge_[i], 0.0f)));
 }
 
+float SpanProfile::way_out(float depth) const {
+  if (edge_.back() == kInfinity) return kInfinity;
+  const float ahead = depth_.back() - depth;
+  if (!enters_ && !leaves_) return std::max(depth, ahead);
+  return kSideways * std::min(enters_ ? depth : kInfinity, leaves_ ? ahead : kInfinity);
+}
+
 SegmentProfile SpanProfile::coarse(float g) const {
   constexpr std::size_t kGroup = kBins / SegmentProfile::kBins;
   SegmentProfile p;
@@ -183,7 +196,7 @@ SegmentProfile SpanProfile::coarse(float g) const {
     // Toward lights the medium is taken to be as dense as here and along the ray, and as wide.
     const std::size_t middle = first + kGroup / 2;
     p.sigma[j] = 0.5f * (sigma_t_[middle] + average);
-    p.escape[j] = edge_.back() < kInfinity ? std::max(depth_[middle], whole - depth_[middle]) : kInfinity;
+    p.escape[j] = way_out(depth_[middle]);
   }
   return p;
 }

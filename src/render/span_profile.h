@@ -13,7 +13,8 @@ namespace tyndall {
 /// Deterministic for a given span: MIS weights are made from it on both sides.
 class SpanProfile {
  public:
-  static constexpr int kBins = 24;
+  /// With 24 and as many fewer first looks, the variance in dense smoke is a third higher, with 48 no lower.
+  static constexpr int kBins = 32;
   static_assert(kBins % SegmentProfile::kBins == 0);
 
   /// Nothing where the span's media do not scatter, or so little that it takes 1e18 units to see it.
@@ -41,9 +42,13 @@ class SpanProfile {
   template <typename F>
   void fill(const F& optics);
 
+  /// Optical depth at most from where it is `depth` to outside of the media, however lights lie around the span.
+  float way_out(float depth) const;
+
   std::array<float, kBins + 1> edge_{}, depth_{};
   std::array<float, kBins> scattering_{}, sigma_t_{};
   float scattered_ = 0, reach_ = 0;
+  bool enters_ = false, leaves_ = false;  ///< the media begin, end, on the span
 };
 
 }  // namespace tyndall

@@ -139,6 +139,29 @@ void check_sampler(const SpanProfile& profile, const DistanceSampler& sampler, f
 
 }  // namespace
 
+TEST_CASE("out of media it is twice as far as to their nearer end on the span") {
+  const auto check = [](const Case& c, bool enters, bool leaves) {
+    const SpanProfile profile = *SpanProfile::of(c.span);
+    const SegmentProfile coarse = profile.coarse(0);
+    constexpr std::size_t kGroup = SpanProfile::kBins / SegmentProfile::kBins;
+    for (std::size_t j = 0; j < SegmentProfile::kBins; ++j) {
+      const double depth = -std::log(double{profile.transmittance(profile.edges()[j * kGroup + kGroup / 2])});
+      const double ahead = profile.optical_depth() - depth, nearer = enters && leaves ? std::min(depth, ahead) : enters ? depth : ahead;
+      const double expected = enters || leaves ? 2 * nearer : std::max(depth, ahead);
+      CHECK(coarse.escape[j] == test::relative(expected).epsilon(1e-4));
+    }
+  };
+  Case c = two_stretches(1);
+  check(c, true, true);
+  c.span.t_end = 8;  // a surface in the medium
+  check(c, true, false);
+  c.span.parts[0].t0 = 0;  // the ray's origin in it
+  check(c, false, false);
+  c.span.t_end = 9;
+  check(c, false, true);
+  for (const float escape : SpanProfile::of(endless(1).span)->coarse(0).escape) CHECK(escape == kInfinity);
+}
+
 TEST_CASE("a profile is of what scatters: not of clear stretches, nor of fog without coefficients") {
   Case c;
   for (const float sigma : {0.5f, 0.0f}) c.media.push_back(homogeneous(sigma));
