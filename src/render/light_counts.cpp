@@ -10,12 +10,21 @@ constexpr LightCounts kOnlyVertex{8, 0}, kVertex{2, 2};
 /// coat, that is not worth its time: error at equal time 1.2 times that of kVertex with 10 to 1,000 lights.
 constexpr LightCounts kGlossyVertex{4, 2};
 /// Camera spans are looked at by every sample of a pixel, and later ones are many.
-constexpr LightCounts kOnlySpan{16, 0}, kCameraSpan{8, 4}, kLaterSpan{4, 2};
+constexpr SpanCounts kOnlySpan{{16, 0}}, kCameraSpan{{8, 4}}, kLaterSpan{{4, 2}};
 /// Spans that scatter less than this share of the light take one candidate.
 constexpr float kThin = 1e-3f;
+/// In media of more than this optical depth most of the candidates are dim, and few of the distances matter. Measured in
+/// smoke: at depth 10 the efficiency rises by a quarter, at 1 it would fall by a sixth.
+constexpr float kDense = 3;
+constexpr SpanCounts kOnlyDenseSpan{{16, 8}, 2};
 
 LightCounts chosen(const RenderSettings& settings, LightCounts unless_set) {
   return {settings.candidates.value_or(unless_set.candidates), settings.shadow_rays.value_or(unless_set.shadow_rays)};
+}
+
+/// Candidates that are counted by the settings are pairs.
+SpanCounts chosen(const RenderSettings& settings, SpanCounts unless_set) {
+  return {chosen(settings, static_cast<LightCounts>(unless_set)), settings.candidates ? 1 : unless_set.distances};
 }
 
 /// Not more candidates than there are lights to seek, and a shadow ray for every other one: with one light, along media,
@@ -43,10 +52,11 @@ LightCounts counts_at_vertex(const LightContext& context, const PointQuery& quer
   return chosen(context.settings, among(lights.sought(), mostly_glossy(query) ? kGlossyVertex : kVertex));
 }
 
-LightCounts counts_along_span(const LightContext& context, float scattered) {
-  if (scattered < kThin) return chosen(context.settings, {1, 1});
-  if (only_event(context)) return chosen(context.settings, kOnlySpan);
-  return chosen(context.settings, among(context.world.lights.sought(), context.event == 0 ? kCameraSpan : kLaterSpan));
+SpanCounts counts_along_span(const LightContext& context, float scattered, float depth) {
+  if (scattered < kThin) return chosen(context.settings, SpanCounts{{1, 1}});
+  if (only_event(context)) return chosen(context.settings, depth > kDense ? kOnlyDenseSpan : kOnlySpan);
+  const SpanCounts counts = context.event == 0 ? kCameraSpan : kLaterSpan;
+  return chosen(context.settings, SpanCounts{among(context.world.lights.sought(), counts), counts.distances});
 }
 
 }  // namespace tyndall

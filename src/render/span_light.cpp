@@ -45,6 +45,8 @@ struct Pair {
   float weight;      ///< in resampling: the contribution's size, dimmed by what the profile says
 };
 
+using Pairs = SmallVector<Pair, 8>;
+
 DistanceSampler distances_to(const LightContext& context, const SpanSearch& search, LightId id) {
   const DistanceStrategy distance = context.settings.distance;
   const bool plain = distance == DistanceStrategy::equiangular || distance == DistanceStrategy::both;
@@ -59,9 +61,19 @@ class PairFinder {
   PairFinder(const LightContext& context, const Span& span, const SpanSearch& search, Rgb beta)
       : context_(context), span_(span), search_(search), beta_(beta) {}
 
-  std::optional<Pair> look_at(LightCandidate tried, float u, Vec2 on_light) const {
+  /// Strata of one number give the distances.
+  void look_along(LightCandidate tried, Sampler& sampler, Pairs& pairs) const {
+    const DistanceSampler distances = distances_to(context_, search_, tried.light);
+    const float u = sampler.next_1d(), stratum = 1 / static_cast<float>(search_.distances);
+    for (int i = 0; i < search_.distances; ++i) {
+      const float along = std::min((static_cast<float>(i) + u) * stratum, 0x1.fffffep-1f);
+      if (const auto pair = look_at(tried, distances.sample(along), sampler.next_2d())) pairs.push_back(*pair);
+    }
+  }
+
+ private:
+  std::optional<Pair> look_at(LightCandidate tried, DistanceSample distance, Vec2 on_light) const {
     const auto [id, tries] = tried;
-    const DistanceSample distance = distances_to(context_, search_, id).sample(u);
     if (!(distance.pdf > 0) || !std::isfinite(distance.t)) return std::nullopt;
     const SpanPart& part = span_.part_at(distance.t);
     if (distance.t < part.t0 || distance.t > part.t1) return std::nullopt;  // between media
@@ -74,7 +86,7 @@ class PairFinder {
 
     const Vec3 wo = -span_.ray.d;
     const Rgb f = scattering.sigma_s * scattering.phase.eval(wo, light->wi);
-    const float density = tries * distance.pdf * light->pdf;
+    const float density = tries * static_cast<float>(search_.distances) * distance.pdf * light->pdf;
     if (is_black(f) || !(density > 0)) return std::nullopt;
     const float collide = scattering.sigma_t * search_.profile.transmittance(distance.t);
     const float tracked = tracks(context_.settings) ? collide * tries * light->pdf : 0.0f;
@@ -85,7 +97,6 @@ class PairFinder {
     return Pair{distance.t, &part, *light, contribution, weight};
   }
 
- private:
   float dimming(const SpanPart& part, float t, Vec3 p, const LightSample& light) const {
     const Ray ray{p, light.wi};
     const float end = std::min(light.distance, exit_distance(part.box, ray));
@@ -99,13 +110,10 @@ class PairFinder {
   Rgb beta_;
 };
 
-using Pairs = SmallVector<Pair, 8>;
-
 Pairs all_lights(const LightContext& context, const PairFinder& finder, Sampler& sampler) {
   Pairs pairs;
   for (LightId id = 0; id < context.world.lights.size(); ++id) {
-    const float u = sampler.next_1d();
-    if (const auto pair = finder.look_at({id, 1}, u, sampler.next_2d())) pairs.push_back(*pair);
+    finder.look_along({id, 1}, sampler, pairs);
   }
   return pairs;
 }
@@ -113,8 +121,7 @@ Pairs all_lights(const LightContext& context, const PairFinder& finder, Sampler&
 Pairs chosen_lights(const LightContext& context, const SpanSearch& search, const PairFinder& finder, Sampler& sampler) {
   Pairs pairs;
   for (const LightCandidate& tried : context.selector.draw(search.cut, search.query, sampler.next_wide())) {
-    const float along = sampler.next_1d();
-    if (const auto pair = finder.look_at(tried, along, sampler.next_2d())) pairs.push_back(*pair);
+    finder.look_along(tried, sampler, pairs);
   }
   return pairs;
 }
@@ -200,9 +207,10 @@ std::optional<SpanSearch> span_search(const LightContext& context, const Span& s
   SpanSearch search{.query = {}, .cut = {}, .profile = *profile, .g = mean_cosine(span)};
   search.query = query_of(settings, span, *profile, search.g);
   if (!context.selector.exhaustive()) {
-    const auto [candidates, shadow_rays] = counts_along_span(context, profile->scattered());
-    search.cut = context.selector.cut(search.query, {.candidates = candidates, .splitting = settings.splitting});
-    search.shadow_rays = shadow_rays;
+    const SpanCounts counts = counts_along_span(context, profile->scattered(), profile->optical_depth());
+    search.cut = context.selector.cut(search.query, {.candidates = counts.candidates, .splitting = settings.splitting});
+    search.shadow_rays = counts.shadow_rays;
+    search.distances = counts.distances;
   }
   return search;
 }
@@ -223,15 +231,17 @@ float collision_density(const Span& span, const SpanSearch& search, float t) {
 SpanDensities span_fire_densities(const LightContext& context, const SpanEvent& event, const FiresOnRay& fires) {
   if (fires.empty()) return {};
   const float found = fire_density(context, event.search, fires);
+  const auto distances = static_cast<float>(event.search.distances);
   const RenderSettings& settings = context.settings;
-  return {.pair = pairs_along_spans(settings) ? found * distances_to(context, event.search, fires[0].light).pdf(event.t) : 0.0f,
+  return {.pair = pairs_along_spans(settings) ? found * distances * distances_to(context, event.search, fires[0].light).pdf(event.t) : 0.0f,
           .tracked = tracks(settings) ? found * event.density : 0.0f};
 }
 
 SpanDensities span_densities(const LightContext& context, const SpanEvent& event, LightId id) {
   const float tries = context.selector.expected(event.search.cut, event.search.query, id);
+  const auto distances = static_cast<float>(event.search.distances);
   const RenderSettings& settings = context.settings;
-  return {.pair = pairs_along_spans(settings) ? tries * distances_to(context, event.search, id).pdf(event.t) : 0.0f,
+  return {.pair = pairs_along_spans(settings) ? tries * distances * distances_to(context, event.search, id).pdf(event.t) : 0.0f,
           .tracked = tracks(settings) ? tries * event.density : 0.0f};
 }
 

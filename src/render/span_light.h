@@ -17,13 +17,14 @@ struct SpanSearch {
   SpanProfile profile;
   float g = 0;  ///< mean cosine of the phase functions, roughly
   int shadow_rays = 0;  ///< to trace, 0: to all candidates
+  int distances = 1;    ///< tried with each candidate
 };
 /// Nothing when no light can be scattered, or when settings choose lights at collisions only.
 std::optional<SpanSearch> span_search(const LightContext& context, const Span& span);
 
 /// Unbiased estimate of the light that is scattered once along the span toward its origin, weighted by MIS against
 /// paths that collide there and hit the light by themselves. Pairs of a light and a distance are chosen
-/// (`--media`, `--distance`), looked at without visibility, and resampled; the survivors pay for real
+/// (`--media`, `--distance`), some with more than one distance, looked at without visibility, and resampled; the survivors pay for real
 /// transmittance (light_counts.h says how many). Multiply by the throughput `beta` at the origin, which is passed for weighing only.
 Rgb span_light(const LightContext& context, const Span& span, const SpanSearch& search, Rgb beta);
 

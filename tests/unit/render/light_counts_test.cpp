@@ -19,8 +19,8 @@ class Counted {
     query.lobe_count = lobe > 0 ? 1 : 0;
     return counts_at_vertex(context(settings, event), query);
   }
-  LightCounts span(const RenderSettings& settings, int event, float scattered) {
-    return counts_along_span(context(settings, event), scattered);
+  SpanCounts span(const RenderSettings& settings, int event, float scattered, float depth = 1) {
+    return counts_along_span(context(settings, event), scattered, depth);
   }
 
  private:
@@ -63,6 +63,20 @@ TEST_CASE("events look at more lights where less follows them, and on glossy sur
 
 TEST_CASE("stretches that scatter next to nothing look at one light") {
   check(Counted(3, true).span({}, 0, 0.9e-3f), 1, 1);
+}
+
+TEST_CASE("along dense stretches candidates are looked at from two distances where nothing follows") {
+  Counted many(3, true);
+  RenderSettings direct, set;
+  direct.max_depth = set.max_depth = 1;
+  set.candidates = 16;
+  CHECK(many.span(direct, 0, 0.9f, 1).distances == 1);
+  const SpanCounts dense = many.span(direct, 0, 0.9f, 10);
+  check(dense, 16, 8);
+  CHECK(dense.distances == 2);
+  CHECK(many.span({}, 0, 0.9f, 10).distances == 1);
+  CHECK(many.span(direct, 0, 1e-5f, 10).distances == 1);
+  CHECK(many.span(set, 0, 0.9f, 10).distances == 1);  // as many pairs as were asked for
 }
 
 TEST_CASE("from one point a light without extent is looked at once") {
