@@ -21,6 +21,7 @@
 #include <string>
 
 #include "math/rng.h"
+#include "support/sanitized.h"
 #include "tyndall/math.h"
 
 namespace tyndall::test {
@@ -120,10 +121,10 @@ Fault holds(bool condition, const Values&... values) {
   return out.str();
 }
 
-/// 10^6 cases per commit, 10^8 nightly.
+/// 10^6 cases per commit, 10^8 nightly, 10^5 with sanitizers.
 inline std::uint64_t kernel_cases() {
   const char* nightly = std::getenv("TYNDALL_NIGHTLY");
-  return nightly != nullptr && std::string(nightly) == "1" ? 100'000'000 : 1'000'000;
+  return nightly != nullptr && std::string(nightly) == "1" ? 100'000'000 : fewer(1'000'000);
 }
 
 /// `property`: of an Adversary, gives a Fault.

@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "report/block_test.h"
+#include "support/sanitized.h"
 
 namespace tyndall::test {
 namespace {
@@ -15,12 +16,7 @@ constexpr double kErrors = 4;       // standard errors that a difference may hav
 constexpr double kResolution = 6.5;  // standard errors in d
 constexpr std::array<const char*, 3> kChannel{"R", "G", "B"};
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr double kSlower = 15;
-#else
-constexpr double kSlower = 1;
-#endif
-double budget(const Agreement& how) { return kSlower * (nightly() ? 40 * how.seconds : how.seconds); }
+double budget(const Agreement& how) { return nightly() ? 40 * how.seconds : how.seconds; }
 
 /// Factor by which the variance of a mean is above that of the wanted standard error.
 double excess(const Estimate& e, double wanted_error) {
@@ -57,7 +53,7 @@ void check_difference(const std::string& name, int channel, double value, const 
   const bool within = std::abs(w.difference) <= kErrors * w.standard_error + exempt;
   CHECK_MESSAGE(within, name, " ", std::string(kChannel[channel]), ": ", value + w.difference, " instead of ", value, ", ", w.t,
                 " standard errors");
-  CHECK_MESSAGE(w.standard_error <= tolerance.d / kResolution * std::abs(value), name, ": not precise enough after ", m.seconds,
+  CHECK_MESSAGE(w.standard_error <= kCoarser * tolerance.d / kResolution * std::abs(value), name, ": not precise enough after ", m.seconds,
                 " s and ", m.spp, " samples a pixel");
 }
 
@@ -152,7 +148,7 @@ class PooledRenders {
   bool next_round(double d) {
     bool any = rounds_ < kFewest;
     for (VariantOfMany& v : variants_) {
-      v.known = rounds_ >= kFewest && known_to(v, d);
+      v.known = rounds_ >= kFewest && known_to(v, kCoarser * d);
       any = any || !v.known;
     }
     if (!any || rounds_ >= kMost * (nightly() ? 16 : 1)) return false;
@@ -253,7 +249,7 @@ void check_vanishes(const std::string& name, const std::string& scene, double bo
   std::printf("  %-44s   %.3g +- %.3g, bound %.3g  (%.3g spp, %.1f s)\n", name.c_str(), e.mean, e.standard_error(), bound,
               m.spp, m.seconds);
   CHECK_MESSAGE(std::abs(e.mean) <= bound + kErrors * e.standard_error(), name);
-  CHECK_MESSAGE(e.standard_error() <= bound / kErrors, name, ": not precise enough");
+  CHECK_MESSAGE(e.standard_error() <= kCoarser * bound / kErrors, name, ": not precise enough");
   check_faults(name, subject);
 }
 
@@ -286,7 +282,7 @@ void check_same_paired(const std::string& name, const std::vector<Contender>& co
   do {
     renders.add(seed++);
   } while (renders.count() < PairedRenders::kFewest ||
-           (renders.count() < PairedRenders::kMost * (nightly() ? 16 : 1) && !renders.known_to(d)));
+           (renders.count() < PairedRenders::kMost * (nightly() ? 16 : 1) && !renders.known_to(kCoarser * d)));
 
   const std::size_t n = contenders.size();
   const auto pairs = static_cast<double>(n * (n - 1) / 2);

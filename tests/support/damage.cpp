@@ -12,6 +12,7 @@
 
 #include "math/hash.h"
 #include "support/measure.h"
+#include "support/sanitized.h"
 #include "support/scratch.h"
 #include "tyndall/error.h"
 
@@ -25,11 +26,7 @@ constexpr long kMostMemory = 256l << 10;               // KB, beyond what was in
 constexpr std::size_t kMostLines = 3, kMostText = 1000, kMostComplaints = 10;
 
 // The sanitizers keep what was freed for a while, and shadows of everything.
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool kMemoryCounts = false;
-#else
-constexpr bool kMemoryCounts = true;
-#endif
+constexpr bool kMemoryCounts = !kSanitized;
 
 class Draw {
  public:

@@ -6,6 +6,7 @@
 #include <ctime>
 #include <thread>
 
+#include "support/sanitized.h"
 #include "tyndall/io.h"
 
 namespace tyndall::test {
@@ -127,7 +128,7 @@ Measured measure(Subject& subject, const Goal& goal) {
     if (builder.count() < kFewest && !out_of_budget) continue;
 
     measured.image = first ? joined(*first, first_samples / measured.spp, builder.result()) : builder.result();
-    const double excess = goal.excess(measured.image);
+    const double excess = goal.excess(measured.image) / (kCoarser * kCoarser);
     measured.reached = excess <= 1;
     if (measured.reached || out_of_budget) return measured;
 

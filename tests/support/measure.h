@@ -47,7 +47,8 @@ class Subject {
 
 /// When to stop.
 struct Goal {
-  /// Called with all renders so far: the factor by which their variance is still too large; at most 1: done.
+  /// Called with all renders so far: the factor by which their variance is still too large; at most 1, or 25 with
+  /// sanitizers (kCoarser): done.
   std::function<double(const MeanImage&)> excess;
   double seconds = 60;           ///< of all cores' processor time: give up after this long
   int first_spp = 16;            ///< samples a pixel of the first renders

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "support/sanitized.h"
 #include "unit/volume/vdb_import.h"
 #include "volume/medium_data.h"
 
@@ -12,7 +13,7 @@ using namespace tyndall;
 
 namespace {
 
-constexpr int kPoints = 10'000'000;  // a volume
+constexpr int kPoints = test::fewer(10'000'000);  // a volume
 
 /// The lower corners of all leaves that hold voxels.
 void find_bricks(const BrickGrid& grid, std::uint32_t node, int level, const Index3& corner, std::vector<Index3>& found) {
