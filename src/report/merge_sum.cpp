@@ -103,8 +103,9 @@ Image MergeSum::result() const {
     const std::vector<double>* weights = weights_of(plane.rule);
     for (std::size_t i = 0; i < values.size(); ++i) {
       const double sum = plane.sums[i], n = weights ? (*weights)[i] : 1;
+      if (!(n > 0)) continue;  // black
       const double value = plane.rule == Rule::dof ? n * n / sum : plane.rule == Rule::variance ? sum / (n * n) : sum / n;
-      values[i] = n > 0 ? static_cast<float>(value) : 0.0f;
+      values[i] = static_cast<float>(value);
     }
   }
   return image;

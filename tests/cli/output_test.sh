@@ -59,7 +59,7 @@ code=0
 mount -t tmpfs -o size=1m none full
 "$T" render s.pbrt --spp 100000 --time 2 --reproducible --quiet --checkpoint 0.2 -o full/a.exr >out.txt 2>err.txt &
 render=$!
-sleep 1
+for _ in $(seq 200); do [ -s full/a.exr.checkpoint ] || sleep 0.05; done
 [ -s full/a.exr.checkpoint ] || { echo "no checkpoint: the test shows nothing"; exit 1; }
 cat /dev/zero >full/fill 2>/dev/null || true
 code=0

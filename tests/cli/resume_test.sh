@@ -10,6 +10,7 @@ whole=$((($(date +%s%N) - begun) / 1000000 + 20))  # milliseconds that the unbro
 [ ! -e whole.exr.checkpoint ] || fail "a checkpoint nobody asked for"
 RANDOM=${TYNDALL_SEED:-1}
 kills=20
+sanitized && kills=5
 [ -z "${TYNDALL_NIGHTLY-}" ] || kills=200
 
 # Killed again and again, with any number of threads: the picture is never half a file, and in the end the unbroken one.

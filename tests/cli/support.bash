@@ -16,6 +16,9 @@ expect() {
 # says TEXT FILE: the file holds the text.
 says() { grep -qF -- "$1" "$2" || fail "\"$1\" is not in $2: $(head -c 300 "$2")"; }
 
+# sanitized: the program has sanitizers in it, which make it ten times as slow.
+sanitized() { grep -qE '__(asan|tsan)_init' "$TYNDALL_BIN"; }
+
 finish() { [ "$failures" = 0 ] && echo "ok" || exit 1; }
 
 # lit_floor WIDTH HEIGHT SPP: a scene of a floor under a lamp.

@@ -6,6 +6,7 @@
 
 #include "report/block_test.h"
 #include "support/measure.h"
+#include "support/sanitized.h"
 #include "support/scene_text.h"
 #include "tyndall/io.h"
 
@@ -42,16 +43,17 @@ bool same_bits(const Image& a, const Image& b) {
 }  // namespace
 
 TEST_CASE("the same bits for 1, 2 and 4 threads, and for every repetition") {
+  constexpr int kSpp = kSanitized ? 2 : 9;
   std::vector<std::string> aovs;
   for (const std::string_view name : aov_names()) aovs.emplace_back(name);
   for (const std::string& scene : scenes()) {
     for (const LightStrategy lights : {LightStrategy::tree, LightStrategy::tree_binary, LightStrategy::power}) {
-      const Image one = Subject(scene, {.lights = lights, .threads = 1, .emission = EmissionStrategy::lights}).render(9, 5, aovs);
+      const Image one = Subject(scene, {.lights = lights, .threads = 1, .emission = EmissionStrategy::lights}).render(kSpp, 5, aovs);
       for (const int threads : {1, 2, 4}) {
         CAPTURE(threads);
-        CHECK(same_bits(one, Subject(scene, {.lights = lights, .threads = threads, .emission = EmissionStrategy::lights}).render(9, 5, aovs)));
+        CHECK(same_bits(one, Subject(scene, {.lights = lights, .threads = threads, .emission = EmissionStrategy::lights}).render(kSpp, 5, aovs)));
       }
-      CHECK_FALSE(same_bits(one, Subject(scene, {.lights = lights, .threads = 1, .emission = EmissionStrategy::lights}).render(9, 6, aovs)));
+      CHECK_FALSE(same_bits(one, Subject(scene, {.lights = lights, .threads = 1, .emission = EmissionStrategy::lights}).render(kSpp, 6, aovs)));
     }
   }
 }
@@ -75,7 +77,7 @@ TEST_CASE("the spread between renders is what the spread between pixels says") {
                             homogeneous("m", {.sigma_a = Rgb(0.3f), .sigma_s = Rgb(0.7f)}) + medium_box("m", "", kBox);
   Subject subject(scene);
   Moments means, pixels;
-  constexpr int kRenders = 200;
+  constexpr int kRenders = fewer(200);
   for (int i = 0; i < kRenders; ++i) {
     const Image image = subject.render(4, 1000 + i);
     Moments mean;
@@ -95,7 +97,7 @@ TEST_CASE("the Variance AOV is the variance of a pixel's mean") {
     Subject subject(scene);
     MeanImageBuilder spread;
     Moments claimed;
-    constexpr int kRenders = 24, kSpp = 16;
+    constexpr int kRenders = kSanitized ? 6 : 24, kSpp = 16;
     for (int i = 0; i < kRenders; ++i) {
       const Image image = subject.render(kSpp, 100 + i, {"Variance"});
       spread.add(image);

@@ -6,6 +6,7 @@
 #include "report/block_test.h"
 #include "report/merge.h"
 #include "support/measure.h"
+#include "support/sanitized.h"
 #include "support/scene_text.h"
 #include "support/scratch.h"
 #include "tyndall/io.h"
@@ -28,7 +29,7 @@ std::string scene() {
 TEST_CASE("a merged pair agrees with one render of as many samples, and its Variance with the spread of such pairs") {
   Subject subject(scene());
   const Scratch scratch;
-  constexpr int kPairs = 24;
+  constexpr int kPairs = kSanitized ? 6 : 24;
   constexpr int kSpp[2] = {8, 24};  // unequal, so that the weights count
   MeanImageBuilder merged, single;
   Moments claimed;

@@ -114,10 +114,11 @@ MeanImage joined(const MeanImage& a, double part_of_a, MeanImage b) {
 Measured measure(Subject& subject, const Goal& goal) {
   const double start = processor_seconds();
   std::uint64_t seed = base_seed() * 10'000'000'000 + std::uint64_t(goal.stream) * 10'000;
-  int spp = goal.first_spp;
+  const int first_spp = kSanitized ? std::max(1, goal.first_spp / 8) : goal.first_spp;
+  int spp = first_spp;
   MeanImageBuilder builder;
   std::optional<MeanImage> first;  // what the first renders gave, once larger ones have taken over
-  const double first_samples = double(goal.first_spp) * kFewest;
+  const double first_samples = double(first_spp) * kFewest;
   Measured measured;
   for (;;) {
     builder.add(subject.render(spp, seed++));
