@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tyndall {
 
@@ -75,8 +76,9 @@ SphericalRectangle::SphericalRectangle(Vec3d corner, Vec3d edge_x, Vec3d edge_y)
   // Inner angles of the spherical quadrilateral, in the paper's order of corners.
   const double g0 = corner_angle(x1_, -y0_, z0_), g1 = corner_angle(x1_, y1_, z0_);
   const double g2 = corner_angle(-x0_, y1_, z0_), g3 = corner_angle(-x0_, -y0_, z0_);
-  b0_ = -y0_ / std::hypot(z0_, y0_);
-  b1_ = y1_ / std::hypot(z0_, y1_);
+  const auto sine = [&](double y) { return y == 0 ? y : y / std::hypot(z0_, y); };  // y and z0 are 0 along an edge
+  b0_ = sine(-y0_);
+  b1_ = sine(y1_);
   k_ = 2 * 3.14159265358979323846 - g2 - g3;
   solid_angle_ = z0_ < 0 ? std::max(0.0, g0 + g1 - k_) : 0;
 }
@@ -84,7 +86,8 @@ SphericalRectangle::SphericalRectangle(Vec3d corner, Vec3d edge_x, Vec3d edge_y)
 SphericalRectangle::Sample SphericalRectangle::sample(Vec2 u) const {
   // x such that the part of the rectangle left of it has u.x of the solid angle.
   const double au = u.x * solid_angle_ + k_;
-  const double fu = (std::cos(au) * b0_ - b1_) / std::sin(au);
+  const double sine = std::sin(au);
+  const double fu = sine == 0 ? std::numeric_limits<double>::quiet_NaN() : (std::cos(au) * b0_ - b1_) / sine;
   const double cu = std::copysign(1 / std::sqrt(fu * fu + b0_ * b0_), fu);
   const double c = std::clamp(cu, -1.0, 1.0);
   double x = std::clamp(-c * z0_ / std::sqrt(std::max(1e-300, (1 - c) * (1 + c))), x0_, x1_);
