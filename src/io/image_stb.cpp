@@ -5,6 +5,7 @@
 #include <set>
 
 #include "io/image_decode.h"
+#include "io/jpeg_tables.h"
 #include "tyndall/error.h"
 
 namespace tyndall {
@@ -120,6 +121,8 @@ Image from_floats(const float* samples, int width, int height) {
 }  // namespace
 
 ImageSize stb_size(std::string_view bytes, const std::string& path) {
+  if (has_oversized_table(bytes))
+    throw Error(Failure::scene, path + ": cannot be read: a Huffman table has more than 256 codes; the file is damaged");
   StbMemory memory;  // not const: it is written through `current`
   Source source{bytes};
   ImageSize size;

@@ -27,8 +27,10 @@ class BrickReader {
     for (int c = 0; c < bricks_->channels(); ++c) out[c] = bricks_->read(bricks_->plane(brick_, c), point);
   }
 
-  /// t at which the ray crosses the plane of brick coordinate `x` on an axis; not a number or infinite if it does not.
-  double crossing(int axis, double x) const { return (x - line_.o[axis]) / line_.d[axis]; }
+  /// t at which the ray crosses the plane of brick coordinate `x` on an axis; infinite if it does not.
+  double crossing(int axis, double x) const {
+    return line_.d[axis] == 0 ? double{kInfinity} : (x - line_.o[axis]) / line_.d[axis];
+  }
   /// Of the brick, that holds the point at t: bit 0, 1, 2 for the upper half along x, y, z.
   unsigned octant(double t) const {
     constexpr double kMiddle = kBrickCells / 2;
