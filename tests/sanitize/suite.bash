@@ -35,6 +35,8 @@ else
 fi
 for report in reports/*; do
   [ -e "$report" ] || break
+  # A terabyte and more, which damaged files ask for, is std::bad_alloc without a sanitizer, and here the end.
+  grep -q allocation-size-too-big "$report" && continue
   echo "FAILED: $report:"
   head -n 15 "$report"
   code=1
