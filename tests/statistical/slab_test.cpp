@@ -119,15 +119,17 @@ TEST_CASE("DISORT 1 and 2: beam on a thin slab") {
 TEST_CASE("DISORT 3: uniform sky on a thin slab") {
   check_agrees("DISORT 3 radiance up mu=.1", reflectance(.1, .03125, 0, Rgb(0.99f)), grey(.1332), kFourDigits);
   check_agrees("DISORT 3 radiance up mu=.5", reflectance(.5, .03125, 0, Rgb(0.99f)), grey(.0300), kFourDigits);
-  check_agrees("DISORT 3 radiance up mu=1", reflectance(1, .03125, 0, Rgb(0.99f)), grey(.0152), kFourDigits);
+  if (nightly()) check_agrees("DISORT 3 radiance up mu=1", reflectance(1, .03125, 0, Rgb(0.99f)), grey(.0152), kFourDigits);
 }
 
 TEST_CASE("DISORT 4 and 5: beam on a thick slab") {
   constexpr Rgb kAlbedos{0.2f, 1, 0.2f};
   check_agrees("DISORT 4,5 radiance up mu=.1", beam(.1, 32, kAlbedos), {.262972, 1.93321, std::nullopt});
-  check_agrees("DISORT 4,5 radiance up mu=.5", beam(.5, 32, kAlbedos), {.0906967, 1.02732, std::nullopt});
+  check_agrees("DISORT 4 radiance up mu=.5", beam(.5, 32, Rgb(0.2f)), grey(.0906967));
   check_agrees("DISORT 4 radiance up mu=1", beam(1, 32, Rgb(0.2f)), grey(.0502853));
-  if (nightly()) check_agrees("DISORT 5 radiance up mu=1", beam(1, 32, Rgb(1.0f)), grey(.797199));
+  if (!nightly()) return;  // light that comes from deep below takes hundreds of collisions
+  check_agrees("DISORT 5 radiance up mu=.5", beam(.5, 32, Rgb(1.0f)), grey(1.02732));
+  check_agrees("DISORT 5 radiance up mu=1", beam(1, 32, Rgb(1.0f)), grey(.797199));
 }
 
 TEST_CASE("DISORT 4 and 5: fluxes of a beam on a thick slab") {

@@ -94,7 +94,7 @@ MeanImage zero(MeanImage like) {
 /// Contenders rendered with the same seeds.
 class PairedRenders {
  public:
-  static constexpr int kSpp = 32, kFewest = 8, kMost = 512;
+  static constexpr int kSpp = 8, kFewest = 8, kMost = 2048;
 
   explicit PairedRenders(const std::vector<Contender>& contenders) : images_(contenders.size()), differences_(contenders.size()) {
     for (const Contender& c : contenders) subjects_.emplace_back(c.scene, c.variant);
