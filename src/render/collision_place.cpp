@@ -7,9 +7,9 @@ namespace tyndall {
 namespace {
 
 /// Farther than this from both ends of a part, in terms of coordinates, rounding crosses no boundary that the ray does
-/// not all but graze: 256 roundings. Nearer, the geometry is asked: to move every collision as far would thin media whose
-/// mean free paths are as short.
-constexpr float kFar = 0x1p-15f;
+/// not all but graze: 1024 roundings; with 256 a path was lost in one of some ten million rays. Nearer, the geometry is
+/// asked: to move every collision as far would thin media whose mean free paths are as short.
+constexpr float kFar = 0x1p-13f;
 /// A boundary nearer than this may be on either side: roundings of double precision, and to spare.
 constexpr float kOn = 0x1p-40f;
 
