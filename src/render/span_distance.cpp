@@ -123,9 +123,8 @@ DistanceSample DistanceSampler::sample(float u) const {
       u -= block;
     }
     for (; bin < kBins && !(u < mass_[bin]); ++bin) u -= mass_[bin];
-    if (bin == kBins)
-      do --bin;
-      while (bin > 0 && !(mass_[bin] > 0));
+    if (bin == kBins) --bin;
+    while (bin > 0 && !(mass_[bin] > 0)) --bin;
     u = std::min(u / mass_[bin], 0x1.fffffep-1f);
   }
   const float t = sample_in(bin, u);

@@ -24,8 +24,9 @@ std::optional<SpanSearch> span_search(const LightContext& context, const Span& s
 
 /// Unbiased estimate of the light that is scattered once along the span toward its origin, weighted by MIS against
 /// paths that collide there and hit the light by themselves. Pairs of a light and a distance are chosen
-/// (`--media`, `--distance`), some with more than one distance, looked at without visibility, and resampled; the survivors pay for real
-/// transmittance (light_counts.h says how many). Multiply by the throughput `beta` at the origin, which is passed for weighing only.
+/// (`--media`, `--distance`), some lights with more than one distance, looked at without visibility, and resampled; the
+/// survivors pay for real transmittance (light_counts.h says how many). Multiply by the throughput `beta` at the origin,
+/// which is passed for weighing only.
 Rgb span_light(const LightContext& context, const Span& span, const SpanSearch& search, Rgb beta);
 
 /// Density of colliding at `t`, by the profile: 1/length. A stand-in for the tracked one, used on both sides of MIS.

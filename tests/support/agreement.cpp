@@ -144,12 +144,12 @@ class PooledRenders {
     for (const auto& [title, variant] : variants) variants_.push_back({Subject(scene, variant)});
   }
 
-  /// False: all are known so well that an error of d stands out, or there have been enough.
-  bool next_round(double d) {
+  /// False: each is known so well that an error of d stands out, or has had its `seconds`, or there have been enough.
+  bool next_round(double d, double seconds) {
     bool any = rounds_ < kFewest;
     for (VariantOfMany& v : variants_) {
       v.known = rounds_ >= kFewest && known_to(v, kCoarser * d);
-      any = any || !v.known;
+      any = any || (!v.known && v.seconds < seconds);
     }
     if (!any || rounds_ >= kMost * (nightly() ? 16 : 1)) return false;
     render_round();
@@ -309,7 +309,7 @@ void check_all_agree(const std::string& name, const std::string& scene,
                      const std::vector<std::pair<std::string, Variant>>& variants, const Agreement& how) {
   const double d = how.d.value_or(required_precision());
   PooledRenders renders(scene, variants, base_seed() * 10'000'000'000 + std::uint64_t(stream_of(name)) * 10'000);
-  while (renders.next_round(d)) {
+  while (renders.next_round(d, budget(how))) {
   }
   for (std::size_t i = 0; i < variants.size(); ++i) {
     const std::string title = name + ": " + variants[i].first;
