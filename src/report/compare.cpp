@@ -28,7 +28,7 @@ CurvePoint curve_point(const Runs& runs, const std::function<const RaceCheckpoin
   p.mse = mean_of(runs, [&](const RaceRun& r) { return at(r).error.mse; });
   const auto relmse = collect(runs, [&](const RaceRun& r) { return at(r).error.relmse; });
   const double mean = mean_of(runs, [&](const RaceRun& r) { return at(r).error.relmse; });
-  p.relmse = mean_interval(relmse).value_or(Interval{mean, mean, mean});
+  p.relmse = mean_interval(relmse).value_or(ConfidenceInterval{mean, mean, mean});
   return p;
 }
 
@@ -54,7 +54,7 @@ std::size_t trusted_points(const std::vector<CurvePoint>& curve, double noise) {
 }
 
 /// One slope a seed over its first `points` checkpoints, so that their spread is the slope's error.
-std::optional<Interval> slope_of(const Runs& runs, std::size_t points, double (*x)(const RaceCheckpoint&)) {
+std::optional<ConfidenceInterval> slope_of(const Runs& runs, std::size_t points, double (*x)(const RaceCheckpoint&)) {
   std::vector<double> slopes;
   for (const RaceRun& r : runs) {
     std::vector<ErrorPoint> known;
@@ -155,7 +155,7 @@ void add_efficiency(const Runs& base, const Runs& runs, VariantResult& v) {
   const bool is_base = &base == &runs;
   const auto relative = [&](double ErrorMetrics::*metric) {
     auto interval = relative_efficiency(costs(base, metric), costs(runs, metric));
-    if (interval && is_base) interval = Interval{1, 1, 1};
+    if (interval && is_base) interval = ConfidenceInterval{1, 1, 1};
     return interval;
   };
   v.efficiency = relative(&ErrorMetrics::mse);

@@ -29,7 +29,7 @@ struct ComparePlan {
 struct CurvePoint {
   double seconds = 0, samples = 0;
   double mse = 0;
-  Interval relmse;
+  ConfidenceInterval relmse;
 };
 
 /// What the runs of a variant say together. What cannot be said is absent.
@@ -39,9 +39,9 @@ struct VariantResult {
   double samples = 0, seconds = 0;
   ErrorMetrics error;                  ///< at the end, mean over the seeds
   std::vector<CurvePoint> curve;
-  std::optional<Interval> slope;          ///< of log relMSE against log seconds
-  std::optional<Interval> slope_samples;  ///< against log samples: without the machine's moods
-  std::optional<Interval> efficiency, efficiency_trimmed;  ///< relative to the first variant
+  std::optional<ConfidenceInterval> slope;          ///< of log relMSE against log seconds
+  std::optional<ConfidenceInterval> slope_samples;  ///< against log samples: without the machine's moods
+  std::optional<ConfidenceInterval> efficiency, efficiency_trimmed;  ///< relative to the first variant
   std::array<double, 3> mean_rgb{};
   Image image;  ///< of the first seed
   std::uint64_t non_finite = 0, majorant_violations = 0, caps_hit = 0, parity_errors = 0;

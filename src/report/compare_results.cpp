@@ -14,7 +14,7 @@ using Json = nlohmann::ordered_json;
 
 Json number(double v) { return std::isfinite(v) ? Json(v) : Json(nullptr); }
 
-Json interval(const std::optional<Interval>& i) {
+Json interval(const std::optional<ConfidenceInterval>& i) {
   if (!i) return {{"relative", nullptr}, {"low", nullptr}, {"high", nullptr}};
   return {{"relative", number(i->value)}, {"low", number(i->low)}, {"high", number(i->high)}};
 }
@@ -39,17 +39,17 @@ Json curve_json(const VariantResult& v) {
 
 Json variant_json(const VariantResult& v) {
   const auto known = [&](double value) { return v.given_up ? Json(nullptr) : number(value); };
-  const auto part = [](const std::optional<Interval>& i, double Interval::*member) { return i ? number((*i).*member) : Json(nullptr); };
+  const auto part = [](const std::optional<ConfidenceInterval>& i, double ConfidenceInterval::*member) { return i ? number((*i).*member) : Json(nullptr); };
   Json j{{"name", v.name}, {"options", v.options}, {"build_seconds", v.build_seconds}, {"samples", v.samples}, {"seconds", v.seconds}};
   j["mse"] = known(v.error.mse);
   j["relmse"] = known(v.error.relmse);
   j["relmse_trimmed"] = known(v.error.relmse_trimmed);
   j["mape"] = known(v.error.mape);
   j["smape"] = known(v.error.smape);
-  j["slope"] = part(v.slope, &Interval::value);
-  j["slope_low"] = part(v.slope, &Interval::low);
-  j["slope_high"] = part(v.slope, &Interval::high);
-  j["slope_samples"] = part(v.slope_samples, &Interval::value);
+  j["slope"] = part(v.slope, &ConfidenceInterval::value);
+  j["slope_low"] = part(v.slope, &ConfidenceInterval::low);
+  j["slope_high"] = part(v.slope, &ConfidenceInterval::high);
+  j["slope_samples"] = part(v.slope_samples, &ConfidenceInterval::value);
   j["slope_note"] = v.slope_note();
   j["efficiency"] = interval(v.efficiency);
   j["efficiency_trimmed"] = interval(v.efficiency_trimmed);
@@ -67,7 +67,7 @@ std::string budget_text(const RaceBudget& b) {
   return b.seconds ? fmt::format("{:g} s", *b.seconds) : fmt::format("{} samples", *b.samples);
 }
 
-std::string interval_text(const std::optional<Interval>& i) {
+std::string interval_text(const std::optional<ConfidenceInterval>& i) {
   return i ? fmt::format("{:.3g} ({:.3g} to {:.3g})", i->value, i->low, i->high) : "-";
 }
 

@@ -24,11 +24,11 @@ double student_t_95(double dof) {
   return high;
 }
 
-std::optional<Interval> mean_interval(std::span<const double> values) {
+std::optional<ConfidenceInterval> mean_interval(std::span<const double> values) {
   if (values.size() < 2) return std::nullopt;
   const Estimate e = estimate_of(values);
   const double reach = student_t_95(e.dof) * e.standard_error();
-  return Interval{e.mean, e.mean - reach, e.mean + reach};
+  return ConfidenceInterval{e.mean, e.mean - reach, e.mean + reach};
 }
 
 std::optional<double> log_slope(std::span<const ErrorPoint> points) {
@@ -43,7 +43,7 @@ std::optional<double> log_slope(std::span<const ErrorPoint> points) {
   return (n * sxy - sx * sy) / spread;
 }
 
-std::optional<Interval> relative_efficiency(std::span<const double> base, std::span<const double> other) {
+std::optional<ConfidenceInterval> relative_efficiency(std::span<const double> base, std::span<const double> other) {
   if (base.size() < 2 || base.size() != other.size()) return std::nullopt;
   const double a = estimate_of(base).mean, b = estimate_of(other).mean;
   if (!(a > 0) || !(b > 0)) return std::nullopt;
@@ -51,7 +51,7 @@ std::optional<Interval> relative_efficiency(std::span<const double> base, std::s
   for (std::size_t i = 0; i < base.size(); ++i) differences.add(base[i] / a - other[i] / b);
   const Estimate e = differences.estimate();
   const double ratio = std::log(a / b), reach = student_t_95(e.dof) * e.standard_error();
-  return Interval{std::exp(ratio), std::exp(ratio - reach), std::exp(ratio + reach)};
+  return ConfidenceInterval{std::exp(ratio), std::exp(ratio - reach), std::exp(ratio + reach)};
 }
 
 }  // namespace tyndall

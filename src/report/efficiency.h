@@ -8,7 +8,7 @@
 namespace tyndall {
 
 /// A number with its 95 % interval.
-struct Interval {
+struct ConfidenceInterval {
   double value = 0, low = 0, high = 0;
 };
 
@@ -16,7 +16,7 @@ struct Interval {
 double student_t_95(double dof);
 
 /// Mean of independent values; nothing below two of them.
-std::optional<Interval> mean_interval(std::span<const double> values);
+std::optional<ConfidenceInterval> mean_interval(std::span<const double> values);
 
 /// One measured point of a render: x is seconds or samples, y the error there.
 struct ErrorPoint {
@@ -30,6 +30,6 @@ std::optional<double> log_slope(std::span<const ErrorPoint> points);
 /// i-th runs of both have the same seed and ran side by side, so what they share takes no part: the interval is Student's
 /// for the logarithm of the ratio, by the delta method on the pairs. Nothing for fewer than two pairs, and when a mean is
 /// not above 0.
-std::optional<Interval> relative_efficiency(std::span<const double> base, std::span<const double> other);
+std::optional<ConfidenceInterval> relative_efficiency(std::span<const double> base, std::span<const double> other);
 
 }  // namespace tyndall

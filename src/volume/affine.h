@@ -7,7 +7,8 @@
 
 namespace tyndall {
 
-struct Vec3d {
+/// A point or direction in the index space of a grid.
+struct GridVec {
   std::array<double, 3> v{};
   constexpr double operator[](int i) const { return v[static_cast<std::size_t>(i)]; }
   constexpr double& operator[](int i) { return v[static_cast<std::size_t>(i)]; }
@@ -15,8 +16,8 @@ struct Vec3d {
 
 /// An axis-aligned box in double precision; may be empty (lo > hi).
 struct Box3d {
-  Vec3d lo, hi;
-  bool contains(const Vec3d& p) const {
+  GridVec lo, hi;
+  bool contains(const GridVec& p) const {
     return p[0] >= lo[0] && p[0] <= hi[0] && p[1] >= lo[1] && p[1] <= hi[1] && p[2] >= lo[2] && p[2] <= hi[2];
   }
   bool empty() const { return !(lo[0] <= hi[0] && lo[1] <= hi[1] && lo[2] <= hi[2]); }
@@ -31,18 +32,18 @@ struct Affine {
     for (std::size_t i = 0; i < 3; ++i) a.rows[i] = transform.matrix()[i];
     return a;
   }
-  Vec3d point(Vec3 p) const { return apply(p, 1); }
-  Vec3d vector(Vec3 p) const { return apply(p, 0); }
+  GridVec point(Vec3 p) const { return apply(p, 1); }
+  GridVec vector(Vec3 p) const { return apply(p, 0); }
   /// This map, then minus `offset`.
-  Affine minus(const Vec3d& offset) const {
+  Affine minus(const GridVec& offset) const {
     Affine a = *this;
     for (int i = 0; i < 3; ++i) a.rows[static_cast<std::size_t>(i)][3] -= offset[i];
     return a;
   }
 
  private:
-  Vec3d apply(Vec3 p, double w) const {
-    Vec3d r;
+  GridVec apply(Vec3 p, double w) const {
+    GridVec r;
     for (std::size_t i = 0; i < 3; ++i) r.v[i] = rows[i][0] * p.x + rows[i][1] * p.y + rows[i][2] * p.z + rows[i][3] * w;
     return r;
   }

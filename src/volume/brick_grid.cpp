@@ -14,14 +14,14 @@ std::uint32_t BrickGrid::brick_at(const Index3& cell) const {
 }
 
 /// The upper face of support() belongs to the cells below it.
-Index3 BrickGrid::cell_of(const Vec3d& p) const {
+Index3 BrickGrid::cell_of(const GridVec& p) const {
   Index3 cell;
   for (std::size_t i = 0; i < 3; ++i)
     cell[i] = std::min(static_cast<std::int64_t>(p.v[i]), static_cast<std::int64_t>(support_.hi.v[i]) - 1);
   return cell;
 }
 
-void BrickGrid::lookup(const Vec3d& p, float* out) const {
+void BrickGrid::lookup(const GridVec& p, float* out) const {
   std::fill_n(out, channels(), 0.0f);
   if (!support_.contains(p)) return;
   const Index3 cell = cell_of(p);
@@ -31,11 +31,11 @@ void BrickGrid::lookup(const Vec3d& p, float* out) const {
 
 float BrickGrid::lookup_by_tree(const Line& line, double t) const {
   float out[kMaxChannels] = {};
-  lookup(Vec3d{{line.o[0] + t * line.d[0], line.o[1] + t * line.d[1], line.o[2] + t * line.d[2]}}, out);
+  lookup(GridVec{{line.o[0] + t * line.d[0], line.o[1] + t * line.d[1], line.o[2] + t * line.d[2]}}, out);
   return out[0];
 }
 
-void BrickGrid::block_mean(const Vec3d& p, float* out) const {
+void BrickGrid::block_mean(const GridVec& p, float* out) const {
   std::fill_n(out, channels(), 0.0f);
   if (empty()) return;
   const Index3 cell = cell_of(p);

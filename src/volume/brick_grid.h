@@ -81,15 +81,15 @@ class BrickGrid {
     return bricks_.read(directory_.at(cell[0] >> kBrickLog2, cell[1] >> kBrickLog2, cell[2] >> kBrickLog2).plane, point);
   }
   /// At local point `p`.
-  float lookup(const Vec3d& p) const { return lookup(Line{{p[0], p[1], p[2], 0}, {}}, 0); }
+  float lookup(const GridVec& p) const { return lookup(Line{{p[0], p[1], p[2], 0}, {}}, 0); }
   /// Of all channels, into `out`.
-  void lookup(const Vec3d& p, float* out) const;
+  void lookup(const GridVec& p, float* out) const;
   /// Means of all channels over the block of cells that holds local point `p` in support(), rounded as BlockMeans says.
-  void block_mean(const Vec3d& p, float* out) const;
+  void block_mean(const GridVec& p, float* out) const;
 
  private:
   friend class BrickGridBuilder;
-  Index3 cell_of(const Vec3d& p) const;
+  Index3 cell_of(const GridVec& p) const;
   float lookup_by_tree(const Line& line, double t) const;
 
   int root_level_ = 0;

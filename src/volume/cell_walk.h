@@ -12,7 +12,7 @@ namespace tyndall {
 
 /// A line o + t d that is not normalised.
 struct LocalLine {
-  Vec3d o, d;
+  GridVec o, d;
 };
 
 using Cell = std::array<int, 3>;

@@ -19,7 +19,7 @@ CoarseOptics means_of(const MediumOptics& optics, float density) {
 float cloud_level(const MediumData& medium) { return std::max(medium.cloud_mean, 1e-4f); }
 
 /// Of a medium that is not homogeneous, at a local point inside its clip box.
-CoarseOptics optics_around(const MediumData& medium, const Vec3d& p) {
+CoarseOptics optics_around(const MediumData& medium, const GridVec& p) {
   if (medium.kind == MediumData::Kind::cloud) return means_of(medium.optics, cloud_level(medium));
   float values[kMaxChannels];
   medium.density.grid.block_mean(p, values);
@@ -48,7 +48,7 @@ double depth_of(const MediumData& medium, const Ray& ray, double t0, double t1, 
   const double step = (end - begin) / count;
   double sum = 0;
   for (int i = 0; i < count; ++i) {
-    Vec3d p = local.at(begin + (i + 0.5) * step);
+    GridVec p = local.at(begin + (i + 0.5) * step);
     for (int axis = 0; axis < 3; ++axis) p[axis] = std::clamp(p[axis], medium.clip.lo[axis], medium.clip.hi[axis]);
     sum += double{optics_around(medium, p).sigma_t};
   }
@@ -65,7 +65,7 @@ CoarseOptics coarse_optics(MediaView media, Vec3 p) {
     if (m.kind == MediumData::Kind::homogeneous) {
       one = means_of(m.optics, 1);
     } else {
-      const Vec3d local = m.density.to_local.point(p);
+      const GridVec local = m.density.to_local.point(p);
       if (!m.clip.contains(local)) continue;
       one = optics_around(m, local);
     }

@@ -61,7 +61,7 @@ Vec3 EmissiveBricks::sample(std::uint32_t brick, Vec3 u) const {
 }
 
 double EmissiveBricks::pdf(std::uint32_t brick, Vec3 p) const {
-  const Vec3d local = data_->to_local.point(p);
+  const GridVec local = data_->to_local.point(p);
   Cell block;
   for (std::size_t i = 0; i < 3; ++i) {
     const double from = local.v[i] - data_->places[brick][i] * kBlocks;

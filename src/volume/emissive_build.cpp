@@ -114,7 +114,7 @@ double BrickFinder::emission_in(const Box3d& box) const {
   const Box3d left = overlap(box, glow_);
   const double size = volume(left);
   if (!(size > 0)) return 0;
-  Vec3d middle;
+  GridVec middle;
   for (int i = 0; i < 3; ++i) middle[i] = 0.5 * (left.lo[i] + left.hi[i]);
   float values[kMaxChannels];
   data_.density.grid.lookup(middle, values);

@@ -32,7 +32,7 @@ class GridRay {
 
   /// For reading the grid along the ray.
   Line line() const { return {{o_[0], o_[1], o_[2], 0}, {d_[0], d_[1], d_[2], 0}}; }
-  Vec3d at(double t) const { return {{o_[0] + t * d_[0], o_[1] + t * d_[1], o_[2] + t * d_[2]}}; }
+  GridVec at(double t) const { return {{o_[0] + t * d_[0], o_[1] + t * d_[1], o_[2] + t * d_[2]}}; }
 
   /// Cells a unit of t.
   double speed() const { return std::sqrt(d_[0] * d_[0] + d_[1] * d_[1] + d_[2] * d_[2]); }
@@ -54,7 +54,7 @@ class GridRay {
 
   /// Go to the root's cell at t; cells outside `box` are never entered.
   void enter(const BrickGrid& grid, const Box3d& box, double t) {
-    const Vec3d p = at(t);
+    const GridVec p = at(t);
     for (std::size_t i = 0; i < 3; ++i) {
       first_[i] = static_cast<std::int64_t>(std::floor(box.lo.v[i]));
       last_[i] = std::max(first_[i], static_cast<std::int64_t>(std::ceil(box.hi.v[i])) - 1);
@@ -102,7 +102,7 @@ class GridRay {
   bool leave(const BrickGrid& grid, double t) {
     const std::int64_t size = BrickGrid::extent(level_);
     const Index3 lo = corner();
-    const Vec3d p = at(t);
+    const GridVec p = at(t);
     std::int64_t moved = 0;
     for (std::size_t i = 0; i < 3; ++i) {
       const std::int64_t inside =
@@ -121,8 +121,8 @@ class GridRay {
  private:
   static constexpr double kInf = std::numeric_limits<double>::infinity();
 
-  Vec3d o_, d_;
-  Vec3d inverse_, never_;  // 1 / d and 0, or 0 and infinity where d is 0
+  GridVec o_, d_;
+  GridVec inverse_, never_;  // 1 / d and 0, or 0 and infinity where d is 0
   Index3 forward_{};       // all bits set where d > 0
   Index3 cell_{}, first_{}, last_{};
   std::size_t exit_axis_ = 0;

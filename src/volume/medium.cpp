@@ -44,7 +44,7 @@ MediumOptics ParticipatingMedium::optics_at(Vec3 p) const {
   const MediumData& m = *data_;
   if (m.kind == MediumData::Kind::homogeneous) return m.optics;
   MediumOptics result{.sigma_a = Rgb(), .sigma_s = Rgb(), .g = m.optics.g};
-  const Vec3d local = m.density.to_local.point(p);
+  const GridVec local = m.density.to_local.point(p);
   if (!m.clip.contains(local)) return result;
   if (m.kind == MediumData::Kind::cloud) {
     const float d =

@@ -41,10 +41,10 @@ Box3d intersect(const Box3d& a, const Box3d& b) {
   return r;
 }
 
-Vec3d to_vec3d(const Index3& i) { return {{static_cast<double>(i[0]), static_cast<double>(i[1]), static_cast<double>(i[2])}}; }
+GridVec to_vec3d(const Index3& i) { return {{static_cast<double>(i[0]), static_cast<double>(i[1]), static_cast<double>(i[2])}}; }
 
 /// World box of the box [lo, hi] + offset of index space, rounded outward.
-Bounds3 world_bounds(const Transform& index_to_world, const Box3d& box, const Vec3d& offset) {
+Bounds3 world_bounds(const Transform& index_to_world, const Box3d& box, const GridVec& offset) {
   Bounds3 result;
   if (box.empty()) return result;
   const Transform::Matrix& m = index_to_world.matrix();
@@ -141,7 +141,7 @@ class CellGrid {
                                what + " (lowest " + std::to_string(found.lowest) + ") were set to 0");
     PlacedGrid placed;
     placed.grid = build_brick_grid(source, {rules, context_.options.float_bricks});
-    Vec3d offset = to_vec3d(placed.grid.origin());
+    GridVec offset = to_vec3d(placed.grid.origin());
     for (int i = 0; i < 3; ++i) offset[i] += static_cast<double>(first[static_cast<std::size_t>(i)]);
     placed.to_local = Affine::of(world_to_index_).minus(offset);
     return placed;
@@ -153,7 +153,7 @@ class CellGrid {
   Transform world_to_index_;
 };
 
-void finish_grid(const Transform& index_to_world, const Box3d& clip, const Vec3d& origin, MediumData& data) {
+void finish_grid(const Transform& index_to_world, const Box3d& clip, const GridVec& origin, MediumData& data) {
   data.kind = MediumData::Kind::grid;
   data.clip = clip;
   data.bounds = world_bounds(index_to_world, clip, origin);
@@ -219,7 +219,7 @@ void build(const RgbGridMedium& rgb, const BuildContext& context, MediumData& da
   data.optics.sigma_a = data.optics.sigma_s = Rgb{rgb.scale};
   const BrickGrid& grid = data.density.grid;
   Box3d box = cells.box(grid);
-  Vec3d origin = to_vec3d(grid.origin());
+  GridVec origin = to_vec3d(grid.origin());
   for (int i = 0; i < 3; ++i) {
     box.lo[i] += 1;
     box.hi[i] += 1;

@@ -227,7 +227,7 @@ class MediumWalk {
     result.sigma_s = medium_->optics.sigma_s * density;
   }
   Vec3 medium_point(double t) const {
-    const Vec3d p = local_.at(t);
+    const GridVec p = local_.at(t);
     return {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])};
   }
 
@@ -248,7 +248,7 @@ class MediumWalk {
       return true;
     }
     const std::int64_t size = BrickGrid::extent(node_level_);
-    const Vec3d p = local_.at(t);
+    const GridVec p = local_.at(t);
     Index3 cell, corner;
     for (std::size_t i = 0; i < 3; ++i) {
       cell[i] = std::clamp(static_cast<std::int64_t>(p.v[i]), node_corner_[i], node_corner_[i] + size - 1);

@@ -57,7 +57,7 @@ std::vector<TrackedRay> track(const ParticipatingMedium& cloud, const Affine& wo
     const Vec3 from = point();
     const Ray ray{from, normalize(point() - from)};
     TrackedRay tracked{GridRay(cloud.data().density.to_local, ray).line(), {}, {}, tentative_collisions(cloud.data(), ray, rng)};
-    const Vec3d o = world_to_index.point(ray.o), d = world_to_index.vector(ray.d);
+    const GridVec o = world_to_index.point(ray.o), d = world_to_index.vector(ray.d);
     for (int i = 0; i < 3; ++i) {
       tracked.o[i] = o[i];
       tracked.d[i] = d[i];

@@ -15,14 +15,14 @@ namespace {
 
 const Index3 kCorners[] = {{0, 0, 0}, {-40, -8, -160}, {4096 - 16, -4096 - 24, 128 - 8}, {-2147483640, 2147483600, 1000000}};
 
-Vec3d index_point(const BrickGrid& grid, const Vec3d& local) {
-  Vec3d p;
+GridVec index_point(const BrickGrid& grid, const GridVec& local) {
+  GridVec p;
   for (int i = 0; i < 3; ++i) p[i] = local[i] + static_cast<double>(grid.origin()[static_cast<std::size_t>(i)]);
   return p;
 }
 
-Vec3d random_local(const BrickGrid& grid, Rng& rng, double margin = 2) {
-  Vec3d p;
+GridVec random_local(const BrickGrid& grid, Rng& rng, double margin = 2) {
+  GridVec p;
   for (int i = 0; i < 3; ++i) {
     const double lo = grid.support().lo[i] - margin, hi = grid.support().hi[i] + margin;
     p[i] = lo + (hi - lo) * rng.uniform_wide();
@@ -45,7 +45,7 @@ TEST_CASE("look-ups agree with the dense oracle, anywhere in index space, for on
       const BrickGrid grid = build_brick_grid(source, {});
       double worst = 0;
       for (int i = 0; i < 20000; ++i) {
-        const Vec3d p = random_local(grid, rng);
+        const GridVec p = random_local(grid, rng);
         float values[kMaxChannels];
         grid.lookup(p, values);
         for (int c = 0; c < channels; ++c)
@@ -65,9 +65,9 @@ TEST_CASE("bricks far apart are found through the tree, without memory for what 
     CHECK(grid.memory_bytes() < 1u << 20);
     double worst = 0;
     for (int i = 0; i < 3000; ++i) {
-      Vec3d index{{10 * rng.uniform_wide() - 1, 10 * rng.uniform_wide() - 1, 10 * rng.uniform_wide() - 1}};
+      GridVec index{{10 * rng.uniform_wide() - 1, 10 * rng.uniform_wide() - 1, 10 * rng.uniform_wide() - 1}};
       const double corner[3][3] = {{0, 0, 0}, {80000, -160000, 8}, {-800, 240, 1 << 20}};
-      Vec3d local;
+      GridVec local;
       for (int axis = 0; axis < 3; ++axis) {
         index[axis] += corner[i % 3][axis];
         local[axis] = index[axis] - static_cast<double>(grid.origin()[static_cast<std::size_t>(axis)]);
@@ -86,7 +86,7 @@ TEST_CASE("a look-up of one channel, of all and along a line are the same") {
   const BrickGrid grid = build_brick_grid(source, {});
   Rng rng(13);
   for (int i = 0; i < 5000; ++i) {
-    const Vec3d p = random_local(grid, rng), d = random_local(grid, rng);
+    const GridVec p = random_local(grid, rng), d = random_local(grid, rng);
     const Line line{{p[0], p[1], p[2], 0}, {d[0] - p[0], d[1] - p[1], d[2] - p[2], 0}};
     float value;
     grid.lookup(p, &value);
@@ -102,9 +102,9 @@ TEST_CASE("float bricks hold voxels exactly") {
   Rng rng(2);
   int different = 0;
   for (int i = 0; i < 20000; ++i) {
-    Vec3d p = random_local(grid, rng, 0);
+    GridVec p = random_local(grid, rng, 0);
     for (double& x : p.v) x = std::round(x);
-    const Vec3d index = index_point(grid, p);
+    const GridVec index = index_point(grid, p);
     const Index3 at{static_cast<std::int64_t>(index[0]), static_cast<std::int64_t>(index[1]),
                     static_cast<std::int64_t>(index[2])};
     different += grid.lookup(p) != static_cast<float>(source.voxel(at)) ? 1 : 0;
@@ -129,7 +129,7 @@ TEST_CASE("16-bit steps err by less than 2^-16 of a brick's range, and zero is e
         const double exact = source.voxel(at);
         lowest = std::min(lowest, exact);
         highest = std::max(highest, exact);
-        const float got = grid.lookup(Vec3d{{double(at[0]) - double(grid.origin()[0]), double(at[1]) - double(grid.origin()[1]),
+        const float got = grid.lookup(GridVec{{double(at[0]) - double(grid.origin()[0]), double(at[1]) - double(grid.origin()[1]),
                                              double(at[2]) - double(grid.origin()[2])}});
         if (exact == 0) CHECK(got == 0);
         worst = std::max(worst, std::abs(got - exact));
@@ -145,10 +145,10 @@ TEST_CASE("a voxel decodes alike in the bricks that share it, but for 2^-16 of t
   Rng rng(3);
   float worst = 0;
   for (int i = 0; i < 20000; ++i) {
-    Vec3d p = random_local(grid, rng, -1);
+    GridVec p = random_local(grid, rng, -1);
     const int axis = static_cast<int>(rng.uniform() * 3);
     p[axis] = std::round(p[axis] / 8) * 8;
-    Vec3d below = p;
+    GridVec below = p;
     below[axis] = std::nextafter(p[axis], -1e9);
     worst = std::max(worst, std::abs(grid.lookup(p) - grid.lookup(below)));
   }
@@ -163,7 +163,7 @@ TEST_CASE("ranges of every node bound what interpolation gives") {
     int violations = 0;
     const int points = corner == kCorners[0] ? 10'000'000 : 1'000'000;
     for (int i = 0; i < points; ++i) {
-      const Vec3d p = random_local(grid, rng, -0.01);
+      const GridVec p = random_local(grid, rng, -0.01);
       const Index3 cell{static_cast<std::int64_t>(p[0]), static_cast<std::int64_t>(p[1]), static_cast<std::int64_t>(p[2])};
       const float value = grid.lookup(p);
       std::uint32_t node = grid.root();
@@ -209,7 +209,7 @@ TEST_CASE("the mean of a node is the mean of its cells") {
   const double size = static_cast<double>(BrickGrid::extent(grid.root_level()));
   for (double z = 0.5; z < size; ++z)
     for (double y = 0.5; y < size; ++y)
-      for (double x = 0.5; x < size; ++x, ++count) sum += grid.lookup(Vec3d{{x, y, z}});
+      for (double x = 0.5; x < size; ++x, ++count) sum += grid.lookup(GridVec{{x, y, z}});
   CHECK(grid.range().mean == doctest::Approx(sum / count).epsilon(1e-4));
 }
 
@@ -220,7 +220,7 @@ TEST_CASE("the inside of boxes of one value costs no voxels") {
   CHECK(grid.memory_bytes() < 50u << 20);  // the faces alone; 512^3 voxels would take 270 MB
   Rng rng(4);
   for (int i = 0; i < 1000; ++i) {
-    const Vec3d p = random_local(grid, rng);
+    const GridVec p = random_local(grid, rng);
     CHECK(grid.lookup(p) == doctest::Approx(source.lookup(index_point(grid, p))));
   }
 }
@@ -243,7 +243,7 @@ TEST_CASE("rules: negative, not finite, outside the clip box") {
   CHECK(inspect(source, rules).non_finite == 0);
   grid = build_brick_grid(source, {rules, false});
   const auto at = [&](double x, double y, double z) {
-    return grid.lookup(Vec3d{{x - double(grid.origin()[0]), y - double(grid.origin()[1]), z - double(grid.origin()[2])}});
+    return grid.lookup(GridVec{{x - double(grid.origin()[0]), y - double(grid.origin()[1]), z - double(grid.origin()[2])}});
   };
   CHECK(at(3, 0, 0) == 3);
   CHECK(at(3, 0, 3) == 3);
@@ -258,7 +258,7 @@ TEST_CASE("a grid without any value other than zero is empty") {
   source.add_leaf({64, 0, 0}, [](std::int64_t, std::int64_t, std::int64_t) { return 0.0f; });
   const BrickGrid grid = build_brick_grid(source, {});
   CHECK(grid.empty());
-  CHECK(grid.lookup(Vec3d{{1, 1, 1}}) == 0);
+  CHECK(grid.lookup(GridVec{{1, 1, 1}}) == 0);
   CHECK(grid.range().max == 0);
 }
 

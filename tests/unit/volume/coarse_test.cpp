@@ -17,7 +17,7 @@ namespace {
 
 constexpr int kCells = BlockMeans::kCells;
 
-Vec3d cell_centre(const Index3& cell) { return {{double(cell[0]) + 0.5, double(cell[1]) + 0.5, double(cell[2]) + 0.5}}; }
+GridVec cell_centre(const Index3& cell) { return {{double(cell[0]) + 0.5, double(cell[1]) + 0.5, double(cell[2]) + 0.5}}; }
 
 /// Mean of a trilinear grid over the cells of a box: that of the values at their centres.
 double brute_mean(const BrickGrid& grid, const Index3& lo, std::int64_t side, int channel) {

@@ -42,7 +42,7 @@ TEST_CASE("kernels: rays and boxes") {
     const auto [begin, end] = ray.clip(box, t0, t1);
     if (!(begin < end)) return Fault();
     if (!(begin >= t0 && end <= t1 && end < kInfinity)) return holds(false, o, d, t0, t1, begin, end);
-    const Vec3d middle = ray.at(0.5 * (begin + end));
+    const GridVec middle = ray.at(0.5 * (begin + end));
     double off = 0, size = 0;
     for (int i = 0; i < 3; ++i) {
       off = std::max({off, box.lo[i] - middle[i], middle[i] - box.hi[i]});

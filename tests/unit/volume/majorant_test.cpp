@@ -68,7 +68,7 @@ int violations_at(const BrickGrid& grid, const Index3& corner, Rng& rng, bool ad
 
 /// At a point anywhere in the volume's box, through the general look-up: empty space must be empty.
 int violations_anywhere(const BrickGrid& grid, Rng& rng) {
-  Vec3d p;
+  GridVec p;
   for (int i = 0; i < 3; ++i) {
     const double lo = grid.support().lo[i], hi = grid.support().hi[i];
     p[i] = lo + (hi - lo) * rng.uniform_wide();

@@ -50,7 +50,7 @@ class OracleSource : public VoxelSource {
     return 0;
   }
   /// Trilinear at an index-space point.
-  double lookup(const Vec3d& p, int channel = 0) const {
+  double lookup(const GridVec& p, int channel = 0) const {
     Index3 base;
     double f[3];
     for (std::size_t i = 0; i < 3; ++i) {

@@ -46,8 +46,8 @@ Tiling walk_along(const ParticipatingMedium& medium, const Ray& ray, double t0, 
     for (int i = 0; i < 2; ++i) {
       const double t = walk.t() + (walk.t_end() - walk.t()) * (i == 0 ? rng.uniform_wide() : rng.uniform() < 0.5f);
       if (walk.rate() == 0) {
-        const Vec3d p = medium.data().density.to_local.point(ray.o), d = medium.data().density.to_local.vector(ray.d);
-        const Vec3d q{{p[0] + t * d[0], p[1] + t * d[1], p[2] + t * d[2]}};
+        const GridVec p = medium.data().density.to_local.point(ray.o), d = medium.data().density.to_local.vector(ray.d);
+        const GridVec q{{p[0] + t * d[0], p[1] + t * d[1], p[2] + t * d[2]}};
         const float density = medium.data().clip.contains(q) ? medium.data().density.grid.lookup(q) : 0;
         if (Mode == WalkMode::majorant) result.missed += density > 1e-5f ? 1 : 0;
         continue;
