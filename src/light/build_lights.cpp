@@ -12,6 +12,14 @@ namespace {
 
 using Kind = Lights::Parts::Kind;
 
+Bounds3 box_of(std::span<const Emitter> emitters) {
+  Bounds3 box;
+  for (const Emitter& e : emitters) {
+    for (std::uint32_t k = 0; k < e.size(); ++k) box.expand(e.box(k));
+  }
+  return box;
+}
+
 class Builder {
  public:
   explicit Builder(const LightBuildOptions& options) : parts_(std::make_unique<Lights::Parts>()), options_(options) {
@@ -36,6 +44,7 @@ class Builder {
   void add_selector(LightStrategy strategy, SelectionInput input);
   void add_selectors_of_surfaces(SelectionInput input);
   void count(const SelectionInput& input);
+  void enclose();
 
   std::unique_ptr<Lights::Parts> parts_;
   LightBuildOptions options_;
@@ -240,6 +249,19 @@ void Builder::count(const SelectionInput& input) {
   }
 }
 
+void Builder::enclose() {
+  Bounds3& all = parts_->near_box;
+  for (const PointEmitter& p : parts_->points) all.expand(p.position());
+  for (const SpotEmitter& s : parts_->spots) all.expand(s.position());
+  all.expand(box_of(parts_->emitters));
+  std::vector<Bounds3> objects;
+  for (const EmitterObject& o : parts_->instanced.objects()) objects.push_back(box_of(o.emitters()));
+  for (const EmitterInstance& i : parts_->instanced.instances()) {
+    const Bounds3& box = objects[i.object];
+    for (int k = 0; k < 8 && !box.empty(); ++k) all.expand(to_vec3(i.to_world.point(Vec3d(box.corner(k)))));
+  }
+}
+
 void Builder::add_selector(LightStrategy strategy, SelectionInput input) {
   const auto start = std::chrono::steady_clock::now();
   parts_->selectors.push_back(make_selector(strategy, std::move(input)));
@@ -264,6 +286,7 @@ Lights Builder::finish(const Bounds3& scene_bounds) {
   }
   SelectionInput input = selection_input();
   count(input);
+  enclose();
   add_selectors_of_surfaces(input);
   const auto& strategies = options_.strategies;
   for (std::size_t i = 0; i + 1 < strategies.size(); ++i) add_selector(strategies[i], input);

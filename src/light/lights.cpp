@@ -53,6 +53,7 @@ std::size_t Lights::size() const { return parts_->lights.size() + parts_->instan
 std::size_t Lights::sought() const { return size() - parts_->even_skies; }
 const LightStats& Lights::stats() const { return parts_->stats; }
 double Lights::power(LightId light) const { return parts_->power(light); }
+const Bounds3& Lights::near_box() const { return parts_->near_box; }
 std::span<const LightId> Lights::infinite() const { return parts_->infinite; }
 LightId Lights::first_light(std::size_t emitter_shape) const { return parts_->first_light[emitter_shape]; }
 

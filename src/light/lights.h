@@ -113,6 +113,8 @@ class Lights {
   LightId first_volume() const;
   double power(LightId light) const;  ///< W, mean of the channels
   LightPlace place(LightId light) const;
+  /// Encloses all lights of surfaces and points; empty where all are at infinity. Glowing media are not in it.
+  const Bounds3& near_box() const;
   const LightStats& stats() const;
   std::size_t memory_bytes() const;  ///< selectors included
 

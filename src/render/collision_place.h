@@ -10,4 +10,7 @@ namespace tyndall {
 /// surface keeps as far away as rays that leave it start.
 float collision_place(const Geometry& geometry, const Ray& ray, const SpanPart& part, const std::optional<SurfaceHit>& hit, float t);
 
+/// Farther than this from all boundaries on the ray, a collision at `t` stays where it is.
+float collision_margin(const Ray& ray, float t);
+
 }  // namespace tyndall

@@ -33,8 +33,10 @@ Rgb visibility(const LightContext& context, const MediaState& media, Vec3 origin
 }
 
 LightSearch light_search(const LightContext& context, const Vertex& vertex) {
-  LightSearch search{.query = vertex.light_query(), .cut = {}};
-  if (!context.world.lights.sought() || !vertex.has_smooth() || context.selector.exhaustive()) return search;
+  LightSearch search;
+  if (!context.world.lights.sought()) return search;
+  search.query = vertex.light_query();
+  if (!vertex.has_smooth() || context.selector.exhaustive()) return search;
   const auto [candidates, shadow_rays] = counts_at_vertex(context, search.query);
   search.cut = context.selector.cut(search.query, {.candidates = candidates, .splitting = context.settings.splitting});
   search.shadow_rays = shadow_rays;

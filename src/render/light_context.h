@@ -19,4 +19,7 @@ struct LightContext {
 /// What the ray after it meets counts no more, but for lights.
 inline bool is_last_event(const LightContext& context) { return context.event + 1 >= context.settings.max_depth; }
 
+/// It is the only one of its path.
+inline bool is_only_event(const LightContext& context) { return context.event == 0 && is_last_event(context); }
+
 }  // namespace tyndall

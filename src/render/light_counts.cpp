@@ -34,16 +34,13 @@ LightCounts among(std::size_t lights, LightCounts counts) {
   return {std::min(counts.candidates, n), std::min(counts.shadow_rays, (n + 1) / 2)};
 }
 
-/// The event is the only one of its path.
-bool only_event(const LightContext& context) { return context.event == 0 && is_last_event(context); }
-
 bool mostly_glossy(const PointQuery& query) { return query.glossy() && query.diffuse < 0.5f; }
 
 }  // namespace
 
 LightCounts counts_at_vertex(const LightContext& context, const PointQuery& query) {
   const Lights& lights = context.world.lights;
-  if (only_event(context)) {
+  if (is_only_event(context)) {
     // From one point a light without extent is always the same.
     LightCounts counts = kOnlyVertex;
     if (lights.stats().points == lights.stats().lights) counts.candidates = among(lights.sought(), counts).candidates;
@@ -54,7 +51,7 @@ LightCounts counts_at_vertex(const LightContext& context, const PointQuery& quer
 
 SpanCounts counts_along_span(const LightContext& context, float scattered, float depth) {
   if (scattered < kThin) return chosen(context.settings, SpanCounts{{1, 1}});
-  if (only_event(context)) return chosen(context.settings, depth > kDense ? kOnlyDenseSpan : kOnlySpan);
+  if (is_only_event(context)) return chosen(context.settings, depth > kDense ? kOnlyDenseSpan : kOnlySpan);
   const SpanCounts counts = context.event == 0 ? kCameraSpan : kLaterSpan;
   return chosen(context.settings, SpanCounts{among(context.world.lights.sought(), counts), counts.distances});
 }

@@ -1,11 +1,14 @@
 #include "render/path.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
 #include "math/hash.h"
 #include "render/collision_place.h"
 #include "render/fire_light.h"
+#include "render/span_far.h"
+#include "volume/homogeneous.h"
 
 namespace tyndall {
 namespace {
@@ -85,6 +88,9 @@ bool Path::survive_roulette() {
 /// Trace the ray to where it scatters next, adding the light it meets. Nothing: it left the scene or was absorbed.
 std::optional<Vertex> Path::next_vertex() {
   ++context_.counters.rays;
+  if (context_.world.has_media()) {
+    if (auto collision = collide_untraced()) return collision;
+  }
   const Trace trace = context_.world.geometry.trace(ray_, 0, kInfinity);
   if (depth_ == 0) record_camera_ray(trace);
   if (context_.world.has_media()) {
@@ -104,13 +110,38 @@ std::optional<Vertex> Path::next_vertex() {
   return vertex;
 }
 
+/// In media that are the same everywhere, and whose lights are chosen at collisions, the collision is drawn first: the ray
+/// need not be traced beyond it. Nothing: something is in between, or this is not such a place.
+std::optional<Vertex> Path::collide_untraced() {
+  span_search_.reset();
+  lit_at_collisions_.reset();
+  const World::Parts& world = context_.world;
+  const Interval inside{0, exit_distance(media_.bounds(world.geometry.groups()), ray_), media_.active(world.geometry.groups(), world.media)};
+  if (inside.media.empty()) return std::nullopt;
+  context_.event = depth_;
+  lit_at_collisions_ = !seeks_along_spans(context_) || collisions_suffice(context_, ray_, inside);
+  const MediaView media(inside.media.data(), inside.media.size());
+  const bool emissive = std::any_of(media.begin(), media.end(), [](const ParticipatingMedium* m) { return m->emissive(); });
+  if (!*lit_at_collisions_ || !all_homogeneous(media) || emissive || depth_ == 0 || depth_ >= limits_.max_depth) return std::nullopt;
+
+  begin(Step::fly);
+  Rng rng = context_.sampler.stream();
+  const float u = context_.sampler.next_1d();
+  const Flight flight = free_flight(media, ray_, 0, kInfinity, beta_, u, rng, context_.counters.tracking);
+  const float margin = collision_margin(ray_, flight.t);
+  if (!flight.collided || flight.t < margin || flight.t > inside.t1) return std::nullopt;
+  const auto crossings = world.geometry.trace_shadow(ray_, 0, flight.t + margin);
+  if (!crossings || !crossings->empty()) return std::nullopt;
+  beta_ *= flight.weight;
+  return Vertex(Vertex::InMedium{ray_.at(flight.t), flight.phase}, -ray_.d, media_);
+}
+
 /// Go through the media before the ray's end. A vertex: the path collides there; else it arrives with its weight in
 /// beta_.
 std::optional<Vertex> Path::pass_media(const Trace& trace) {
   const Span span = make_span(context_.world.media_context(), media_, ray_, trace, context_.counters.parity_errors);
   if (depth_ == 0 && limits_.want_transmittance) record_transmittance(span);
   media_ = span.end;
-  span_search_.reset();
   if (span.empty()) return std::nullopt;
   // After the last event only what the ray meets at its end counts: no collision need be drawn.
   if (depth_ >= limits_.max_depth) {
@@ -121,9 +152,14 @@ std::optional<Vertex> Path::pass_media(const Trace& trace) {
   return fly(span, trace);
 }
 
+bool Path::lit_at_collisions(const Span& span) const {
+  return lit_at_collisions_ ? *lit_at_collisions_ : !seeks_along_spans(context_) || collisions_suffice(context_, span);
+}
+
 /// Next-event estimation for the whole span.
 void Path::gather(const Span& span) {
   context_.event = depth_;
+  if (lit_at_collisions(span)) return;
   begin(Step::gather);
   span_search_ = span_search(context_, span);
   if (!span_search_ || !pairs_along_spans(context_.settings)) return;

@@ -28,8 +28,10 @@ class Path {
   void begin(Step step);
 
   std::optional<Vertex> next_vertex();
+  std::optional<Vertex> collide_untraced();
   std::optional<Vertex> pass_media(const Trace& trace);
   void gather(const Span& span);
+  bool lit_at_collisions(const Span& span) const;
   std::optional<Vertex> fly(const Span& span, const Trace& trace);
   void dim(const Span& span);
   Rgb light_at(const Vertex& vertex);
@@ -63,6 +65,7 @@ class Path {
   std::optional<SpanEvent> span_event_;  ///< in place of search_ when the event's lights are chosen along its span
 
   // The span that the path is in.
+  std::optional<bool> lit_at_collisions_;  ///< what is scattered in it, where the ray starts in media: known before it is traced
   std::optional<SpanSearch> span_search_;
   float collision_t_ = 0, collision_density_ = 0;
 };

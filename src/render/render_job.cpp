@@ -65,9 +65,7 @@ RenderSettings resolved(RenderSettings settings, const World::Parts& world) {
   world.lights.selector(settings.lights);  // throws when it was not built
   if (settings.emission == EmissionStrategy::lights && !world.has_fire)
     throw Error(Failure::usage, "the world was not built for emission as lights; set BuildSettings::fire");
-  const bool vertex = settings.media == MediaStrategy::vertex;
-  if (settings.distance == DistanceStrategy::automatic)
-    settings.distance = vertex ? DistanceStrategy::tracking : DistanceStrategy::profile;
+  if (settings.media == MediaStrategy::vertex) settings.distance = DistanceStrategy::tracking;
   return settings;
 }
 

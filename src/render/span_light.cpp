@@ -191,6 +191,10 @@ float mean_cosine(const Span& span) {
 
 }  // namespace
 
+bool seeks_along_spans(const LightContext& context) {
+  return context.settings.media != MediaStrategy::vertex && context.world.lights.sought() > 0;
+}
+
 bool pairs_along_spans(const RenderSettings& settings) {
   return settings.media != MediaStrategy::vertex && settings.distance != DistanceStrategy::tracking;
 }
@@ -201,7 +205,7 @@ bool tracks(const RenderSettings& settings) {
 
 std::optional<SpanSearch> span_search(const LightContext& context, const Span& span) {
   const RenderSettings& settings = context.settings;
-  if (settings.media == MediaStrategy::vertex || !context.world.lights.sought() || span.empty()) return std::nullopt;
+  if (!seeks_along_spans(context) || span.empty()) return std::nullopt;
   const auto profile = SpanProfile::of(span);
   if (!profile) return std::nullopt;
   SpanSearch search{.query = {}, .cut = {}, .profile = *profile, .g = mean_cosine(span)};

@@ -52,7 +52,8 @@ SpanDensities span_fire_densities(const LightContext& context, const SpanEvent& 
 /// Next-event estimation at a collision, with the span's choice of lights: the part of `--distance tracking` and `both`.
 Rgb collision_light(const LightContext& context, const Vertex& vertex, const SpanEvent& event, Rgb beta);
 
-/// Whether settings choose distances by the light; whether at collisions.
+/// Whether settings choose lights for stretches; whether distances by the light; whether at collisions.
+bool seeks_along_spans(const LightContext& context);
 bool pairs_along_spans(const RenderSettings& settings);
 bool tracks(const RenderSettings& settings);
 

@@ -71,6 +71,28 @@ TEST_CASE("a crop has the bits of the whole picture") {
   CHECK(same);
 }
 
+// In even media whose lights are chosen at collisions a ray is traced as far as its collision only, unless they glow: here so
+// faintly that nothing is left of it in a float.
+TEST_CASE("rays that end at their collision make the picture that rays traced to their end make") {
+  const auto scene = [](float Le) {
+    const Coefficients thin{.sigma_a = {0.2f, 0, 0.1f}, .sigma_s = {2, 1, 0.6f}, .g = 0.5f, .Le = Rgb(Le)};
+    const Coefficients dense{.sigma_a = {0.1f, 0, 1}, .sigma_s = {20, 12, 30}, .g = -0.3f, .Le = Rgb(Le)};
+    return view(camera()) + environment(0.3f) + distant_light({1, 2, -1}, 3) + diffuse_plane(1.8f, 4, 0.6f) +
+           block("Material \"dielectric\"\nShape \"sphere\" \"float radius\" 0.4\n") + homogeneous("thin", thin) + homogeneous("dense", dense) +
+           medium_box("thin", "", kBox) + medium_box("dense", "thin", {{-0.9f, -0.9f, -0.9f}, {0.3f, 0.5f, 0.9f}}) +
+           medium_box("dense", "", {{0.2f, -1.4f, -0.5f}, {1.4f, 0.4f, 0.5f}});
+  };
+  constexpr int kSpp = kSanitized ? 2 : 16;
+  Subject ended(scene(0)), traced(scene(1e-30f));
+  const Image a = ended.render(kSpp, 3), b = traced.render(kSpp, 3);
+  bool same = true;
+  for (int y = 0; y < a.height(); ++y) {
+    for (int x = 0; x < a.width(); ++x) same = same && a.rgb(x, y) == b.rgb(x, y);
+  }
+  CHECK(same);
+  CHECK(ended.faults() + traced.faults() == "");
+}
+
 // All the statistics of these tests rest on it: pixels, and renders with different seeds, are independent.
 TEST_CASE("the spread between renders is what the spread between pixels says") {
   const std::string scene = view({.eye = {0.1f, 0.2f, -2}, .look = {0.1f, 0.2f, 0}, .max_depth = 3}) + environment(1) +

@@ -111,9 +111,12 @@ TEST_CASE("emitters of instances: power, place, samples and densities are those 
     CHECK(shared.stats().emitters == alone.stats().emitters);
     CHECK(shared.stats().dark == alone.stats().dark);
     CHECK(shared.stats().power == doctest::Approx(alone.stats().power).epsilon(1e-5));
+    const Bounds3& around = alone.near_box();
+    for (int k = 0; k < 8; ++k) REQUIRE(shared.near_box().contains(around.center() + (around.corner(k) - around.center()) * 0.999f));
     Rng rng(3);
     int lit = 0;
     for (const auto& [s, a] : same_lights(stage, shared, alone)) {
+      REQUIRE(around.contains(*alone.place(a).center));
       REQUIRE(shared.power(s) == doctest::Approx(alone.power(a)).epsilon(1e-5));
       const LightPlace at = shared.place(s), there = alone.place(a);
       REQUIRE(length(*at.center - *there.center) <= 0.3f * (at.radius + there.radius));

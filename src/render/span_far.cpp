@@ -1,0 +1,60 @@
+#include "render/span_far.h"
+
+#include <algorithm>
+#include <span>
+
+#include "render/fire_light.h"
+#include "volume/coarse.h"
+#include "volume/homogeneous.h"
+
+namespace tyndall {
+namespace {
+
+/// Lights this many times as far from the middle of a span as its ends are.
+constexpr float kFar = 1.5f;
+/// Optical depths from which collisions do. Pairs cost more in media that are read than in those known in closed form.
+/// Efficiency against pairs by processor time and relMSE without the worst 1 %, one light: a cloud 1.5, a grid 1.25,
+/// homogeneous media of depth 2 to 10 1.2 to 1.4 (0.85 from depth 0.5 on), a thin plume 0.95; under a sky the picture of a
+/// cloud takes half the time for 1.1 times the error.
+constexpr float kDeep = 0.5f, kDeepUniform = 2;
+constexpr int kReads = 4;
+
+float distance(Vec3 p, const Bounds3& box) { return length(max(max(box.min - p, p - box.max), Vec3{0, 0, 0})); }
+
+bool far_from(const Bounds3& lights, const Ray& ray, float t0, float t1) {
+  if (lights.empty()) return true;
+  const float half = 0.5f * (t1 - t0);
+  return half < kInfinity && distance(ray.at(t0 + half), lights) > kFar * half;
+}
+
+MediaView view(const Interval& part) { return {part.media.data(), part.media.size()}; }
+
+template <typename Parts>
+bool deep(const Ray& ray, const Parts& parts) {
+  const bool closed = std::all_of(parts.begin(), parts.end(), [](const Interval& part) { return all_homogeneous(view(part)); });
+  float depth = 0;
+  for (const Interval& part : parts) {
+    depth += coarse_optical_depth(view(part), ray, part.t0, part.t1, kReads);
+    if (depth > (closed ? kDeepUniform : kDeep)) return true;
+  }
+  return false;
+}
+
+template <typename Parts>
+bool suffice(const LightContext& context, const Ray& ray, const Parts& parts) {
+  const RenderSettings& settings = context.settings;
+  const bool by_default = settings.media == MediaStrategy::product && settings.distance == DistanceStrategy::automatic;
+  if (!by_default || seeks_fire(context)) return false;
+  if (is_only_event(context)) return false;  // it looks at many pairs
+  return far_from(context.world.lights.near_box(), ray, parts.front().t0, parts.back().t1) && deep(ray, parts);
+}
+
+}  // namespace
+
+bool collisions_suffice(const LightContext& context, const Span& span) { return suffice(context, span.ray, span.parts); }
+
+bool collisions_suffice(const LightContext& context, const Ray& ray, const Interval& inside) {
+  return suffice(context, ray, std::span(&inside, 1));
+}
+
+}  // namespace tyndall

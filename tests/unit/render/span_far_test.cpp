@@ -1,0 +1,77 @@
+#include "render/span_far.h"
+
+#include <doctest/doctest.h>
+
+#include "light/lights.h"
+#include "sphere_scene.h"
+
+namespace tyndall {
+namespace {
+
+/// A world with the lights of `text`, asked about stretches of homogeneous media on the z axis from -1 on.
+/// All in the units of the scene.
+class Asked {
+ public:
+  explicit Asked(const std::string& text) : world_(test::world_of("Camera \"perspective\"\nWorldBegin\n" + text, {})) {}
+
+  /// A stretch of `length` from there on, in two parts.
+  bool suffice(float sigma_s, float length = 2, const RenderSettings& settings = {}, int event = 1) {
+    const float unit = world_.parts().unit;
+    std::vector<std::string> notes;
+    Medium description;
+    description.kind = HomogeneousMedium{};
+    description.optics.sigma_a = Rgb(0.0f);
+    description.optics.sigma_s = Rgb(sigma_s * unit);
+    const ParticipatingMedium medium = build_medium(description, {}, notes);
+    Span span;
+    span.ray = {world_.parts().to_user.inverse().point({0, 0, -1}), {0, 0, 1}};
+    span.t_end = length / unit;
+    for (const auto& [t0, t1] : {std::pair{0.0f, 0.5f}, {0.5f, length}}) {
+      SpanPart& part = span.parts.emplace_back();
+      part.t0 = t0 / unit;
+      part.t1 = t1 / unit;
+      part.media.push_back(&medium);
+    }
+    return collisions_suffice({world_.parts(), world_.parts().lights.selector(settings.lights), settings, sampler_, counters_, event}, span);
+  }
+
+ private:
+  World world_;
+  Sampler sampler_{{0, 0, 0, 0}};
+  Counters counters_;
+};
+
+constexpr const char* kSun = "LightSource \"distant\"\n";
+constexpr const char* kLamp = "LightSource \"point\" \"point3 from\" [10 0 0]\n";
+constexpr const char* kLampWithin = "LightSource \"point\" \"point3 from\" [0.5 0 0]\n";
+
+TEST_CASE("collisions suffice in dense stretches, all lights far from them") {
+  CHECK(Asked(kSun).suffice(2));
+  CHECK_FALSE(Asked(kSun).suffice(0.9f));
+  CHECK(Asked(kLamp).suffice(2));
+  CHECK_FALSE(Asked(kLamp).suffice(2, 20));  // beside it now
+  CHECK_FALSE(Asked(kLampWithin).suffice(2));
+  CHECK_FALSE(Asked(std::string(kSun) + kLamp + kLampWithin).suffice(2));
+  CHECK(Asked("Translate 0 0 30\nAreaLightSource \"diffuse\"\nShape \"sphere\" \"float radius\" 10\n").suffice(2));
+  CHECK_FALSE(Asked("Translate 0 0 11\nAreaLightSource \"diffuse\"\nShape \"sphere\" \"float radius\" 10\n").suffice(2));
+}
+
+TEST_CASE("a stretch without end is near every light but those at infinity") {
+  CHECK(Asked(kSun).suffice(1, kInfinity));
+  CHECK_FALSE(Asked(kLamp).suffice(1, kInfinity));
+}
+
+TEST_CASE("methods that are asked for are not replaced, nor the many pairs of paths of one event") {
+  Asked sun(kSun);
+  RenderSettings profile, closest, direct;
+  profile.distance = DistanceStrategy::profile;
+  closest.media = MediaStrategy::closest;
+  direct.max_depth = 1;
+  CHECK_FALSE(sun.suffice(2, 2, profile));
+  CHECK_FALSE(sun.suffice(2, 2, closest));
+  CHECK_FALSE(sun.suffice(2, 2, direct, 0));
+  CHECK(sun.suffice(2, 2, {}, 0));
+}
+
+}  // namespace
+}  // namespace tyndall
