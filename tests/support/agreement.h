@@ -27,7 +27,7 @@ using Expected = std::array<std::optional<double>, 3>;
 inline Expected grey(double value) { return {value, std::nullopt, std::nullopt}; }
 
 /// The image mean of `scene` agrees with `expected` at d. CHECKs, and prints what was measured in a line a channel.
-/// Returns what was measured.
+/// Returns what was measured: nothing when TYNDALL_ONLY is set and no part of `name`.
 Measured check_agrees(const std::string& name, const std::string& scene, const Expected& expected, const Agreement& how = {});
 
 /// The image mean of `scene`, expected to be 0, is at most `bound` plus 4 standard errors, themselves at most bound / 4.
