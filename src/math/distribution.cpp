@@ -80,13 +80,25 @@ PiecewiseConstant1D::PiecewiseConstant1D(std::span<const float> weights) : densi
     cdf_[i + 1] = static_cast<float>(std::min(running / sum, 1.0));
   }
   if (n > 0) cdf_[n] = 1;
+  guide_.resize((n + kGuided - 1) / kGuided);
+  for (std::size_t g = 0, cell = 0; g < guide_.size(); ++g) {
+    const float u = static_cast<float>(g) / static_cast<float>(guide_.size());
+    while (cell + 1 < n && cdf_[cell + 1] <= u) ++cell;
+    guide_[g] = static_cast<std::uint32_t>(cell);
+  }
+}
+
+std::size_t PiecewiseConstant1D::last_begun(float u) const {
+  std::size_t cell = guide_[cell_of(u, guide_.size())];
+  while (cdf_[cell] > u) --cell;  // where rounding chose the guide
+  while (cdf_[cell + 1] <= u) ++cell;
+  return cell;
 }
 
 PiecewiseConstant1D::Sample PiecewiseConstant1D::sample(float u) const {
   // The last cell that begins at or before u; cells of weight 0 have no width there. Only the end of the table needs
   // care: rounding may leave a sliver of it to a cell of weight 0.
-  const auto above = std::upper_bound(cdf_.begin(), cdf_.end(), std::clamp(u, 0.0f, kOneMinusEpsilon));
-  auto cell = static_cast<std::size_t>(above - cdf_.begin()) - 1;
+  std::size_t cell = last_begun(std::clamp(u, 0.0f, kOneMinusEpsilon));
   while (cell > 0 && !(density_[cell] > 0)) --cell;
   const float width = cdf_[cell + 1] - cdf_[cell];
   const float within = width > 0 ? std::clamp((u - cdf_[cell]) / width, 0.0f, 1.0f) : 0.5f;

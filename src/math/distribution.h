@@ -59,11 +59,15 @@ class PiecewiseConstant1D {
 
   std::size_t size() const { return density_.size(); }
   double total() const { return total_; }  ///< sum of the weights
-  std::size_t memory_bytes() const { return (density_.capacity() + cdf_.capacity()) * sizeof(float); }
+  std::size_t memory_bytes() const { return (density_.capacity() + cdf_.capacity() + guide_.capacity()) * sizeof(float); }
 
  private:
+  static constexpr std::size_t kGuided = 4;  ///< cells for each guide
+  std::size_t last_begun(float u) const;     ///< the last cell that begins at or before u
+
   std::vector<float> density_;
-  std::vector<float> cdf_;  ///< size() + 1 values from 0 to 1
+  std::vector<float> cdf_;            ///< size() + 1 values from 0 to 1
+  std::vector<std::uint32_t> guide_;  ///< where last_begun() starts to look, for equal parts of [0, 1) [Chen and Asau 1974]
   double total_ = 0;
 };
 
