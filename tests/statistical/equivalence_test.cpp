@@ -56,7 +56,7 @@ TEST_CASE("constant density: homogeneous, grid of samples, grid of voxels, and t
   half.sigma_s = kSmoke.sigma_s * 0.5f;
   const ConstantVdb file({{-1.3f, -1.3f, -1.3f}, {1.3f, 1.3f, 1.3f}}, 0.1f);
   const std::string box = medium_box("m", "", kBox);
-  check_same_paired("constant",
+  check_all_agree("constant",
              {{"homogeneous", room() + homogeneous("m", kSmoke) + box},
               {"uniformgrid", room() + uniform_grid("m", kSmoke, constant) + box},
               {"vdb", room() + vdb("m", kSmoke, file.path()) + box},
@@ -68,7 +68,7 @@ TEST_CASE("a wispy grid in one piece and as two overlapping halves with differen
   Coefficients half = kSmoke;
   half.sigma_a = kSmoke.sigma_a * 0.5f;
   half.sigma_s = kSmoke.sigma_s * 0.5f;
-  check_same_paired("wispy halves",
+  check_all_agree("wispy halves",
              {{"one", room() + uniform_grid("m", kSmoke, wispy_grid()) + medium_box("m", "", kBox)},
               {"two", room() + uniform_grid("a", half, wispy_grid()) + uniform_grid("b", half, wispy_grid()) +
                           medium_box("a", "", kBox) + medium_box("b", "", kBox)}});
@@ -116,7 +116,7 @@ TEST_CASE("transmittance estimators") {
   dense.sigma_a = kSmoke.sigma_a * 3;
   dense.sigma_s = kSmoke.sigma_s * 3;
   const std::string scene = room() + uniform_grid("m", dense, wispy_grid()) + medium_box("m", "", kBox);
-  check_same_paired("transmittance", {{"residual", scene, {.transmittance = TransmittanceStrategy::residual}},
-                               {"ratio", scene, {.transmittance = TransmittanceStrategy::ratio}},
-                               {"delta", scene, {.transmittance = TransmittanceStrategy::delta}}});
+  check_all_agree("transmittance", scene, {{"residual", {.transmittance = TransmittanceStrategy::residual}},
+                                           {"ratio", {.transmittance = TransmittanceStrategy::ratio}},
+                                           {"delta", {.transmittance = TransmittanceStrategy::delta}}});
 }

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "support/measure.h"
+#include "support/pooled_renders.h"
 
 namespace tyndall::test {
 
@@ -33,21 +33,14 @@ Measured check_agrees(const std::string& name, const std::string& scene, const E
 /// The image mean of `scene`, expected to be 0, is at most `bound` plus 4 standard errors, themselves at most bound / 4.
 void check_vanishes(const std::string& name, const std::string& scene, double bound, const Agreement& how = {});
 
-struct Contender {
-  std::string name, scene;
-  Variant variant = {};
-};
 /// All contenders render the same picture: image means pairwise at d, channel by channel, and their 8x8 blocks by
 /// Welch's test at family level 1e-3.
 void check_same(const std::string& name, const std::vector<Contender>& contenders, const Agreement& how = {});
 
-/// The same, with the same seeds for all contenders: noise that they share drops out of their differences, whose errors
-/// are measured as such. For contenders that are alike in cost and noise, as all are given the same number of samples.
-void check_same_paired(const std::string& name, const std::vector<Contender>& contenders, const Agreement& how = {});
-
-/// All variants render the same picture of `scene`: each agrees at d with the mean of the others, channel by channel and by
-/// Welch's test of 8x8 blocks at family level 1e-3. Rendered with the same seeds, as in check_same_paired, each until its
-/// own difference is known. For many: the work grows with their number, not its square.
+/// The same, with the same seeds for all contenders, each held against the mean of the others: noise that they share drops
+/// out of the differences, whose errors are measured as such. Each is rendered until its own difference is known, so the work
+/// grows with their number, not its square. Two of three may differ by 4/3 of what one may from the mean of the others.
+void check_all_agree(const std::string& name, const std::vector<Contender>& contenders, const Agreement& how = {});
 void check_all_agree(const std::string& name, const std::string& scene, const std::vector<std::pair<std::string, Variant>>& variants,
                      const Agreement& how = {});
 
