@@ -17,17 +17,17 @@ namespace {
 
 constexpr Bounds3 kBox{{-1, -1, -1}, {1, 1, 1}};
 
-View camera() { return {.eye = {1.6f, 1.2f, -3.2f}, .look = {0, -0.1f, 0}, .fov_degrees = 42, .resolution = 40, .max_depth = 8}; }
+View camera(int resolution) { return {.eye = {1.6f, 1.2f, -3.2f}, .look = {0, -0.1f, 0}, .fov_degrees = 42, .resolution = resolution, .max_depth = 8}; }
 
-std::vector<std::string> scenes() {
+std::vector<std::string> scenes(int resolution = 40) {
   Grid grid{kBox, 4, 4, 4, {}};
   for (int i = 0; i < 64; ++i) grid.density.push_back(0.1f * float(i % 11));
   const Coefficients smoke{.sigma_a = {0.2f, 0.1f, 0.4f}, .sigma_s = {2, 1, 0.6f}, .g = 0.5f, .Le = {0.1f, 0, 0}};
   const std::string lights = point_light({1.5f, 2, -1.5f}, 6) + emitting_square({-1.2f, 0.8f, 1.4f}, 0.5f, 4) + environment(0.15f);
   const std::string ball = block("Material \"coateddiffuse\"\nShape \"sphere\" \"float radius\" 0.6\n");
-  return {view(camera()) + lights + diffuse_plane(1.8f, 4, 0.6f) + uniform_grid("m", smoke, grid) + medium_box("m", "", kBox),
-          view(camera()) + lights + diffuse_plane(1.8f, 4, 0.6f) + ball,
-          view(camera()) + lights + ball + homogeneous("m", smoke) + medium_box("m", "", kBox)};
+  return {view(camera(resolution)) + lights + diffuse_plane(1.8f, 4, 0.6f) + uniform_grid("m", smoke, grid) + medium_box("m", "", kBox),
+          view(camera(resolution)) + lights + diffuse_plane(1.8f, 4, 0.6f) + ball,
+          view(camera(resolution)) + lights + ball + homogeneous("m", smoke) + medium_box("m", "", kBox)};
 }
 
 bool same_bits(const Image& a, const Image& b) {
@@ -77,7 +77,7 @@ TEST_CASE("rays that end at their collision make the picture that rays traced to
   const auto scene = [](float Le) {
     const Coefficients thin{.sigma_a = {0.2f, 0, 0.1f}, .sigma_s = {2, 1, 0.6f}, .g = 0.5f, .Le = Rgb(Le)};
     const Coefficients dense{.sigma_a = {0.1f, 0, 1}, .sigma_s = {20, 12, 30}, .g = -0.3f, .Le = Rgb(Le)};
-    return view(camera()) + environment(0.3f) + distant_light({1, 2, -1}, 3) + diffuse_plane(1.8f, 4, 0.6f) +
+    return view(camera(40)) + environment(0.3f) + distant_light({1, 2, -1}, 3) + diffuse_plane(1.8f, 4, 0.6f) +
            block("Material \"dielectric\"\nShape \"sphere\" \"float radius\" 0.4\n") + homogeneous("thin", thin) + homogeneous("dense", dense) +
            medium_box("thin", "", kBox) + medium_box("dense", "thin", {{-0.9f, -0.9f, -0.9f}, {0.3f, 0.5f, 0.9f}}) +
            medium_box("dense", "", {{0.2f, -1.4f, -0.5f}, {1.4f, 0.4f, 0.5f}});
@@ -115,7 +115,7 @@ TEST_CASE("the spread between renders is what the spread between pixels says") {
 }
 
 TEST_CASE("the Variance AOV is the variance of a pixel's mean") {
-  for (const std::string& scene : scenes()) {
+  for (const std::string& scene : scenes(24)) {
     Subject subject(scene);
     MeanImageBuilder spread;
     Moments claimed;

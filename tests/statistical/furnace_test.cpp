@@ -69,7 +69,7 @@ TEST_CASE("F1: a white plane in a box of twelve lights, however a light is chose
       view({.eye = {0.1f, 0.2f, 2}, .look = {0.1f, 0.2f, 0}}) + glowing_box() + diffuse_plane(0.1f, 0.5f, 1);
   using enum LightStrategy;
   for (const LightStrategy lights : {tree, tree_binary, power, uniform, exhaustive}) {
-    Agreement how{.d = nightly() ? 0.002 : 0.006};
+    Agreement how{.d = nightly() ? 0.002 : 0.01};
     how.variant.lights = lights;
     check_agrees("F1 in a box of lights, " + std::string(name_of(lights)), scene, {1.0, 1.0, 1.0}, how);
     if (lights == exhaustive) continue;
@@ -83,7 +83,7 @@ TEST_CASE("F1: inside a glowing box, and a glowing ball") {
   const std::string smoke = uniform_grid("m", {.sigma_s = {6, 5.5f, 6.5f}, .g = 0.5f}, lumpy_grid()) + medium_box("m", "", kBox);
   const std::string ball = block(kGlow + "Shape \"sphere\" \"float radius\" 6\n");
   const std::string walls = glowing_box();
-  const Agreement glowing{.d = nightly() ? 0.002 : 0.006};
+  const Agreement glowing{.d = nightly() ? 0.002 : 0.01};
   check_agrees("F1 in a glowing box", view(perspective()) + walls + smoke, {1.0, 1.0, 1.0}, glowing);
   check_agrees("F1 in a glowing ball", view(perspective()) + ball + smoke + diffuse_plane(0.1f, 0.5f, 1), {1.0, 1.0, 1.0}, glowing);
 }

@@ -18,7 +18,7 @@ namespace {
 
 std::string scene() {
   const Bounds3 box{{-1, -1, -1}, {1, 1, 1}};
-  return view({.eye = {1.6f, 1.2f, -3.2f}, .look = {0, -0.1f, 0}, .fov_degrees = 42, .resolution = 40, .max_depth = 6}) +
+  return view({.eye = {1.6f, 1.2f, -3.2f}, .look = {0, -0.1f, 0}, .fov_degrees = 42, .resolution = 24, .max_depth = 6}) +
          point_light({1.5f, 2, -1.5f}, 6) + emitting_square({-1.2f, 0.8f, 1.4f}, 0.5f, 4) + environment(0.15f) +
          diffuse_plane(1.8f, 4, 0.6f) + homogeneous("m", {.sigma_a = Rgb(0.2f), .sigma_s = Rgb(1.5f), .g = 0.5f}) +
          medium_box("m", "", box);

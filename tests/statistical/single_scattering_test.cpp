@@ -83,7 +83,9 @@ TEST_CASE("single scattering by each choice of light and distance") {
       for (std::size_t row = nightly() ? 1 : 3; row < (nightly() ? kTable.size() : 4); ++row) {
         // From sigma_t 2 hardly a tracked collision sees the light four units away: that is for the channels below.
         if (kTable[row].sigma_t == 2 && (distance == tracking)) continue;
-        check_grey(kTable[row], what.c_str(), variant);
+        // With one light all choices of it are alike; this way of choosing distances is noisy far from it.
+        const bool far = nightly() || distance != equiangular || media == MediaStrategy::product;
+        check_grey(kTable[row], what.c_str(), variant, far);
       }
     }
   }
