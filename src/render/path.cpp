@@ -115,14 +115,20 @@ std::optional<Vertex> Path::next_vertex() {
 std::optional<Vertex> Path::collide_untraced() {
   span_search_.reset();
   lit_at_collisions_.reset();
+  if (depth_ == 0 || depth_ >= limits_.max_depth) return std::nullopt;
   const World::Parts& world = context_.world;
   const Interval inside{0, exit_distance(media_.bounds(world.geometry.groups()), ray_), media_.active(world.geometry.groups(), world.media)};
   if (inside.media.empty()) return std::nullopt;
-  context_.event = depth_;
-  lit_at_collisions_ = !seeks_along_spans(context_) || collisions_suffice(context_, ray_, inside);
+  if (seeks_along_spans(context_)) {
+    // In a medium without end nothing but the traced span tells how much of it the ray sees.
+    if (inside.t1 == kInfinity) return std::nullopt;
+    context_.event = depth_;
+    lit_at_collisions_ = collisions_suffice(context_, ray_, inside);
+    if (!*lit_at_collisions_) return std::nullopt;
+  }
   const MediaView media(inside.media.data(), inside.media.size());
   const bool emissive = std::any_of(media.begin(), media.end(), [](const ParticipatingMedium* m) { return m->emissive(); });
-  if (!*lit_at_collisions_ || !all_homogeneous(media) || emissive || depth_ == 0 || depth_ >= limits_.max_depth) return std::nullopt;
+  if (emissive || !all_homogeneous(media)) return std::nullopt;
 
   begin(Step::fly);
   Rng rng = context_.sampler.stream();
