@@ -18,8 +18,8 @@ enum class LightStrategy { uniform, power, exhaustive, tree, tree_binary, cycles
 enum class MediaStrategy { vertex, closest, integral, product };
 /// How the distance at which a ray's light is gathered is sampled: at tracked collisions, equi-angular toward the light
 /// [Kulla and Fajardo 2012], both with MIS, or equi-angular times a coarse profile of the medium. `automatic`: profile;
-/// tracking with MediaStrategy::vertex, which knows no other, and with MediaStrategy::product as that does where all lights
-/// are far from a dense stretch.
+/// with MediaStrategy::vertex, which knows no other, tracking. MediaStrategy::product then chooses lights as vertex does where
+/// they all are far from a dense stretch.
 enum class DistanceStrategy { automatic, tracking, equiangular, both, profile };
 /// How the glow of media reaches what it lights: by scattered rays that happen to pass through it, or by next-event
 /// estimation toward it as well, with MIS. The second needs a grid, whose bricks are then lights among the others; it pays

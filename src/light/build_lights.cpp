@@ -258,7 +258,8 @@ void Builder::enclose() {
   for (const EmitterObject& o : parts_->instanced.objects()) objects.push_back(box_of(o.emitters()));
   for (const EmitterInstance& i : parts_->instanced.instances()) {
     const Bounds3& box = objects[i.object];
-    for (int k = 0; k < 8 && !box.empty(); ++k) all.expand(to_vec3(i.to_world.point(Vec3d(box.corner(k)))));
+    if (box.empty()) continue;
+    for (int k = 0; k < 8; ++k) all.expand(to_vec3(i.to_world.point(Vec3d(box.corner(k)))));
   }
 }
 

@@ -1,6 +1,17 @@
 #include "render/media_state.h"
 
+#include <algorithm>
+
 namespace tyndall {
+
+float exit_distance(const Bounds3& box, const Ray& ray) {
+  float t = kInfinity;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (ray.d[axis] == 0) continue;
+    t = std::min(t, ((ray.d[axis] > 0 ? box.max[axis] : box.min[axis]) - ray.o[axis]) / ray.d[axis]);
+  }
+  return std::max(t, 0.0f);
+}
 
 bool MediaState::cross(std::uint32_t group, int sign) {
   for (std::size_t i = 0; i < inside_.size(); ++i) {
@@ -41,6 +52,12 @@ Bounds3 MediaState::bounds(const std::vector<BoundaryGroup>& groups) const {
     if (groups[m.group].inside) box.expand(groups[m.group].bounds);
   }
   return box;
+}
+
+float MediaState::first_exit(const std::vector<BoundaryGroup>& groups, const Ray& ray) const {
+  float t = kInfinity;
+  for (const Membership& m : inside_) t = std::min(t, exit_distance(groups[m.group].bounds, ray));
+  return t;
 }
 
 bool MediaState::brings(MediumId medium, const std::vector<BoundaryGroup>& groups) const {

@@ -14,6 +14,10 @@ namespace tyndall {
 /// Media that overlap somewhere; a medium that two groups bring counts twice.
 using ActiveMedia = SmallVector<const ParticipatingMedium*, 4>;
 
+
+/// How far `ray` goes until it has left `box` for good: infinite where the box is.
+float exit_distance(const Bounds3& box, const Ray& ray);
+
 /// The path's place among the media, carried from vertex to vertex. DESIGN 4 "Membership": per group the signed
 /// crossings are summed, and the point is inside while the sum is positive.
 class MediaState {
@@ -31,6 +35,9 @@ class MediaState {
 
   /// A box that holds all of the media that are here: infinite with an unbounded one.
   Bounds3 bounds(const std::vector<BoundaryGroup>& groups) const;
+
+  /// Distance after which the ray may have left one of the groups that hold its origin; infinite where none does.
+  float first_exit(const std::vector<BoundaryGroup>& groups, const Ray& ray) const;
 
   bool in_any_group() const { return !inside_.empty(); }
   std::optional<MediumId> unbounded() const { return unbounded_; }

@@ -110,25 +110,22 @@ std::optional<Vertex> Path::next_vertex() {
   return vertex;
 }
 
-/// In media that are the same everywhere, and whose lights are chosen at collisions, the collision is drawn first: the ray
-/// need not be traced beyond it. Nothing: something is in between, or this is not such a place.
+/// In dense media that are the same everywhere, and whose lights are chosen at collisions, the collision is drawn first: the
+/// ray need not be traced beyond it. Nothing: something is in between, or this is not such a place. Where the choice of
+/// lights was decided here it stays so for the traced span: decided again, it would depend on the collision that was drawn.
 std::optional<Vertex> Path::collide_untraced() {
   span_search_.reset();
   lit_at_collisions_.reset();
   if (depth_ == 0 || depth_ >= limits_.max_depth) return std::nullopt;
   const World::Parts& world = context_.world;
-  const Interval inside{0, exit_distance(media_.bounds(world.geometry.groups()), ray_), media_.active(world.geometry.groups(), world.media)};
-  if (inside.media.empty()) return std::nullopt;
-  if (seeks_along_spans(context_)) {
-    // In a medium without end nothing but the traced span tells how much of it the ray sees.
-    if (inside.t1 == kInfinity) return std::nullopt;
-    context_.event = depth_;
-    lit_at_collisions_ = collisions_suffice(context_, ray_, inside);
-    if (!*lit_at_collisions_) return std::nullopt;
-  }
+  const auto& groups = world.geometry.groups();
+  const Interval inside{0, media_.first_exit(groups, ray_), media_.active(groups, world.media)};
   const MediaView media(inside.media.data(), inside.media.size());
   const bool emissive = std::any_of(media.begin(), media.end(), [](const ParticipatingMedium* m) { return m->emissive(); });
-  if (emissive || !all_homogeneous(media)) return std::nullopt;
+  if (media.empty() || inside.t1 == kInfinity || emissive || !all_homogeneous(media)) return std::nullopt;
+  context_.event = depth_;
+  if (seeks_along_spans(context_)) lit_at_collisions_ = collisions_suffice(context_, ray_, inside);
+  if (!lit_at_collisions_.value_or(is_deep(ray_, inside))) return std::nullopt;
 
   begin(Step::fly);
   Rng rng = context_.sampler.stream();

@@ -65,7 +65,7 @@ class Path {
   std::optional<SpanEvent> span_event_;  ///< in place of search_ when the event's lights are chosen along its span
 
   // The span that the path is in.
-  std::optional<bool> lit_at_collisions_;  ///< what is scattered in it, where the ray starts in media: known before it is traced
+  std::optional<bool> lit_at_collisions_;  ///< as decided before the ray was traced; else the span decides
   std::optional<SpanSearch> span_search_;
   float collision_t_ = 0, collision_density_ = 0;
 };

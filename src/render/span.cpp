@@ -5,15 +5,6 @@
 
 namespace tyndall {
 
-float exit_distance(const Bounds3& box, const Ray& ray) {
-  float t = kInfinity;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (ray.d[axis] == 0) continue;
-    t = std::min(t, ((ray.d[axis] > 0 ? box.max[axis] : box.min[axis]) - ray.o[axis]) / ray.d[axis]);
-  }
-  return std::max(t, 0.0f);
-}
-
 const SpanPart& Span::part_at(float t) const {
   assert(!parts.empty());
   const SpanPart* found = &parts.front();

@@ -7,9 +7,6 @@
 
 namespace tyndall {
 
-/// How far `ray` goes until it has left `box` for good: infinite where the box is.
-float exit_distance(const Bounds3& box, const Ray& ray);
-
 /// A stretch with an unchanging set of media, and the membership there.
 struct SpanPart : Interval {
   MediaState state;

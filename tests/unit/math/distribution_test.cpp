@@ -113,5 +113,27 @@ TEST_CASE("a two-dimensional density draws cells with their probability, and eva
   CHECK(test::count_p_value(counts, pmf, kDraws) > 1e-4);
 }
 
+TEST_CASE("tables of any size, with runs of zeros, are inverted as by search from the start") {
+  Rng rng(11);
+  for (std::size_t size = 1; size <= 60; ++size) {
+    std::vector<float> weights(size);
+    for (float& w : weights) w = rng.uniform() < 0.5f ? 0.0f : rng.uniform();
+    weights[rng.next() % size] = 100;
+    const PiecewiseConstant1D table(weights);
+    std::vector<float> edges{0};
+    double running = 0;
+    for (const float w : weights) edges.push_back(static_cast<float>(std::min((running += w) / table.total(), 1.0)));
+    for (int i = 0; i < 400; ++i) {
+      const float edge = edges[rng.next() % edges.size()];
+      const float u = std::clamp(i % 4 == 0 ? rng.uniform() : i % 4 == 1 ? edge : std::nextafter(edge, i % 4 == 2 ? 0.0f : 1.0f), 0.0f, 0x1.fffffep-1f);
+      std::size_t cell = 0;
+      for (std::size_t k = 0; k < size; ++k) {
+        if (edges[k] <= u && weights[k] > 0) cell = k;
+      }
+      if (weights[cell] > 0) REQUIRE(table.sample(u).cell == cell);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace tyndall

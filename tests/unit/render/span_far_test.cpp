@@ -17,12 +17,7 @@ class Asked {
   /// A stretch of `length` from there on, in two parts.
   bool suffice(float sigma_s, float length = 2, const RenderSettings& settings = {}, int event = 1) {
     const float unit = world_.parts().unit;
-    std::vector<std::string> notes;
-    Medium description;
-    description.kind = HomogeneousMedium{};
-    description.optics.sigma_a = Rgb(0.0f);
-    description.optics.sigma_s = Rgb(sigma_s * unit);
-    const ParticipatingMedium medium = build_medium(description, {}, notes);
+    const ParticipatingMedium medium = fog(sigma_s * unit);
     Span span;
     span.ray = {world_.parts().to_user.inverse().point({0, 0, -1}), {0, 0, 1}};
     span.t_end = length / unit;
@@ -32,10 +27,32 @@ class Asked {
       part.t1 = t1 / unit;
       part.media.push_back(&medium);
     }
-    return collisions_suffice({world_.parts(), world_.parts().lights.selector(settings.lights), settings, sampler_, counters_, event}, span);
+    return collisions_suffice(context(settings, event), span);
+  }
+
+  /// The same in one part, known by the box around it.
+  bool suffice_inside(float sigma_s, float length) {
+    const float unit = world_.parts().unit;
+    const ParticipatingMedium medium = fog(sigma_s * unit);
+    Interval inside{0, length / unit, {}};
+    inside.media.push_back(&medium);
+    const RenderSettings settings;
+    return collisions_suffice(context(settings, 1), {world_.parts().to_user.inverse().point({0, 0, -1}), {0, 0, 1}}, inside);
   }
 
  private:
+  static ParticipatingMedium fog(float sigma_s) {
+    std::vector<std::string> notes;
+    Medium description;
+    description.kind = HomogeneousMedium{};
+    description.optics.sigma_a = Rgb(0.0f);
+    description.optics.sigma_s = Rgb(sigma_s);
+    return build_medium(description, {}, notes);
+  }
+  LightContext context(const RenderSettings& settings, int event) {
+    return {world_.parts(), world_.parts().lights.selector(settings.lights), settings, sampler_, counters_, event};
+  }
+
   World world_;
   Sampler sampler_{{0, 0, 0, 0}};
   Counters counters_;
@@ -59,6 +76,16 @@ TEST_CASE("collisions suffice in dense stretches, all lights far from them") {
 TEST_CASE("a stretch without end is near every light but those at infinity") {
   CHECK(Asked(kSun).suffice(1, kInfinity));
   CHECK_FALSE(Asked(kLamp).suffice(1, kInfinity));
+}
+
+TEST_CASE("of a ray in media, its stretch to the end of their boxes counts") {
+  Asked sun(kSun), lamp(kLamp);
+  for (const float sigma : {0.2f, 2.0f}) {
+    for (const float length : {2.0f, 20.0f}) {
+      CHECK(sun.suffice_inside(sigma, length) == (sigma * length > 2));
+      CHECK(lamp.suffice_inside(sigma, length) == (sigma * length > 2 && length == 2));
+    }
+  }
 }
 
 TEST_CASE("methods that are asked for are not replaced, nor the many pairs of paths of one event") {
