@@ -61,7 +61,8 @@ TEST_CASE("constant density: homogeneous, grid of samples, grid of voxels, and t
               {"uniformgrid", room() + uniform_grid("m", kSmoke, constant) + box},
               {"vdb", room() + vdb("m", kSmoke, file.path()) + box},
               {"two halves", room() + homogeneous("a", half) + uniform_grid("b", half, constant) +
-                                 medium_box("a", "", kBox) + medium_box("b", "", kBox)}});
+                                 medium_box("a", "", kBox) + medium_box("b", "", kBox)}},
+             {.d = pairwise_precision(4)});
 }
 
 TEST_CASE("a wispy grid in one piece and as two overlapping halves with different phase functions") {
@@ -77,10 +78,11 @@ TEST_CASE("a wispy grid in one piece and as two overlapping halves with differen
 TEST_CASE("light strategies") {
   const std::string scene = many_lights();
   check_all_agree("lights", scene, {{"tree", {.lights = LightStrategy::tree}},
-                                    {"uniform", {.lights = LightStrategy::uniform}},
-                                    {"power", {.lights = LightStrategy::power}},
+                                    {"uniform", {.lights = LightStrategy::uniform, .candidates = 8}},
+                                    {"power", {.lights = LightStrategy::power, .candidates = 8}},
                                     {"tree-binary", {.lights = LightStrategy::tree_binary}},
-                                    {"exhaustive", {.lights = LightStrategy::exhaustive}}});
+                                    {"exhaustive", {.lights = LightStrategy::exhaustive}}},
+                  {.d = pairwise_precision(5)});
 }
 
 /// The same with surfaces that favour directions: metal, rough glass and a coat.
@@ -118,5 +120,6 @@ TEST_CASE("transmittance estimators") {
   const std::string scene = room() + uniform_grid("m", dense, wispy_grid()) + medium_box("m", "", kBox);
   check_all_agree("transmittance", scene, {{"residual", {.transmittance = TransmittanceStrategy::residual}},
                                            {"ratio", {.transmittance = TransmittanceStrategy::ratio}},
-                                           {"delta", {.transmittance = TransmittanceStrategy::delta}}});
+                                           {"delta", {.transmittance = TransmittanceStrategy::delta}}},
+                  {.d = pairwise_precision(3)});
 }

@@ -95,6 +95,11 @@ bool picked(const std::string& name) {
 
 double required_precision() { return nightly() ? 0.003 : 0.01; }
 
+double pairwise_precision(std::size_t contenders) {
+  const auto n = static_cast<double>(contenders);
+  return required_precision() * n / (2 * (n - 1));
+}
+
 Measured check_agrees(const std::string& name, const std::string& scene, const Expected& expected, const Agreement& how) {
   if (!picked(name)) return {};
   const double d = how.d.value_or(required_precision());

@@ -22,6 +22,10 @@ struct Agreement {
   Variant variant = {};
 };
 
+/// What each of `contenders` must agree with the mean of the others at, for every two of them to agree at required_precision():
+/// x_i - x_j = (1 - 1/n) times the difference of how far each is from the mean of the others.
+double pairwise_precision(std::size_t contenders);
+
 /// Expected image means of R, G and B; what is absent is not looked at.
 using Expected = std::array<std::optional<double>, 3>;
 inline Expected grey(double value) { return {value, std::nullopt, std::nullopt}; }
@@ -39,7 +43,8 @@ void check_same(const std::string& name, const std::vector<Contender>& contender
 
 /// The same, with the same seeds for all contenders, each held against the mean of the others: noise that they share drops
 /// out of the differences, whose errors are measured as such. Each is rendered until its own difference is known, so the work
-/// grows with their number, not its square. Two of three may differ by 4/3 of what one may from the mean of the others.
+/// grows with their number, not its square.
+/// pairwise_precision() says what that makes of every two.
 void check_all_agree(const std::string& name, const std::vector<Contender>& contenders, const Agreement& how = {});
 void check_all_agree(const std::string& name, const std::string& scene, const std::vector<std::pair<std::string, Variant>>& variants,
                      const Agreement& how = {});
