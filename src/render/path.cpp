@@ -1,6 +1,5 @@
 #include "render/path.h"
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -120,9 +119,8 @@ std::optional<Vertex> Path::collide_untraced() {
   const World::Parts& world = context_.world;
   const auto& groups = world.geometry.groups();
   const Interval inside{0, media_.first_exit(groups, ray_), media_.active(groups, world.media)};
-  const MediaView media(inside.media.data(), inside.media.size());
-  const bool emissive = std::any_of(media.begin(), media.end(), [](const ParticipatingMedium* m) { return m->emissive(); });
-  if (media.empty() || inside.t1 == kInfinity || emissive || !all_homogeneous(media)) return std::nullopt;
+  const MediaView media = inside.view();
+  if (media.empty() || inside.t1 == kInfinity || any_emissive(media) || !all_homogeneous(media)) return std::nullopt;
   context_.event = depth_;
   if (seeks_along_spans(context_)) lit_at_collisions_ = collisions_suffice(context_, ray_, inside);
   if (!lit_at_collisions_.value_or(is_deep(ray_, inside))) return std::nullopt;

@@ -11,7 +11,6 @@ namespace tyndall {
 struct SpanPart : Interval {
   MediaState state;
   Bounds3 box;  ///< around these media
-  MediaView view() const { return {media.data(), media.size()}; }
 };
 
 struct Span {

@@ -27,14 +27,12 @@ bool far_from(const Bounds3& lights, const Ray& ray, float t0, float t1) {
   return half < kInfinity && distance(ray.at(t0 + half), lights) > kFarAway * half;
 }
 
-MediaView view(const Interval& part) { return {part.media.data(), part.media.size()}; }
-
 template <typename Parts>
 bool deep(const Ray& ray, const Parts& parts) {
-  const bool closed = std::all_of(parts.begin(), parts.end(), [](const Interval& part) { return all_homogeneous(view(part)); });
+  const bool closed = std::all_of(parts.begin(), parts.end(), [](const Interval& part) { return all_homogeneous(part.view()); });
   float depth = 0;
   for (const Interval& part : parts) {
-    depth += coarse_optical_depth(view(part), ray, part.t0, part.t1, kReads);
+    depth += coarse_optical_depth(part.view(), ray, part.t0, part.t1, kReads);
     if (depth > (closed ? kDeepUniform : kDeep)) return true;
   }
   return false;

@@ -9,6 +9,7 @@ namespace tyndall {
 struct Interval {
   float t0, t1;
   ActiveMedia media;  ///< never empty
+  MediaView view() const { return {media.data(), media.size()}; }
 };
 
 /// Walks a ray's intervals in order: `while (auto i = walk.next()) ...`. Stretches without a medium are skipped.

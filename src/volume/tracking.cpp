@@ -19,10 +19,6 @@ Rgb normalised(Rgb beta) {
   return top > 0 ? Rgb{beta.r / top, beta.g / top, beta.b / top} : Rgb{};
 }
 
-bool any_emissive(MediaView media) {
-  return std::any_of(media.begin(), media.end(), [](const ParticipatingMedium* m) { return m->emissive(); });
-}
-
 /// State of a flight between its tentative collisions.
 struct FlightState {
   Rgb beta;  // normalised
@@ -115,6 +111,10 @@ void gather(Walk& walk, bool emissive, EmissionTransmittance& result, Rng& rng, 
 }
 
 }  // namespace
+
+bool any_emissive(MediaView media) {
+  return std::any_of(media.begin(), media.end(), [](const ParticipatingMedium* m) { return m->emissive(); });
+}
 
 // NOLINTNEXTLINE(readability-function-size): one caller, once a span; a struct would be filled to be emptied
 Flight free_flight(MediaView media, const Ray& ray, float t0, float t1, Rgb beta, float u_first, Rng& rng,

@@ -17,6 +17,8 @@ namespace tyndall {
 /// The media that overlap on one interval of a ray; none is null.
 using MediaView = std::span<const ParticipatingMedium* const>;
 
+bool any_emissive(MediaView media);
+
 /// Counters of one thread; add them up at the end.
 struct TrackingStats {
   std::uint64_t lookups = 0;              ///< coefficients read at a point
