@@ -175,7 +175,7 @@ WideSegment WideSegment::from_segment(const Segment& s, double to_unit, Vec3d mi
   const double near = std::clamp(dot(middle - o, s.d), s.t0 * to_unit, s.t1 * to_unit);
   const Vec3d p = o + s.d * near;
   const double shrink = std::min(1.0, WideQuery::kFar / std::max(largest(p), 1e-300)), scale = to_unit * shrink,
-               per_scale = 1 / scale;
+               per_scale = 1 / std::max(scale, 1e-300);
   const auto place = [&](double t) {
     return static_cast<float>(std::clamp((t * to_unit - near) * shrink, -double(kFar), double(kFar)));
   };

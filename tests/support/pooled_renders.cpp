@@ -2,10 +2,12 @@
 
 #include <utility>
 
+#include "support/sanitized.h"
+
 namespace tyndall::test {
 namespace {
 
-constexpr int kSpp = 8, kFewest = 8;
+constexpr int kSpp = kSanitized ? 1 : 8, kFewest = 8;
 constexpr std::size_t kStay = 2;
 
 int most_rounds() { return nightly() ? 16 * 2048 : 2048; }

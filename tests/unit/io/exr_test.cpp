@@ -216,12 +216,11 @@ TEST_CASE("a header that declares more than the file can hold is refused before 
   const std::string key("dataWindow\0box2i\0\x10\0\0\0", 21);
   const std::size_t at = bytes.find(key);
   REQUIRE(at != std::string::npos);
-  for (int side : {0x7fffffff, 100000, -100000}) {
-    const int x1 = 4 + side;
+  for (const int x1 : {0x7fffffff, 100004, -99996}) {
     std::memcpy(bytes.data() + at + key.size() + 8, &x1, 4);
     write_bytes(folder / "huge.exr", bytes);
     const std::string text = message_of(Failure::scene, [&] { read_exr(folder / "huge.exr"); });
-    if (side == 100000) CHECK(text.find("cannot hold the 100000 x 21 pixels") != std::string::npos);
+    if (x1 == 100004) CHECK(text.find("cannot hold the 100000 x 21 pixels") != std::string::npos);
   }
 }
 

@@ -14,7 +14,7 @@ namespace {
 /// A picture of a gradient with noise of `sigma` a pixel; one 8x8 block is off by the factor `fault`.
 Image noisy_picture(int size, double sigma, double fault, std::uint64_t seed) {
   std::mt19937_64 engine(seed);
-  std::normal_distribution<double> normal(0, sigma);
+  std::normal_distribution<double> normal;
   Image image;
   image.data = image.display = {0, 0, size, size};
   for (const char* name : {"R", "G", "B"}) {
@@ -22,7 +22,7 @@ Image noisy_picture(int size, double sigma, double fault, std::uint64_t seed) {
     for (int i = 0; i < size * size; ++i) {
       const int x = i % size, y = i / size;
       const bool faulty = x / 8 == 2 && y / 8 == 1;
-      channel.values[i] = static_cast<float>((1 + 0.02 * x) * (faulty ? fault : 1) + normal(engine));
+      channel.values[i] = static_cast<float>((1 + 0.02 * x) * (faulty ? fault : 1) + sigma * normal(engine));
     }
   }
   return image;

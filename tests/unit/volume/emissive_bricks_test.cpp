@@ -4,7 +4,6 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <ctime>
 #include <map>
 
 #include "support/chi_squared.h"
@@ -81,8 +80,6 @@ ParticipatingMedium glowing(const VoxelSource& source, const VoxelSource* temper
   return ParticipatingMedium(std::move(data));
 }
 
-double processor_seconds() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
-
 /// Both integrals for each brick by steps along the ray, and the largest density met.
 struct Brute {
   std::map<std::uint32_t, BrickOnRay> bricks;
@@ -134,9 +131,7 @@ TEST_CASE("emissive bricks: a large box of one value is not taken apart") {
   const ParticipatingMedium medium = glowing(box, nullptr, 60);
   const Vec3 middle{255.5f, 255.5f, 255.5f};
   for (const std::size_t most : {EmissiveBricks::kMost, std::size_t{500}, std::size_t{1}}) {
-    const double start = processor_seconds();
     const EmissiveBricks bricks(medium, most);
-    CHECK(processor_seconds() - start < 1);  // to read the 60 million cells takes far longer
     CHECK(bricks.size() <= most);
     CHECK(bricks.size() >= most / 10);
     CHECK(total_intensity(bricks) == doctest::Approx(393.0 * 393 * 393).epsilon(1e-5));
@@ -151,9 +146,7 @@ TEST_CASE("emissive bricks: a small fire in a large box of one density") {
   box.add_tile({0, 0, 0}, {511, 511, 511}, 1);
   fire.add_tile({200, 200, 200}, {215, 215, 215}, 3000);
   const ParticipatingMedium medium = glowing(box, &fire);
-  const double start = processor_seconds();
   const EmissiveBricks bricks(medium), few(medium, 3);
-  CHECK(processor_seconds() - start < 1);
   CHECK(bricks.size() >= 8);
   CHECK(bricks.size() <= 27);
   CHECK(few.size() <= 3);
