@@ -4,10 +4,6 @@
 #include <cmath>
 
 #include "math/hash.h"
-#include "render/collision_place.h"
-#include "render/fire_light.h"
-#include "render/span_far.h"
-#include "volume/homogeneous.h"
 
 namespace tyndall {
 namespace {
@@ -34,12 +30,31 @@ Path::Path(const LightContext& context, const Limits& limits, const Ray& camera_
 
 PathRecord Path::run() {
   ++context_.counters.paths;
-  while (const auto vertex = next_vertex()) {
-    if (depth_++ >= limits_.max_depth) break;
-    if (depth_ == 1) first_event_in_medium_ = !vertex->on_surface();
-    if (!scatter(*vertex)) break;
-  }
+  follow(next_vertex());
+  return beyond_ ? Path(*this, *beyond_).run_beyond(beyond_->trace) : record_;
+}
+
+Path::Path(const Path& camera, const Beyond& beyond)
+    : context_(camera.context_),
+      limits_(camera.limits_),
+      ray_(beyond.ray),
+      media_(beyond.media),
+      beta_{},
+      seen_(beyond.seen),
+      record_(camera.record_) {}
+
+PathRecord Path::run_beyond(const Trace& trace) {
+  follow(arrive(trace));
   return record_;
+}
+
+/// From event to event until the path ends.
+void Path::follow(std::optional<Vertex> vertex) {
+  for (; vertex; vertex = next_vertex()) {
+    if (depth_++ >= limits_.max_depth) return;
+    if (depth_ == 1) first_event_in_medium_ = !vertex->on_surface();
+    if (!scatter(*vertex)) return;
+  }
 }
 
 /// Strategies of lighting may draw as many numbers as they like: the path stays the same.
@@ -49,7 +64,10 @@ void Path::begin(Step step) { context_.sampler.begin_step(1 + kSteps * depth_ + 
 bool Path::scatter(const Vertex& vertex) {
   context_.event = depth_ - 1;
   begin(Step::light);
-  add(beta_ * light_at(vertex), depth_);
+  const Rgb seen = seen_.value_or(beta_);
+  seen_.reset();
+  add(seen * light_at(vertex, seen), depth_);
+  if (is_black(beta_) || (is_last_event(context_) && !context_.world.rays_find_lights())) return false;
 
   begin(Step::scatter);
   const float uc = context_.sampler.next_1d();
@@ -63,17 +81,6 @@ bool Path::scatter(const Vertex& vertex) {
   beta_ *= s->weight;
   eta_scale_ *= s->eta * s->eta;
   return !is_black(beta_) && survive_roulette();
-}
-
-/// Light from emitters that is scattered at the vertex. What the span's pairs stand for is not in it.
-Rgb Path::light_at(const Vertex& vertex) {
-  span_event_.reset();
-  if (vertex.on_surface() || !span_search_) {
-    search_ = light_search(context_, vertex);
-    return direct_light(context_, vertex, search_, beta_);
-  }
-  span_event_ = SpanEvent{*span_search_, collision_t_, collision_density_};
-  return tracks(context_.settings) ? collision_light(context_, vertex, *span_event_, beta_) : Rgb();
 }
 
 bool Path::survive_roulette() {
@@ -95,106 +102,22 @@ std::optional<Vertex> Path::next_vertex() {
   if (context_.world.has_media()) {
     if (auto collision = pass_media(trace)) return collision;
   }
-  if (is_black(beta_)) return std::nullopt;
+  return is_black(beta_) && !seen_ ? std::nullopt : arrive(trace);
+}
+
+/// At the ray's end, adding the light that is there.
+std::optional<Vertex> Path::arrive(const Trace& trace) {
   if (!trace.hit) {
     // What is left of the throughput of an unscattered ray is the media's transmittance, on average.
-    if (depth_ == 0) record_.alpha = 1 - mean(beta_);
+    if (depth_ == 0) record_.alpha = 1 - mean(seen_.value_or(beta_));
     add_environment();
     return std::nullopt;
   }
   add_surface_emission(*trace.hit);
   if (depth_ > 0 && depth_ >= limits_.max_depth) return std::nullopt;  // run() would end the path there
   Vertex vertex = surface_vertex(*trace.hit);
-  if (depth_ == 0) record_.albedo = limits_.want_albedo ? beta_ * vertex.albedo() : Rgb();
+  if (depth_ == 0 && limits_.want_albedo) record_.albedo += seen_.value_or(beta_) * vertex.albedo();
   return vertex;
-}
-
-/// In dense media that are the same everywhere, and whose lights are chosen at collisions, the collision is drawn first: the
-/// ray need not be traced beyond it. Nothing: something is in between, or this is not such a place. Where the choice of
-/// lights was decided here it stays so for the traced span: decided again, it would depend on the collision that was drawn.
-std::optional<Vertex> Path::collide_untraced() {
-  span_search_.reset();
-  lit_at_collisions_.reset();
-  if (depth_ == 0 || depth_ >= limits_.max_depth) return std::nullopt;
-  const World::Parts& world = context_.world;
-  const auto& groups = world.geometry.groups();
-  const Interval inside{0, media_.first_exit(groups, ray_), media_.active(groups, world.media)};
-  const MediaView media = inside.view();
-  if (media.empty() || inside.t1 == kInfinity || any_emissive(media) || !all_homogeneous(media)) return std::nullopt;
-  context_.event = depth_;
-  if (seeks_along_spans(context_)) lit_at_collisions_ = collisions_suffice(context_, ray_, inside);
-  if (!lit_at_collisions_.value_or(is_deep(ray_, inside))) return std::nullopt;
-
-  begin(Step::fly);
-  Rng rng = context_.sampler.stream();
-  const float u = context_.sampler.next_1d();
-  const Flight flight = free_flight(media, ray_, 0, kInfinity, beta_, u, rng, context_.counters.tracking);
-  const float margin = collision_margin(ray_, flight.t);
-  if (!flight.collided || flight.t < margin || flight.t > inside.t1) return std::nullopt;
-  const auto crossings = world.geometry.trace_shadow(ray_, 0, flight.t + margin);
-  if (!crossings || !crossings->empty()) return std::nullopt;
-  beta_ *= flight.weight;
-  return Vertex(Vertex::InMedium{ray_.at(flight.t), flight.phase}, -ray_.d, media_);
-}
-
-/// Go through the media before the ray's end. A vertex: the path collides there; else it arrives with its weight in
-/// beta_.
-std::optional<Vertex> Path::pass_media(const Trace& trace) {
-  const Span span = make_span(context_.world.media_context(), media_, ray_, trace, context_.counters.parity_errors);
-  if (depth_ == 0 && limits_.want_transmittance) record_transmittance(span);
-  media_ = span.end;
-  if (span.empty()) return std::nullopt;
-  // After the last event only what the ray meets at its end counts: no collision need be drawn.
-  if (depth_ >= limits_.max_depth) {
-    dim(span);
-    return std::nullopt;
-  }
-  gather(span);
-  return fly(span, trace);
-}
-
-bool Path::lit_at_collisions(const Span& span) const {
-  return lit_at_collisions_ ? *lit_at_collisions_ : !seeks_along_spans(context_) || collisions_suffice(context_, span);
-}
-
-/// Next-event estimation for the whole span.
-void Path::gather(const Span& span) {
-  context_.event = depth_;
-  if (lit_at_collisions(span)) return;
-  begin(Step::gather);
-  span_search_ = span_search(context_, span);
-  if (!span_search_ || !pairs_along_spans(context_.settings)) return;
-  if (depth_ == 0) first_event_in_medium_ = true;  // of this light's path
-  add(beta_ * span_light(context_, span, *span_search_, beta_), depth_ + 1);
-}
-
-std::optional<Vertex> Path::fly(const Span& span, const Trace& trace) {
-  begin(Step::fly);
-  Rng rng = context_.sampler.stream();
-  float u = context_.sampler.next_1d();
-  for (const SpanPart& part : span.parts) {
-    const Flight flight = free_flight(part.view(), ray_, part.t0, part.t1, beta_, u, rng, context_.counters.tracking);
-    if (!is_black(flight.emission)) add(beta_ * flight.emission * emission_share(), depth_);
-    beta_ *= flight.weight;
-    if (is_black(beta_)) return std::nullopt;
-    if (flight.collided) {
-      collision_t_ = collision_place(context_.world.geometry, ray_, part, trace.hit, flight.t);
-      if (span_search_) collision_density_ = collision_density(span, *span_search_, collision_t_);
-      if (depth_ == 0) record_collision(collision_t_);
-      return Vertex(Vertex::InMedium{ray_.at(collision_t_), flight.phase}, -ray_.d, part.state);
-    }
-    u = rng.uniform();
-  }
-  return std::nullopt;
-}
-
-void Path::dim(const Span& span) {
-  begin(Step::fly);
-  Rng rng = context_.sampler.stream();
-  for (const SpanPart& part : span.parts) {
-    beta_ *= transmittance(context_.settings.transmittance, part.view(), ray_, part.t0, part.t1, rng, context_.counters.tracking);
-    if (is_black(beta_)) return;
-  }
 }
 
 Vertex Path::surface_vertex(const SurfaceHit& hit) {
@@ -203,46 +126,6 @@ Vertex Path::surface_vertex(const SurfaceHit& hit) {
       .p = hit.p, .uv = hit.uv, .shading = Frame::around(hit.ns, hit.dpdu), .wo = wo, .random = hash_to_unit(hit.p, wo)};
   const Bsdf bsdf = context_.world.materials.bsdf(context_.world.material_of(hit), query);
   return Vertex(Vertex::Surface{hit, bsdf}, wo, media_);
-}
-
-/// MIS weight of a scattered ray that found light `id`, which next-event estimation samples with `light_pdf`.
-float Path::scattering_share(LightId id, float light_pdf) const {
-  if (!light_sampled_ || light_pdf == 0) return 1;
-  if (span_event_) {
-    const SpanDensities others = span_densities(context_, *span_event_, id);
-    return mis_weight(span_event_->density * pdf_, others.pair * light_pdf, others.tracked * light_pdf);
-  }
-  return mis_weight(pdf_, context_.selector.expected(search_.cut, search_.query, id) * light_pdf);
-}
-
-/// MIS weight of what a scattered ray gathers from glowing media.
-float Path::emission_share() const {
-  if (!light_sampled_ || !seeks_fire(context_)) return 1;
-  const FiresOnRay fires = context_.world.fire.along({from_, ray_.d});
-  if (!span_event_) return mis_weight(pdf_, fire_density(context_, search_, fires));
-  const SpanDensities others = span_fire_densities(context_, *span_event_, fires);
-  return mis_weight(span_event_->density * pdf_, others.pair, others.tracked);
-}
-
-void Path::add_environment() {
-  const Lights& lights = context_.world.lights;
-  for (const LightId id : lights.infinite()) {
-    const Rgb L = lights.environment(id, ray_.d);
-    if (is_black(L)) continue;
-    const float pdf = light_sampled_ ? lights.environment_pdf(id, ray_.d, true) : 0.0f;
-    add(beta_ * L * scattering_share(id, pdf), depth_);
-  }
-}
-
-void Path::add_surface_emission(const SurfaceHit& hit) {
-  const auto id = context_.world.light_of(hit);
-  if (!id) return;
-  const Lights& lights = context_.world.lights;
-  const EmitterHit emitter{.p = hit.p, .ng = hit.ng, .uv = hit.uv, .distance = hit.t};
-  const Rgb L = lights.emitted(*id, emitter, -ray_.d);
-  if (is_black(L)) return;
-  const float pdf = light_sampled_ ? lights.pdf(*id, from_, emitter) : 0.0f;
-  add(beta_ * L * scattering_share(*id, pdf), depth_);
 }
 
 /// Light that reached the camera after `events` scattering events.
@@ -267,17 +150,9 @@ void Path::record_camera_ray(const Trace& trace) {
 
 /// The albedo AOV is what the camera sees of it: dimmed by the media before the event, as beta_ is.
 void Path::record_collision(float t) {
-  record_.albedo = beta_;
+  record_.albedo += beta_;
   record_.hit_volume = true;
   record_.z_volume = context_.world.camera.depth(ray_.at(t));
-}
-
-void Path::record_transmittance(const Span& span) {
-  Rng rng = context_.sampler.side_stream();
-  for (const SpanPart& part : span.parts) {
-    record_.transmittance *=
-        transmittance(context_.settings.transmittance, part.view(), ray_, part.t0, part.t1, rng, context_.counters.tracking);
-  }
 }
 
 }  // namespace tyndall

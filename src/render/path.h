@@ -27,14 +27,28 @@ class Path {
   static constexpr int kSteps = 4;
   void begin(Step step);
 
+  /// What stands behind the media that the camera's ray collides in.
+  struct Beyond {
+    Ray ray;
+    Rgb seen;
+    MediaState media;
+    Trace trace;
+  };
+  /// For the light of that alone: it goes no further.
+  Path(const Path& camera, const Beyond& beyond);
+  PathRecord run_beyond(const Trace& trace);
+
+  void follow(std::optional<Vertex> vertex);
   std::optional<Vertex> next_vertex();
+  std::optional<Vertex> arrive(const Trace& trace);
   std::optional<Vertex> collide_untraced();
   std::optional<Vertex> pass_media(const Trace& trace);
+  std::optional<Rgb> seen_beyond(const Span& span, const Trace& trace) const;
   void gather(const Span& span);
   bool lit_at_collisions(const Span& span) const;
   std::optional<Vertex> fly(const Span& span, const Trace& trace);
   void dim(const Span& span);
-  Rgb light_at(const Vertex& vertex);
+  Rgb light_at(const Vertex& vertex, Rgb beta);
   float scattering_share(LightId id, float light_pdf) const;
   Vertex surface_vertex(const SurfaceHit& hit);
   float emission_share() const;
@@ -52,6 +66,7 @@ class Path {
   Ray ray_;
   MediaState media_;
   Rgb beta_{1.0f};
+  std::optional<Rgb> seen_;  ///< in place of beta_ for the light of what the camera's ray meets at its end
   int depth_ = 0;         ///< scattering events so far
   float eta_scale_ = 1;   ///< undoes the 1/eta^2 of transmissions in Russian roulette
   PathRecord record_;
@@ -68,6 +83,8 @@ class Path {
   std::optional<bool> lit_at_collisions_;  ///< as decided before the ray was traced; else the span decides
   std::optional<SpanSearch> span_search_;
   float collision_t_ = 0, collision_density_ = 0;
+
+  std::optional<Beyond> beyond_;  ///< what this path, which collided, leaves to another
 };
 
 }  // namespace tyndall

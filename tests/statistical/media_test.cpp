@@ -133,3 +133,15 @@ TEST_CASE("a grid with holes and a homogeneous medium that overlap, camera in un
                                  medium_box("smoke", "", kBox) + medium_box("haze", "", {{-0.5f, -1.2f, -0.6f}, {1.3f, 0.4f, 0.7f}}),
               0.04);
 }
+
+// With pairs along spans, what stands behind the camera's fog is dimmed instead of seen by the rays that pass.
+TEST_CASE("a metal floor and wide lamps behind fog") {
+  const std::string floor = block("Material \"conductor\" \"float roughness\" 0.2\nTranslate 0 -1 0\nRotate -90 1 0 0\n"
+                                  "Shape \"disk\" \"float radius\" 4\n");
+  const std::string lamps = emitting_square({-0.8f, 0.6f, 1.2f}, 0.7f, 1) + emitting_square({0.8f, 1.5f, 0.3f}, 0.7f, 1.5f);
+  const std::string fog = homogeneous("fog", {.sigma_a = {0.7f, 0.6f, 0.8f}, .sigma_s = {0.03f, 0.02f, 0.04f}}) +
+                          medium_box("fog", "", {{-5, -1.5f, -2}, {5, 2.5f, 5}});
+  Agreement how;
+  if (!nightly()) how.d = 0.04;  // blocks see more than the mean does
+  check_all_agree("behind fog", look(2) + floor + lamps + fog, {{"passing", {.media = MediaStrategy::vertex}}, {"dimmed", {}}}, how);
+}
