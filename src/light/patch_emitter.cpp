@@ -145,7 +145,8 @@ std::array<double, 2> PatchEmitter::Form::invert(Vec3d p) const {
   // The root whose point lies nearest to p; both may be in range where the patch folds over.
   std::array<double, 2> best{0.5, 0.5};
   double best_error = kInfinity;
-  for (const double root : {q / a, c / q}) {
+  const auto ratio = [](double x, double y) { return y != 0 ? x / y : double{kInfinity}; };
+  for (const double root : {ratio(q, a), ratio(c, q)}) {
     if (!std::isfinite(root)) continue;
     const double v = std::clamp(root, 0.0, 1.0);
     const Vec3d side = eu + euv * v, offset = d + ev * v;
