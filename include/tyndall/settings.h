@@ -47,8 +47,9 @@ struct RenderSettings {
   std::optional<int> shadow_rays{};
   /// Clusters of the light tree that are predicted worse than this are split, in [0, 1]; 0: none, 1: down to single
   /// lights. Up to 15 clusters are made, or as many as there are candidates if those are more; with 0 candidates there is
-  /// no limit. No part in strategies without a wide tree.
-  float splitting = 0.5f;
+  /// no limit. No part in strategies without a wide tree. Unset: 0.5 where there are 8 candidates or more, or no limit; 0
+  /// elsewhere.
+  std::optional<float> splitting{};
   MediaStrategy media = MediaStrategy::product;
   DistanceStrategy distance = DistanceStrategy::automatic;
   EmissionStrategy emission = EmissionStrategy::paths;

@@ -37,7 +37,7 @@ LightSearch light_search(const LightContext& context, const Vertex& vertex) {
   search.query = vertex.light_query();
   if (!vertex.has_smooth() || context.selector.exhaustive()) return search;
   const auto [candidates, shadow_rays] = counts_at_vertex(context, search.query);
-  search.cut = context.selector.cut(search.query, {.candidates = candidates, .splitting = context.settings.splitting});
+  search.cut = context.selector.cut(search.query, cut_settings(context, candidates));
   search.shadow_rays = shadow_rays;
   return search;
 }

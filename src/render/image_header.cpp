@@ -24,7 +24,7 @@ std::string options_text(const RenderSettings& settings) {
     text += " --" + std::string(axis.option) + " " + std::string(axis.get(settings));
   }
   if (settings.candidates) text += " --candidates " + std::to_string(*settings.candidates);
-  text += " --splitting " + exact(settings.splitting);
+  if (settings.splitting) text += " --splitting " + exact(*settings.splitting);
   if (settings.shadow_rays) text += " --shadow-rays " + std::to_string(*settings.shadow_rays);
   return text;
 }

@@ -34,9 +34,20 @@ LightCounts among(std::size_t lights, LightCounts counts) {
   return {std::min(counts.candidates, n), std::min(counts.shadow_rays, (n + 1) / 2)};
 }
 
+/// Few candidates are as well drawn from the whole tree, in strata of one number: to split clusters for two or four of them
+/// took 2 to 13 % more instructions for the same relMSE without the worst 1 % (metal, coats, smoke, a ceiling, a room; 4 to
+/// 10,000 lights), with hardly less of it for the same samples.
+constexpr int kSplitFrom = 8;
+constexpr float kSplitting = 0.5f;
+
 bool mostly_glossy(const PointQuery& query) { return query.glossy() && query.diffuse < 0.5f; }
 
 }  // namespace
+
+CutSettings cut_settings(const LightContext& context, int candidates) {
+  const float unless_set = candidates == 0 || candidates >= kSplitFrom ? kSplitting : 0.0f;
+  return {.candidates = candidates, .splitting = context.settings.splitting.value_or(unless_set)};
+}
 
 LightCounts counts_at_vertex(const LightContext& context, const PointQuery& query) {
   const Lights& lights = context.world.lights;

@@ -14,6 +14,9 @@ struct SpanCounts : LightCounts {
   int distances = 1;  ///< along the span, looked at with each candidate
 };
 
+/// How clusters are split for that many candidates.
+CutSettings cut_settings(const LightContext& context, int candidates);
+
 /// As the settings say; unset ones by what follows the event: a path that ends there shares its cost with nothing else, so
 /// it pays to look at more.
 LightCounts counts_at_vertex(const LightContext& context, const PointQuery& query);

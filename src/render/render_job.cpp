@@ -47,7 +47,7 @@ PixelBounds full_crop(const Scene& scene, const RenderSettings& settings) {
 void check(const RenderSettings& settings) {
   if (settings.spp < 1) throw Error(Failure::usage, "spp is " + std::to_string(settings.spp) + "; give 1 or more");
   if (settings.candidates && *settings.candidates < 0) throw Error(Failure::usage, "candidates is negative; give 0 or more");
-  if (!(settings.splitting >= 0 && settings.splitting <= 1)) throw Error(Failure::usage, "splitting must be from 0 to 1");
+  if (settings.splitting && !(*settings.splitting >= 0 && *settings.splitting <= 1)) throw Error(Failure::usage, "splitting must be from 0 to 1");
   const bool along_spans = settings.distance != DistanceStrategy::automatic && settings.distance != DistanceStrategy::tracking;
   if (settings.media == MediaStrategy::vertex && along_spans) {
     throw Error(Failure::usage, "media vertex chooses a light at a collision that has been tracked, so its distance is tracking; "

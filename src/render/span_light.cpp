@@ -212,7 +212,7 @@ std::optional<SpanSearch> span_search(const LightContext& context, const Span& s
   search.query = query_of(settings, span, *profile, search.g);
   if (!context.selector.exhaustive()) {
     const SpanCounts counts = counts_along_span(context, profile->scattered(), profile->optical_depth());
-    search.cut = context.selector.cut(search.query, {.candidates = counts.candidates, .splitting = settings.splitting});
+    search.cut = context.selector.cut(search.query, cut_settings(context, counts.candidates));
     search.shadow_rays = counts.shadow_rays;
     search.distances = counts.distances;
   }

@@ -17,7 +17,8 @@ judged() {
   case $code in
     0) cmp -s out.exr whole.exr || fail "$what: exit code 0 and another picture" ;;
     1 | 3 | 4)
-      [ -e out.exr ] && fail "$what: exit code $code, but there is a picture"
+      # Memory may run out when the picture is written and only its summary is to be printed.
+      [ ! -e out.exr ] || cmp -s out.exr whole.exr || fail "$what: exit code $code, and another picture"
       [ "$(wc -l <err.txt)" -le 3 ] && [ -s err.txt ] || fail "$what: not one message: $(head -c 300 err.txt)"
       ;;
     *) fail "$what: exit code $code: $(head -c 300 err.txt)" ;;

@@ -18,7 +18,7 @@ struct Variant {
   int threads = 0;
   std::optional<int> candidates{};
   std::optional<int> shadow_rays{};
-  float splitting = RenderSettings{}.splitting;
+  std::optional<float> splitting{};
   MediaStrategy media = MediaStrategy::product;
   DistanceStrategy distance = DistanceStrategy::automatic;
   EmissionStrategy emission = RenderSettings{}.emission;

@@ -15,7 +15,7 @@ inline SegmentProfile homogeneous_profile(float t0, float t1, float sigma, float
   const double depth = double(sigma) * (double(t1) - t0);
   for (int i = 0; i <= bins; ++i) {
     const double share = double(i) / bins;
-    const double t = depth < 1 ? share * (t1 - t0) : -std::log1p(-share * -std::expm1(-depth)) / sigma;
+    const double t = i == 0 ? 0 : !(depth >= 1) ? share * (t1 - t0) : -std::log1p(-share * -std::expm1(-depth)) / sigma;
     p.edge[i] = i == bins ? t1 : static_cast<float>(t0 + t);
   }
   for (int i = 0; i < bins; ++i) {
