@@ -114,7 +114,7 @@ std::optional<Vertex> Path::arrive(const Trace& trace) {
     return std::nullopt;
   }
   add_surface_emission(*trace.hit);
-  if (depth_ > 0 && depth_ >= limits_.max_depth) return std::nullopt;  // run() would end the path there
+  if (depth_ > 0 && depth_ >= limits_.max_depth) return std::nullopt;  // follow() would end the path there
   Vertex vertex = surface_vertex(*trace.hit);
   if (depth_ == 0 && limits_.want_albedo) record_.albedo += seen_.value_or(beta_) * vertex.albedo();
   return vertex;

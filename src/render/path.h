@@ -43,7 +43,7 @@ class Path {
   std::optional<Vertex> arrive(const Trace& trace);
   std::optional<Vertex> collide_untraced();
   std::optional<Vertex> pass_media(const Trace& trace);
-  std::optional<Rgb> seen_beyond(const Span& span, const Trace& trace) const;
+  std::optional<Rgb> seen_beyond(const Span& span, const Trace& trace);
   void gather(const Span& span);
   bool lit_at_collisions(const Span& span) const;
   std::optional<Vertex> fly(const Span& span, const Trace& trace);

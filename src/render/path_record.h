@@ -13,7 +13,7 @@ struct PathRecord {
 
   // The camera ray.
   float alpha = 1;          ///< 1 - transmittance where nothing stands behind, on average over samples
-  Rgb albedo;               ///< of the first surface or collision, dimmed by the media before it
+  Rgb albedo;               ///< of the first surface or collision, dimmed by the media before it; or the sum of both
   bool hit_surface = false; ///< a real surface stands behind whatever media there are
   Vec3 p, n;                ///< that surface's point and shading normal
   float z = 0;              ///< and its depth along the viewing axis

@@ -44,7 +44,7 @@ struct World::Parts {
   /// No medium anywhere: nothing of src/volume needs to run.
   bool has_media() const { return !media.empty(); }
   MaterialId material_of(const SurfaceHit& hit) const { return geometry.placed()[hit.shape].shape->material; }
-  /// Lights that a ray can find, at its end: surfaces that shine, and skies.
+  /// Whether there are lights that a ray can find, at its end: surfaces that shine, and skies.
   bool rays_find_lights() const { return lights.stats().emitters > 0 || !lights.infinite().empty(); }
   /// The light that the hit primitive is, if it emits.
   std::optional<LightId> light_of(const SurfaceHit& hit) const {

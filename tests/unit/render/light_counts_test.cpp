@@ -23,6 +23,10 @@ class Counted {
     return counts_along_span(context(settings, event), scattered, depth);
   }
 
+  float splitting(const RenderSettings& settings, int candidates) {
+    return cut_settings(context(settings, 0), candidates).splitting;
+  }
+
  private:
   static std::string scene(int points, bool lamp) {
     std::string text = test::sphere_scene(4, 4);
@@ -101,6 +105,15 @@ TEST_CASE("few lights need few looks, unless the path ends there") {
   check(three.span(deep, 1, 0.5f), 3, 2);
   check(three.vertex(direct, 0), 8, 0);
   check(three.span(direct, 0, 0.5f), 16, 0);
+}
+
+TEST_CASE("clusters are split for many candidates, unless it is set") {
+  Counted lights(2, false);
+  RenderSettings set;
+  set.splitting = 0.2f;
+  for (const int candidates : {0, 8, 32}) CHECK(lights.splitting({}, candidates) == 0.5f);
+  for (const int candidates : {1, 2, 7}) CHECK(lights.splitting({}, candidates) == 0);
+  for (const int candidates : {0, 1, 8}) CHECK(lights.splitting(set, candidates) == 0.2f);
 }
 
 TEST_CASE("what is set holds everywhere") {
