@@ -147,7 +147,7 @@ TEST_CASE("a metal floor and wide lamps behind fog") {
   check_all_agree("behind fog", look(2) + floor + lamps + fog, {{"passing", {.media = MediaStrategy::vertex}}, {"dimmed", {}}}, how);
 }
 
-// 65,536 samples of each: standard errors of 0.002 at most.
+// 65,536 samples of each: standard errors of 0.002 at most; Approx allows 0.017. Roulette without its weight is off by 0.11.
 TEST_CASE("a sky behind fog leaves A = 1 - transmittance, passed or dimmed") {
   const std::string scene = look(3) + lights() + homogeneous("fog", {.sigma_a = Rgb(0.3f), .sigma_s = Rgb(0.2f)}) +
                             medium_box("fog", "", {{-5, -5, -1}, {5, 5, 1}});
