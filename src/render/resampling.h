@@ -1,8 +1,9 @@
-/// Resampled importance sampling [Talbot et al. 2005].
+/// Few of many candidates are evaluated in full: resampled importance sampling [Talbot et al. 2005], without replacement.
 #pragma once
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "math/small_vector.h"
 
@@ -15,29 +16,62 @@ struct Survivor {
 };
 using Survivors = SmallVector<Survivor, 8>;
 
-/// `count` of the candidates, drawn with replacement in proportion to their `weight`s > 0, stand for all [2005, eq. 4]:
-/// the sum of scale x estimate is in expectation that over all candidates. Strata of one number `u` draw them.
-/// 0, or no fewer than there are: every one. Weights that are not finite survive, for the film to count.
+/// Which candidates are kept, and how the others are drawn.
+struct Thinning {
+  double threshold = std::numeric_limits<double>::infinity();  ///< weights from here up are kept
+  int drawn = 0;                                               ///< of the others
+};
+
+/// Of `count` > 0 survivors among more candidates than that: one of weight w survives with probability min(1, w / c), where
+/// the threshold c makes `count` of them on average; no other choice of so few has less variance [Fearnhead and Clifford
+/// 2003, theorem 2].
 template <typename Candidates>
-Survivors resample(const Candidates& candidates, int count, double u) {
+Thinning thinning(const Candidates& candidates, int count) {
+  Thinning found{.drawn = count};
+  for (int kept_before = -1;;) {
+    // The rest is summed anew: beside a heavy weight that is taken off again, light ones would be rounded away.
+    int kept = 0;
+    double rest = 0;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      const double weight = candidates[i].weight;
+      if (weight >= found.threshold) ++kept;
+      else rest += weight;
+    }
+    found.drawn = count - kept;
+    if (kept == kept_before || found.drawn == 0) return found;
+    found.threshold = rest / found.drawn;
+    kept_before = kept;
+  }
+}
+
+/// `count` of the candidates, chosen by their `weight`s > 0, stand for all: the sum of scale x estimate is in expectation
+/// that over all candidates. The heavy ones are kept as they are, strata of one number `u` draw the others.
+/// 0, or no fewer than there are: every one. A weight that is not finite survives, for the film to count.
+template <typename Candidates>
+Survivors resample(const Candidates& candidates, int count, float u) {
   Survivors survivors;
   if (count == 0 || candidates.size() <= static_cast<std::size_t>(count)) {
     for (std::size_t i = 0; i < candidates.size(); ++i) survivors.push_back({i, 1});
     return survivors;
   }
-  double total = 0;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    total += candidates[i].weight;
     if (std::isfinite(candidates[i].weight)) continue;
     survivors.push_back({i, 1});
     return survivors;
   }
-  std::size_t i = 0;
-  double passed = candidates[0].weight;  // cumulative weight up to and with candidate i
-  for (int k = 0; k < count; ++k) {
-    const double target = (k + u) / count * total;
-    while (passed <= target && i + 1 < candidates.size()) passed += candidates[++i].weight;
-    survivors.push_back({i, static_cast<float>(total / (candidates[i].weight * static_cast<double>(count)))});
+  const auto [threshold, drawn] = thinning(candidates, count);
+  double passed = 0;  // weight of those that were not kept, up to and with candidate i
+  int k = 0;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const double weight = candidates[i].weight;
+    if (weight >= threshold) {
+      survivors.push_back({i, 1});
+      continue;
+    }
+    passed += weight;
+    if (k == drawn || passed <= (k + double{u}) * threshold) continue;
+    survivors.push_back({i, static_cast<float>(threshold / weight)});
+    ++k;
   }
   return survivors;
 }

@@ -38,18 +38,23 @@ TEST_CASE("kernels: resampling") {
   check_kernel("survivors", [](Adversary& any) {
     std::array<Weighted, 6> weights{};
     const auto n = 1 + any.below(6);
-    double total = 0;
-    for (std::uint32_t i = 0; i < n; ++i) total += weights[i].weight = any.positive(60);
+    for (std::uint32_t i = 0; i < n; ++i) weights[i].weight = any.positive(60);
     const std::span<const Weighted> candidates(weights.data(), n);
     const int count = static_cast<int>(any.below(4));
     const Survivors survivors = resample(candidates, count, any.unit());
     const std::size_t expected = count == 0 || n <= static_cast<std::uint32_t>(count) ? n : static_cast<std::size_t>(count);
     if (survivors.size() != expected) return holds(false, n, count, survivors.size());
+    double least = kInfinity, threshold = 0;
     for (const Survivor& s : survivors) {
-      // The scaled weight of one that was drawn is its share of the whole, whichever it is.
-      const double scaled = s.index < n ? double(s.scale) * weights[s.index].weight : -1;
-      const double wanted = expected == n ? weights[s.index].weight : total / count;
-      if (!(std::abs(scaled - wanted) <= 1e-6 * wanted)) return holds(false, n, count, s.index, s.scale);
+      if (s.index >= n || !(s.scale >= 1)) return holds(false, n, count, s.index, s.scale);
+      const double scaled = double(s.scale) * weights[s.index].weight;
+      least = std::min(least, scaled);
+      if (s.scale > 1) threshold = scaled;
+    }
+    // Those that were not sure to survive stand for the same weight each, and the others have no less.
+    if (threshold > 0 && !(std::abs(threshold - least) <= 1e-6 * least)) return holds(false, n, count, threshold, least);
+    for (std::size_t i = 1; i < survivors.size(); ++i) {
+      if (survivors[i].index <= survivors[i - 1].index) return holds(false, n, count, i);
     }
     return Fault();
   });

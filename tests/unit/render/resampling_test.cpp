@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -37,7 +39,7 @@ double mean_of_survivors(const std::vector<Candidate>& candidates, int count) {
   constexpr int kSteps = 100'000;
   double sum = 0;
   for (int i = 0; i < kSteps; ++i) {
-    for (const Survivor& s : resample(candidates, count, (i + 0.5) / kSteps)) sum += s.scale * candidates[s.index].estimate;
+    for (const Survivor& s : resample(candidates, count, (i + 0.5f) / kSteps)) sum += s.scale * candidates[s.index].estimate;
   }
   return sum / kSteps;
 }
@@ -56,20 +58,58 @@ TEST_CASE("resampling: survivors stand for the sum of all candidates on average"
   }
 }
 
-TEST_CASE("resampling: as many as asked for, in strata, and every one where there are no more") {
-  const std::vector<Candidate> candidates{{1, 1}, {6, 1}, {1, 1}};
-  for (int i = 0; i < 100; ++i) {
-    const double u = (i + 0.5) / 100;
-    const Survivors two = resample(candidates, 2, u);
+TEST_CASE("resampling: heavy ones for sure, others in proportion to their weight, as many as asked for") {
+  const std::vector<Candidate> candidates{{1, 1}, {6, 1}, {3, 1}};
+  constexpr int kSteps = 1000;
+  int first = 0;
+  for (int i = 0; i < kSteps; ++i) {
+    const Survivors two = resample(candidates, 2, (i + 0.5f) / kSteps);
     REQUIRE(two.size() == 2);
-    CHECK((two[0].index == 1 || two[1].index == 1));  // three quarters of the weight: in one of two strata for sure
-    for (const int count : {0, 3, 8}) {
-      const Survivors all = resample(candidates, count, u);
-      REQUIRE(all.size() == 3);
-      for (std::size_t k = 0; k < 3; ++k) {
-        CHECK(all[k].index == k);
-        CHECK(all[k].scale == 1);
+    const Survivor &heavy = two[two[0].index == 1 ? 0 : 1], &other = two[two[0].index == 1 ? 1 : 0];
+    CHECK(heavy.index == 1);
+    CHECK(heavy.scale == 1);
+    CHECK(other.scale == (other.index == 0 ? doctest::Approx(4) : doctest::Approx(4.0 / 3)));
+    first += other.index == 0;
+  }
+  CHECK(first == kSteps / 4);
+}
+
+TEST_CASE("resampling: the chance to survive is that of the least variance") {
+  // min(1, w / c), with c from another way to find it [Fearnhead and Clifford 2003]: halving.
+  Rng rng(2);
+  for (int size = 2; size <= 12; ++size) {
+    std::vector<Candidate> candidates = random_candidates(size, rng);
+    for (Candidate& c : candidates) c.weight = std::pow(c.weight, 8.0f);
+    for (int count = 1; count < std::min(size, 6); ++count) {
+      double low = 0, high = 1e6;
+      for (int step = 0; step < 100; ++step) {
+        const double c = 0.5 * (low + high);
+        double kept = 0;
+        for (const Candidate& candidate : candidates) kept += std::min(1.0, candidate.weight / c);
+        (kept > count ? low : high) = c;
       }
+      constexpr int kSteps = 20'000;
+      std::vector<int> survived(candidates.size());
+      for (int i = 0; i < kSteps; ++i) {
+        for (const Survivor& s : resample(candidates, count, (i + 0.5f) / kSteps)) ++survived[s.index];
+      }
+      CAPTURE(size);
+      CAPTURE(count);
+      for (std::size_t i = 0; i < candidates.size(); ++i) {
+        CHECK(std::abs(double(survived[i]) / kSteps - std::min(1.0, candidates[i].weight / high)) <= 2.0 / kSteps);
+      }
+    }
+  }
+}
+
+TEST_CASE("resampling: every one where there are no more than asked for") {
+  const std::vector<Candidate> candidates{{1, 1}, {6, 1}, {1, 1}};
+  for (const int count : {0, 3, 8}) {
+    const Survivors all = resample(candidates, count, 0.3f);
+    REQUIRE(all.size() == 3);
+    for (std::size_t k = 0; k < 3; ++k) {
+      CHECK(all[k].index == k);
+      CHECK(all[k].scale == 1);
     }
   }
 }
@@ -77,7 +117,7 @@ TEST_CASE("resampling: as many as asked for, in strata, and every one where ther
 TEST_CASE("resampling: a weight that is no number survives, for the film to count") {
   for (const float weight : {kInfinity, std::numeric_limits<float>::quiet_NaN()}) {
     const std::vector<Candidate> candidates{{1, 1}, {weight, 1}, {1, 1}};
-    for (const double u : {0.0, 0.4, 0.999}) {
+    for (const float u : {0.0f, 0.4f, 0.999f}) {
       const Survivors survivors = resample(candidates, 1, u);
       REQUIRE(survivors.size() == 1);
       CHECK(survivors[0].index == 1);
