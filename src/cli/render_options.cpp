@@ -83,11 +83,11 @@ void declare(CLI::App& command, MethodOptions& o) {
                        std::string(axis.about) + ": " + join(axis.names, ", ") + " [the Integrator's, else " +
                            std::string(axis.get({})) + "]; " + option + " " + std::string(axis.names.back()));
   }
-  command.add_option("--candidates", o.candidates, "lights chosen at a vertex or along a stretch of medium and looked at without visibility; 0: one for each cluster that --splitting makes [the Integrator's, else 8 or 4 along media, 4 on glossy surfaces and 2 on others, but not more than there are lights; more with --max-depth 1]; --candidates 8")
+  command.add_option("--candidates", o.candidates, "lights chosen at a vertex or along a stretch of medium and looked at without visibility; 0: one for each cluster that --splitting makes [the Integrator's, else 3 along media, 4 on glossy surfaces and 2 on others, but not more than there are lights; more with --max-depth 1]; --candidates 8")
       ->check(CLI::Range(0, 4096));
   command.add_option("--splitting", o.splitting, "clusters of the light tree predicted worse than this are split, up to 15 or as many as --candidates, 0..1; 0: none, 1: down to single lights [the Integrator's, else 0.5 for 8 candidates or more and for --candidates 0, 0 elsewhere]; --splitting 0.7")
       ->check(fraction());
-  command.add_option("--shadow-rays", o.shadow_rays, "of these are traced, resampled by their contribution; 0: all [the Integrator's, else 2, and 4 along media that the camera sees, but not more than half the lights; all or most with --max-depth 1]; --shadow-rays 0")
+  command.add_option("--shadow-rays", o.shadow_rays, "of these are traced, resampled by their contribution; 0: all [the Integrator's, else 2, but not more than half the lights; all or most with --max-depth 1]; --shadow-rays 0")
       ->check(CLI::Range(0, 4096));
 }
 
