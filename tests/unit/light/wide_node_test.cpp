@@ -9,6 +9,8 @@
 namespace tyndall {
 namespace {
 
+constexpr std::array<std::uint32_t, 8> kNoChildren{};
+
 WideQuery local(const PointQuery& q) { return {q.p, q.n, dot(q.n, q.n) > 0, q.transmissive}; }
 
 TEST_CASE("what is stored of a cluster holds it") {
@@ -76,7 +78,7 @@ TEST_CASE("importance is 0 only where nothing can contribute: a million clusters
       clusters[k] = cluster_union(std::span(parts).first(counts[k]));
     }
     WideNode node{};
-    node.set_children(clusters, std::array<std::uint32_t, 8>{});
+    node.set_children(clusters, kNoChildren);
     const PointQuery q = test::random_query(lights[rng.next() % 8][0], rng);
     const ChildImportance importance = child_importance(node, local(q));
     for (std::size_t k = 0; k < 8; ++k) {
@@ -112,7 +114,7 @@ TEST_CASE("eight at once give what one at a time in double precision gives") {
       clusters[k] = cluster_union(std::span(parts).first(1 + rng.next() % 2));
     }
     WideNode node{};
-    node.set_children(std::span(clusters).first(size), std::array<std::uint32_t, 8>{});
+    node.set_children(std::span(clusters).first(size), std::span(kNoChildren).first(size));
     const WideQuery q = local(test::random_query(last, rng));
     const ChildImportance wide = child_importance(node, q);
     for (std::size_t k = 0; k < 8; ++k) {
@@ -166,7 +168,7 @@ TEST_CASE("lobes and phase functions, eight at once, give what one at a time in 
       c = cluster_union(std::span(parts).first(1 + rng.next() % 2));
     }
     WideNode node{};
-    node.set_children(clusters, std::array<std::uint32_t, 8>{});
+    node.set_children(clusters, kNoChildren);
     WideQuery q{test::random_in_cube(rng, 3), test::random_direction(rng), i % 3 != 0, rng.uniform() < 0.5f};
     q.g = 1.9f * rng.uniform() - 0.95f;
     q.forward = test::random_direction(rng);
