@@ -86,7 +86,7 @@ bool Path::scatter(const Vertex& vertex) {
 bool Path::survive_roulette() {
   const float survival = max_component(beta_) * eta_scale_;
   if (depth_ <= 1 || survival >= 1) return true;
-  if (context_.sampler.next_1d() >= survival) return false;
+  if (context_.sampler.next_wide() >= survival) return false;  // many bits, as survival may be next to nothing
   beta_ *= 1 / survival;
   return true;
 }

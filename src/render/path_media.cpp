@@ -13,6 +13,15 @@ namespace {
 /// What stands behind media is looked at this many times as often as the media's clearest channel lets rays pass.
 constexpr float kSeenMore = 2;
 
+Rgb tracked_transmittance(const LightContext& context, const Span& span, Rng& rng) {
+  Rgb T(1.0f);
+  for (const SpanPart& part : span.parts) {
+    T *= transmittance(context.settings.transmittance, part.view(), span.ray, part.t0, part.t1, rng, context.counters.tracking);
+    if (is_black(T)) break;
+  }
+  return T;
+}
+
 }  // namespace
 
 /// In dense media that are the same everywhere, and whose lights are chosen at collisions, the collision is drawn first: the
@@ -74,8 +83,7 @@ std::optional<Rgb> Path::seen_beyond(const Span& span, const Trace& trace) {
   const RenderSettings& settings = context_.settings;
   if (depth_ > 0 || !span_search_ || !pairs_along_spans(settings) || tracks(settings)) return std::nullopt;
   if (!trace.hit && context_.world.lights.infinite().empty()) return std::nullopt;
-  const auto closed = [](const SpanPart& part) { return all_homogeneous(part.view()); };
-  if (!std::all_of(span.parts.begin(), span.parts.end(), closed)) return std::nullopt;
+  if (!homogeneous_throughout(span.parts)) return std::nullopt;
   Rgb T(1.0f);
   for (const SpanPart& part : span.parts) T *= sum_of(part.view()).transmittance(double{part.t1} - part.t0);
   const float chance = std::min(1.0f, kSeenMore * max_component(T));
@@ -122,18 +130,12 @@ std::optional<Vertex> Path::fly(const Span& span, const Trace& trace) {
 void Path::dim(const Span& span) {
   begin(Step::fly);
   Rng rng = context_.sampler.stream();
-  for (const SpanPart& part : span.parts) {
-    beta_ *= transmittance(context_.settings.transmittance, part.view(), ray_, part.t0, part.t1, rng, context_.counters.tracking);
-    if (is_black(beta_)) return;
-  }
+  beta_ *= tracked_transmittance(context_, span, rng);
 }
 
 void Path::record_transmittance(const Span& span) {
   Rng rng = context_.sampler.side_stream();
-  for (const SpanPart& part : span.parts) {
-    record_.transmittance *=
-        transmittance(context_.settings.transmittance, part.view(), ray_, part.t0, part.t1, rng, context_.counters.tracking);
-  }
+  record_.transmittance *= tracked_transmittance(context_, span, rng);
 }
 
 }  // namespace tyndall

@@ -1,9 +1,11 @@
 /// The media along one ray, up to where it ends.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "render/span_walk.h"
+#include "volume/homogeneous.h"
 
 namespace tyndall {
 
@@ -23,6 +25,12 @@ struct Span {
   /// The part that holds `t`; the nearest one where rounding has left all.
   const SpanPart& part_at(float t) const;
 };
+
+/// Whether all stretches, SpanParts or other Intervals, have media that are known in closed form.
+template <typename Parts>
+bool homogeneous_throughout(const Parts& parts) {
+  return std::all_of(parts.begin(), parts.end(), [](const Interval& part) { return all_homogeneous(part.view()); });
+}
 
 /// Walks the ray once, from where `start` is the membership. Adds what does not pair up to `parity_errors`.
 Span make_span(const SpanWalk::Context& context, const MediaState& start, const Ray& ray, const Trace& trace,

@@ -1,11 +1,9 @@
 #include "render/span_far.h"
 
-#include <algorithm>
 #include <span>
 
 #include "render/fire_light.h"
 #include "volume/coarse.h"
-#include "volume/homogeneous.h"
 
 namespace tyndall {
 namespace {
@@ -29,11 +27,11 @@ bool far_from(const Bounds3& lights, const Ray& ray, float t0, float t1) {
 
 template <typename Parts>
 bool deep(const Ray& ray, const Parts& parts) {
-  const bool closed = std::all_of(parts.begin(), parts.end(), [](const Interval& part) { return all_homogeneous(part.view()); });
+  const float enough = homogeneous_throughout(parts) ? kDeepUniform : kDeep;
   float depth = 0;
   for (const Interval& part : parts) {
     depth += coarse_optical_depth(part.view(), ray, part.t0, part.t1, kReads);
-    if (depth > (closed ? kDeepUniform : kDeep)) return true;
+    if (depth > enough) return true;
   }
   return false;
 }
