@@ -39,11 +39,10 @@ struct RenderSettings {
   int threads = 0;               ///< 0: all cores
   LightStrategy lights = LightStrategy::tree;  ///< one that the World was built with
   /// Lights chosen at a vertex or along a stretch of medium, >= 0; 0: as many as splitting makes clusters, one without a
-  /// tree. Exhaustive takes all lights and traces all. Unset: 2, where a surface favours directions 4; along stretches of
-  /// medium that the camera sees 8, along later ones 4. Paths of one event (max_depth 1) take 8, along media 16.
+  /// tree. Exhaustive takes all lights and traces all. Unset: 2, where a surface favours directions 4, along stretches
+  /// of medium 3. Paths of one event (max_depth 1) take 8, along media 16.
   std::optional<int> candidates{};
-  /// Of the candidates, are traced, >= 0; 0: every one. Unset: 2, along what the camera sees of media 4, paths of one event
-  /// all.
+  /// Of the candidates, are traced, >= 0; 0: every one. Unset: 2, paths of one event all or most.
   std::optional<int> shadow_rays{};
   /// Clusters of the light tree that are predicted worse than this are split, in [0, 1]; 0: none, 1: down to single
   /// lights. Up to 15 clusters are made, or as many as there are candidates if those are more; with 0 candidates there is

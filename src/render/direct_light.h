@@ -37,7 +37,7 @@ LightSearch light_search(const LightContext& context, const Vertex& vertex);
 
 /// Unbiased estimate of the light scattered at `vertex` toward the path, weighted by MIS against scattered rays that
 /// hit emitters. Lights are chosen and looked at without visibility; of these some are traced, resampled by their
-/// contribution [Talbot et al. 2005]; light_counts.h says how many.
+/// contribution (resampling.h); light_counts.h says how many.
 /// Multiply by the throughput `beta`, which is passed for the densities only.
 Rgb direct_light(const LightContext& context, const Vertex& vertex, const LightSearch& search, Rgb beta);
 

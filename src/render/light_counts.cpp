@@ -12,7 +12,8 @@ constexpr LightCounts kGlossyVertex{4, 2};
 /// Where paths go on, most of the error is of what comes after, and more pairs cost more than they save, for the camera's
 /// span as well: 8 of them there and 4 later took 1.1 to 1.5 times the instructions for the same relMSE without the worst
 /// 1 % (smoke, two fogs; 1,000 to 20,000 lights; depths of 2 to 16). Fewer than 3 later leave fireflies among lights in smoke.
-constexpr SpanCounts kOnlySpan{{16, 0}}, kSpan{{3, 2}};
+constexpr LightCounts kSpan{3, 2};
+constexpr SpanCounts kOnlySpan{{16, 0}};
 /// Spans that scatter less than this share of the light take one candidate.
 constexpr float kThin = 1e-3f;
 /// In media of more than this optical depth most of the candidates are dim, and few of the distances matter. Measured in

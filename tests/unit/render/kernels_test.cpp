@@ -38,21 +38,32 @@ TEST_CASE("kernels: resampling") {
   check_kernel("survivors", [](Adversary& any) {
     std::array<Weighted, 6> weights{};
     const auto n = 1 + any.below(6);
-    for (std::uint32_t i = 0; i < n; ++i) weights[i].weight = any.positive(60);
+    const bool ties = any.below(4) == 0;
+    for (std::uint32_t i = 0; i < n; ++i) {
+      weights[i].weight = ties ? std::exp2(-static_cast<float>(any.below(8) < 7 ? any.below(3) : 53)) : any.positive(60);
+    }
     const std::span<const Weighted> candidates(weights.data(), n);
     const int count = static_cast<int>(any.below(4));
     const Survivors survivors = resample(candidates, count, any.unit());
     const std::size_t expected = count == 0 || n <= static_cast<std::uint32_t>(count) ? n : static_cast<std::size_t>(count);
     if (survivors.size() != expected) return holds(false, n, count, survivors.size());
-    double least = kInfinity, threshold = 0;
+    double least = kInfinity;
     for (const Survivor& s : survivors) {
       if (s.index >= n || !(s.scale >= 1)) return holds(false, n, count, s.index, s.scale);
-      const double scaled = double(s.scale) * weights[s.index].weight;
-      least = std::min(least, scaled);
-      if (s.scale > 1) threshold = scaled;
+      least = std::min(least, double(s.scale) * weights[s.index].weight);
     }
-    // Those that were not sure to survive stand for the same weight each, and the others have no less.
-    if (threshold > 0 && !(std::abs(threshold - least) <= 1e-6 * least)) return holds(false, n, count, threshold, least);
+    // Those that were not sure to survive stand for the same weight c each, the others have no less, and the sum of
+    // min(1, weight / c) is their number.
+    bool drawn = false;
+    for (const Survivor& s : survivors) {
+      if (s.scale == 1) continue;
+      drawn = true;
+      const double scaled = double(s.scale) * weights[s.index].weight;
+      if (!(scaled <= least * (1 + 1e-6))) return holds(false, n, count, scaled, least);
+    }
+    double expected_count = 0;
+    for (const Weighted& w : candidates) expected_count += std::min(1.0, w.weight / least);
+    if (drawn && !(std::abs(expected_count - count) <= 1e-5)) return holds(false, n, count, expected_count);
     for (std::size_t i = 1; i < survivors.size(); ++i) {
       if (survivors[i].index <= survivors[i - 1].index) return holds(false, n, count, i);
     }

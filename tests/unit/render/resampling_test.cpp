@@ -74,8 +74,8 @@ TEST_CASE("resampling: heavy ones for sure, others in proportion to their weight
   CHECK(first == kSteps / 4);
 }
 
-TEST_CASE("resampling: the chance to survive is that of the least variance") {
-  // min(1, w / c), with c from another way to find it [Fearnhead and Clifford 2003]: halving.
+TEST_CASE("resampling: the chance to survive is min(1, w / c)") {
+  // With c from another way to find it: halving.
   Rng rng(2);
   for (int size = 2; size <= 12; ++size) {
     std::vector<Candidate> candidates = random_candidates(size, rng);
@@ -97,6 +97,30 @@ TEST_CASE("resampling: the chance to survive is that of the least variance") {
       CAPTURE(count);
       for (std::size_t i = 0; i < candidates.size(); ++i) {
         CHECK(std::abs(double(survived[i]) / kSteps - std::min(1.0, candidates[i].weight / high)) <= 2.0 / kSteps);
+      }
+    }
+  }
+}
+
+TEST_CASE("resampling: ends with equal weights beside one next to nothing") {
+  // The threshold falls onto the weights that are equal to it, and off them again by rounding.
+  const std::vector<Candidate> two{{1, 1}, {0.5f, 1}, {0.5f, 1}, {0x1.8p-53f, 1}}, three{{1, 1}, {1, 1}, {0.5f, 1}, {0.5f, 1}, {0x1p-52f, 1}};
+  CHECK(resample(two, 2, 0.3f).size() == 2);
+  CHECK(resample(three, 3, 0.3f).size() == 3);
+}
+
+TEST_CASE("resampling: thousands of candidates of every size a float has") {
+  Rng rng(3);
+  std::vector<Candidate> candidates{{0x1p-126f, 1}};
+  while (candidates.size() < 30'000) candidates.push_back({std::exp2(252 * rng.uniform() - 126), 1});
+  for (const int count : {1, 100, 4096}) {
+    for (const float u : {0.0f, 0.3f, kOneMinusEpsilon}) {
+      const Survivors survivors = resample(candidates, count, u);
+      REQUIRE(survivors.size() == static_cast<std::size_t>(count));
+      for (std::size_t i = 0; i < survivors.size(); ++i) {
+        REQUIRE(survivors[i].scale >= 1);
+        REQUIRE(std::isfinite(survivors[i].scale));
+        REQUIRE((i == 0 || survivors[i].index > survivors[i - 1].index));
       }
     }
   }
