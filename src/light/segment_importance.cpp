@@ -87,12 +87,14 @@ double subtended_angle(double h, double from, double till) {
   return std::atan2(h * (till - from), h * h + from * till);
 }
 
-// The bisector of a triangle's angle divides the opposite side as the other two sides are to each other.
+// h tan((a + b) / 2), in the form that does not cancel: ends on both sides of the foot, or on one.
 double middle_of_angle(double h, double from, double till) {
   const double a = std::sqrt(h * h + from * from);
-  if (till == kInfinity) return from + a;
+  if (till == kInfinity) return from < 0 ? h * h / (a - from) : from + a;
   const double b = std::sqrt(h * h + till * till);
-  return from + (till - from) * a / (a + b);
+  const double middle =
+      from * till < 0 ? h * h * (from + till) / (a * b + h * h - from * till) : (from * b + till * a) / (a + b);
+  return std::clamp(middle, from, till);
 }
 
 double phase_ratio(double g, double cosine) {
