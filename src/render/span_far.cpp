@@ -1,5 +1,6 @@
 #include "render/span_far.h"
 
+#include <algorithm>
 #include <span>
 
 #include "render/fire_light.h"
@@ -15,6 +16,10 @@ constexpr float kFarAway = 1.5f;
 /// plume 0.95; homogeneous media of depth 2 to 10 1.2 to 1.4, of depth 0.5 to 2 0.85. Under a sky the picture of a cloud takes
 /// 0.5 to 0.6 of the time for 1.1 times the error.
 constexpr float kDeep = 0.5f, kDeepUniform = 2;
+/// On later spans so deep within the size of the lights' box, among lights as well. In smoke of depth 50: 1.15 by processor
+/// time, 1.36 by instructions; of depth 10 1.0 to 1.1. From depth 2 on 1.26 in the former, but collisions next to lamps make
+/// fireflies in thinner smoke.
+constexpr float kDeepLater = 8;
 constexpr int kReads = 4;
 
 float distance(Vec3 p, const Bounds3& box) { return length(max(max(box.min - p, p - box.max), Vec3{0, 0, 0})); }
@@ -25,15 +30,26 @@ bool far_from(const Bounds3& lights, const Ray& ray, float t0, float t1) {
   return half < kInfinity && distance(ray.at(t0 + half), lights) > kFarAway * half;
 }
 
+/// Whether the optical depth before `end` is more than that.
 template <typename Parts>
-bool deep(const Ray& ray, const Parts& parts) {
-  const float enough = homogeneous_throughout(parts) ? kDeepUniform : kDeep;
+bool deeper_than(float enough, const Ray& ray, const Parts& parts, float end = kInfinity) {
   float depth = 0;
   for (const Interval& part : parts) {
-    depth += coarse_optical_depth(part.view(), ray, part.t0, part.t1, kReads);
+    depth += coarse_optical_depth(part.view(), ray, part.t0, std::min(part.t1, end), kReads);
     if (depth > enough) return true;
   }
   return false;
+}
+
+template <typename Parts>
+bool deep(const Ray& ray, const Parts& parts) {
+  return deeper_than(homogeneous_throughout(parts) ? kDeepUniform : kDeep, ray, parts);
+}
+
+/// Whether light hardly gets from one end of `lights` to the other: what shines here is as near as the next collision.
+template <typename Parts>
+bool opaque_among(const Bounds3& lights, const Ray& ray, const Parts& parts) {
+  return !lights.empty() && deeper_than(kDeepLater, ray, parts, parts.front().t0 + length(lights.max - lights.min));
 }
 
 template <typename Parts>
@@ -42,7 +58,9 @@ bool suffice(const LightContext& context, const Ray& ray, const Parts& parts) {
   const bool by_default = settings.media == MediaStrategy::product && settings.distance == DistanceStrategy::automatic;
   if (!by_default || seeks_fire(context)) return false;
   if (is_only_event(context)) return false;  // it looks at many pairs
-  return far_from(context.world.lights.near_box(), ray, parts.front().t0, parts.back().t1) && deep(ray, parts);
+  const Bounds3& lights = context.world.lights.near_box();
+  if (context.event > 0 && opaque_among(lights, ray, parts)) return true;
+  return far_from(lights, ray, parts.front().t0, parts.back().t1) && deep(ray, parts);
 }
 
 }  // namespace

@@ -78,6 +78,18 @@ TEST_CASE("a stretch without end is near every light but those at infinity") {
   CHECK_FALSE(Asked(kLamp).suffice(1, kInfinity));
 }
 
+TEST_CASE("collisions suffice after the first event in media that are all but opaque among the lights") {
+  const std::string lamp = "LightSource \"point\" \"point3 from\" ";
+  Asked pair(lamp + "[0.5 0 -1]\n" + lamp + "[0.5 0 9]\n");
+  const RenderSettings settings;
+  CHECK(pair.suffice(1, 9, settings, 1));
+  CHECK_FALSE(pair.suffice(1, 9, settings, 0));
+  CHECK_FALSE(pair.suffice(1, 7, settings, 1));     // a surface stands there
+  CHECK_FALSE(pair.suffice(0.7f, 90, settings, 1));  // what is beyond the lights does not count
+  CHECK_FALSE(pair.suffice(0.7f, kInfinity, settings, 1));
+  CHECK(pair.suffice(1, kInfinity, settings, 1));
+}
+
 TEST_CASE("of a ray in media, its stretch to the end of their boxes counts") {
   Asked sun(kSun), lamp(kLamp);
   for (const float sigma : {0.2f, 2.0f}) {
