@@ -63,12 +63,12 @@ DistanceSampler::DistanceSampler(const SpanProfile& profile, const Ray& ray, con
 }
 
 void DistanceSampler::weigh(Weights weights) {
-  bins_ = kBins;
+  bins_ = profile_->bins();
   Masses by_profile, by_angle;
-  const auto& edges = profile_->edges();
-  std::array<float, kBins + 1> finite = edges;
-  if (finite.back() == kInfinity) finite.back() = finite.front() + 2 * profile_->reach();
-  for (std::size_t i = 0; i < kBins; i += kBlock) {
+  std::array<float, SpanProfile::kMostBins + 1> finite;
+  std::ranges::copy(profile_->edges(), finite.begin());
+  if (finite[bins_] == kInfinity) finite[bins_] = finite[0] + 2 * profile_->reach();
+  for (std::size_t i = 0; i < bins_; i += kBlock) {
     const Bins8 bins{load8(&finite[i]) - closest_, load8(&finite[i + 1]) - closest_, load8(&profile_->scatterings()[i]),
                      load8(&profile_->sigmas()[i])};
     const Float8 middle = 0.5f * (bins.begin + bins.end);
@@ -83,10 +83,10 @@ void DistanceSampler::weigh(Weights weights) {
 
 /// Light from infinity arrives the same everywhere: by what is scattered, and evenly.
 void DistanceSampler::weigh_far() {
-  bins_ = kBins;
+  bins_ = profile_->bins();
   Masses by_profile, by_length;
-  const auto& edges = profile_->edges();
-  for (std::size_t i = 0; i < kBins; ++i) {
+  const auto edges = profile_->edges();
+  for (std::size_t i = 0; i < bins_; ++i) {
     const float end = edges[i + 1] < kInfinity ? edges[i + 1] : edges.front() + 2 * profile_->reach();
     by_length[i] = end - edges[i];
     by_profile[i] = profile_->scatterings()[i] * by_length[i];
@@ -96,14 +96,14 @@ void DistanceSampler::weigh_far() {
 
 void DistanceSampler::mix(const Masses& by_profile, const Masses& by_angle) {
   Float8 sums_profile = 0, sums_angle = 0;
-  for (std::size_t i = 0; i < kBins; i += kBlock) {
+  for (std::size_t i = 0; i < bins_; i += kBlock) {
     sums_profile += load8(&by_profile[i]);
     sums_angle += load8(&by_angle[i]);
   }
   const float sum_profile = reduce(sums_profile), sum_angle = reduce(sums_angle);
   const float share = sum_profile > 0 ? kByAngle : 1.0f;
   const float a = sum_profile > 0 ? (1 - share) / sum_profile : 0.0f, b = sum_angle > 0 ? share / sum_angle : 0.0f;
-  for (std::size_t i = 0; i < kBins; i += kBlock) store8(&mass_[i], a * load8(&by_profile[i]) + b * load8(&by_angle[i]));
+  for (std::size_t i = 0; i < bins_; i += kBlock) store8(&mass_[i], a * load8(&by_profile[i]) + b * load8(&by_angle[i]));
 }
 
 /// That the stretch is seen under from the light. As one arc tangent: a difference of two loses narrow bins far away.
@@ -117,13 +117,13 @@ DistanceSample DistanceSampler::sample(float u) const {
   std::size_t bin = 0;
   if (bins_ > 1) {
     // Whole blocks are passed first. The last bin with mass takes what rounding leaves.
-    for (; bin + kBlock < kBins; bin += kBlock) {
+    for (; bin + kBlock < bins_; bin += kBlock) {
       const float block = reduce(load8(&mass_[bin]));
       if (u < block) break;
       u -= block;
     }
-    for (; bin < kBins && !(u < mass_[bin]); ++bin) u -= mass_[bin];
-    if (bin == kBins) --bin;
+    for (; bin < bins_ && !(u < mass_[bin]); ++bin) u -= mass_[bin];
+    if (bin == bins_) --bin;
     while (bin > 0 && !(mass_[bin] > 0)) --bin;
     u = std::min(u / mass_[bin], 0x1.fffffep-1f);
   }
@@ -132,17 +132,15 @@ DistanceSample DistanceSampler::sample(float u) const {
 }
 
 float DistanceSampler::pdf(float t) const {
-  const auto& edges = profile_->edges();
-  if (!(t >= edges.front()) || t > edges.back()) return 0;
+  if (!(t >= profile_->begin()) || t > profile_->end()) return 0;
   if (bins_ == 1) return pdf_in(0, t);
-  const auto next = std::upper_bound(edges.begin() + 1, edges.end() - 1, t);
-  const auto bin = static_cast<std::size_t>(next - edges.begin()) - 1;
+  const std::size_t bin = profile_->bin_at(t);
   return mass_[bin] * pdf_in(bin, t);
 }
 
 float DistanceSampler::sample_in(std::size_t bin, float u) const {
-  const auto& edges = profile_->edges();
-  const float begin = edges[bin], end = edges[bins_ == 1 ? kBins : bin + 1];
+  const auto edges = profile_->edges();
+  const float begin = edges[bin], end = bins_ == 1 ? profile_->end() : edges[bin + 1];
   float t;
   if (!far_) {
     // closest + D tan(angle of begin + part), by the addition theorem.
@@ -157,8 +155,8 @@ float DistanceSampler::sample_in(std::size_t bin, float u) const {
 }
 
 float DistanceSampler::pdf_in(std::size_t bin, float t) const {
-  const auto& edges = profile_->edges();
-  const float begin = edges[bin], end = edges[bins_ == 1 ? kBins : bin + 1];
+  const auto edges = profile_->edges();
+  const float begin = edges[bin], end = bins_ == 1 ? profile_->end() : edges[bin + 1];
   if (!far_) {
     const float off = t - closest_;
     return distance_ / (angle(begin, end) * (distance_ * distance_ + off * off));

@@ -29,12 +29,10 @@ class DistanceSampler {
   float pdf(float t) const;  ///< 0 outside the profile
 
  private:
-  static constexpr int kBins = SpanProfile::kBins;
   void weigh(Weights weights);
   void weigh_far();
   static constexpr std::size_t kBlock = 8;
-  static_assert(kBins % kBlock == 0);
-  struct alignas(32) Masses : std::array<float, kBins> {};
+  struct alignas(32) Masses : std::array<float, SpanProfile::kMostBins> {};
   void mix(const Masses& by_profile, const Masses& by_angle);
   float pdf_in(std::size_t bin, float t) const;
   float sample_in(std::size_t bin, float u) const;
@@ -43,7 +41,7 @@ class DistanceSampler {
   const SpanProfile* profile_;
   bool far_ = false;
   float closest_ = 0, distance_ = 0;  ///< where the ray comes closest to the light, and how close
-  int bins_ = 1;
+  std::size_t bins_ = 1;
   Masses mass_{};  ///< of each bin; they sum to 1
 };
 

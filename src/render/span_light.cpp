@@ -176,6 +176,12 @@ SegmentQuery query_of(const RenderSettings& settings, const Span& span, const Sp
   return query;
 }
 
+/// For the only event, with many pairs: half as many bins, MSE is 1.4 to 2.8 times as high in smoke, and half as many more do
+/// not pay. Where paths go on, and most error comes later, they would take 1.1 times the instructions for the same error.
+SpanProfile::Bins bins_of_profile(const LightContext& context) {
+  return is_only_event(context) ? SpanProfile::Bins::many : SpanProfile::Bins::few;
+}
+
 /// Of all media along the span.
 float mean_cosine(const Span& span) {
   float sum = 0, weight = 0;
@@ -206,7 +212,7 @@ bool tracks(const RenderSettings& settings) {
 std::optional<SpanSearch> span_search(const LightContext& context, const Span& span) {
   const RenderSettings& settings = context.settings;
   if (!seeks_along_spans(context) || span.empty()) return std::nullopt;
-  const auto profile = SpanProfile::of(span);
+  const auto profile = SpanProfile::of(span, bins_of_profile(context));
   if (!profile) return std::nullopt;
   SpanSearch search{.query = {}, .cut = {}, .profile = *profile, .g = mean_cosine(span)};
   search.query = query_of(settings, span, *profile, search.g);

@@ -3,7 +3,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <optional>
+#include <span>
 
 #include "light/segment_query.h"
 #include "render/span.h"
@@ -13,22 +15,23 @@ namespace tyndall {
 /// Deterministic for a given span: MIS weights are made from it on both sides.
 class SpanProfile {
  public:
-  /// With 24 and as many fewer first looks, the variance in dense smoke is a third higher, with 48 no lower.
-  static constexpr int kBins = 32;
-  static_assert(kBins % SegmentProfile::kBins == 0);
+  static constexpr std::size_t kMostBins = 32;
+  enum class Bins : std::size_t { few = 16, many = kMostBins };
 
   /// Nothing where the span's media do not scatter, or so little that it takes 1e18 units to see it.
-  static std::optional<SpanProfile> of(const Span& span);
+  static std::optional<SpanProfile> of(const Span& span, Bins bins = Bins::many);
 
+  std::size_t bins() const { return bins_; }     ///< a multiple of 8
   float begin() const { return edge_.front(); }  ///< distances between which light is scattered
-  float end() const { return edge_.back(); }     ///< may be infinite
-  const std::array<float, kBins + 1>& edges() const { return edge_; }
+  float end() const { return edge_[bins_]; }     ///< may be infinite
+  std::span<const float> edges() const { return {edge_.data(), bins_ + 1}; }
   /// Mean of sigma_s x transmittance over each bin, 1/length; of the channels' means.
-  const std::array<float, kBins>& scatterings() const { return scattering_; }
-  const std::array<float, kBins>& sigmas() const { return sigma_t_; }  ///< extinction, likewise
+  std::span<const float> scatterings() const { return {scattering_.data(), bins_}; }
+  std::span<const float> sigmas() const { return {sigma_t_.data(), bins_}; }  ///< extinction, likewise
+  std::size_t bin_at(float t) const;  ///< that holds `t`, or is next to it
   /// From the origin to `t`.
   float transmittance(float t) const;
-  float optical_depth() const { return depth_.back(); }  ///< of all of it
+  float optical_depth() const { return depth_[bins_]; }  ///< of all of it
   /// Integral of sigma_s x transmittance: at most 1.
   float scattered() const { return scattered_; }
   /// Distance from begin() within which nearly all of that lies; finite.
@@ -38,15 +41,21 @@ class SpanProfile {
   SegmentProfile coarse(float g) const;
 
  private:
-  SpanProfile() = default;
+  using Edges = std::array<float, kMostBins + 1>;  ///< the first bins() + 1 count
+  explicit SpanProfile(Bins bins) : bins_(static_cast<std::size_t>(bins)) {}
+  void place_evenly(float begin, float end, float sigma_t);
+  template <typename F>
+  void place_by_looks(const F& optics, float begin, float end);
+  void place_at_shares(std::span<const float> at, std::span<const float> cumulative);
   template <typename F>
   void fill(const F& optics);
 
   /// Optical depth at most from where it is `depth` to outside of the media, however lights lie around the span.
   float way_out(float depth) const;
 
-  std::array<float, kBins + 1> edge_{}, depth_{};
-  std::array<float, kBins> scattering_{}, sigma_t_{};
+  std::size_t bins_;
+  Edges edge_{}, depth_{};
+  alignas(32) std::array<float, kMostBins> scattering_{}, sigma_t_{};
   float scattered_ = 0, reach_ = 0;
   bool enters_ = false, leaves_ = false;  ///< the media begin, end, on the span
 };

@@ -57,20 +57,22 @@ double depth_of(const MediumData& medium, const Ray& ray, double t0, double t1, 
 
 }  // namespace
 
-CoarseOptics coarse_optics(MediaView media, Vec3 p) {
-  CoarseOptics sum;
+CoarseRay::CoarseRay(MediaView media, const Ray& ray) {
   for (const ParticipatingMedium* medium : media) {
     const MediumData& m = medium->data();
-    CoarseOptics one;
     if (m.kind == MediumData::Kind::homogeneous) {
-      one = means_of(m.optics, 1);
+      homogeneous_ += means_of(m.optics, 1);
     } else {
-      const GridVec local = m.density.to_local.point(p);
-      if (!m.clip.contains(local)) continue;
-      one = optics_around(m, local);
+      locals_.push_back({&m, m.density.to_local.point(ray.o), m.density.to_local.vector(ray.d)});
     }
-    sum.sigma_t += one.sigma_t;
-    sum.sigma_s += one.sigma_s;
+  }
+}
+
+CoarseOptics CoarseRay::at(float t) const {
+  CoarseOptics sum = homogeneous_;
+  for (const auto& [medium, o, d] : locals_) {
+    const GridVec p{{o[0] + t * d[0], o[1] + t * d[1], o[2] + t * d[2]}};
+    if (medium->clip.contains(p)) sum += optics_around(*medium, p);
   }
   return sum;
 }

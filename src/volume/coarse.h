@@ -7,18 +7,41 @@
 #include <optional>
 #include <utility>
 
+#include "math/small_vector.h"
+#include "volume/affine.h"
 #include "volume/tracking.h"
 
 namespace tyndall {
 
+struct MediumData;
+
 /// Means over the colour channels, 1/world unit.
 struct CoarseOptics {
   float sigma_t = 0, sigma_s = 0;
+  CoarseOptics& operator+=(const CoarseOptics& o) {
+    sigma_t += o.sigma_t;
+    sigma_s += o.sigma_s;
+    return *this;
+  }
 };
 
-/// Mean of the media in a block around `p`; exact where homogeneous. Above 0 wherever a grid's density is, but for the
-/// rounding of `p` at the faces of blocks.
-CoarseOptics coarse_optics(MediaView media, Vec3 p);
+/// Mean of the media in a block around points of a ray; exact where homogeneous. Above 0 wherever a grid's density is, but
+/// for rounding at the faces of blocks. Keeps the media's addresses.
+class CoarseRay {
+ public:
+  CoarseRay() = default;
+  CoarseRay(MediaView media, const Ray& ray);
+  CoarseOptics at(float t) const;
+
+ private:
+  /// A medium that is not homogeneous, and the ray in its local coordinates.
+  struct Local {
+    const MediumData* medium;
+    GridVec o, d;
+  };
+  CoarseOptics homogeneous_;
+  SmallVector<Local, 2> locals_;
+};
 
 /// Integral of sigma_t over [t0, t1], t1 may be infinite. Exact for homogeneous media; of any other, means are read at no
 /// more than `taps` points, evenly in the part of the ray inside it.

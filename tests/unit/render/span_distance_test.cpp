@@ -95,10 +95,10 @@ double integral(const DistanceSampler& sampler, double a, double b) {
 /// `peak`: where the ray passes the light so closely that the density peaks; not a number: nowhere.
 void check_sampler(const SpanProfile& profile, const DistanceSampler& sampler, float peak, int seed) {
   constexpr int kCuts = 4, kDraws = 100'000;
-  const auto& edges = profile.edges();
-  const float last = edges.back() < kInfinity ? edges.back() : edges[SpanProfile::kBins - 1] * 4 + 4 * profile.reach();
+  const auto edges = profile.edges();
+  const float last = edges.back() < kInfinity ? edges.back() : edges[profile.bins() - 1] * 4 + 4 * profile.reach();
   std::vector<float> bounds;
-  for (std::size_t i = 0; i < SpanProfile::kBins; ++i) {
+  for (std::size_t i = 0; i < profile.bins(); ++i) {
     const float end = std::min(edges[i + 1], last);
     for (int k = 0; k < kCuts; ++k) bounds.push_back(edges[i] + (end - edges[i]) * static_cast<float>(k) / kCuts);
   }
@@ -134,7 +134,7 @@ void check_sampler(const SpanProfile& profile, const DistanceSampler& sampler, f
   }
   CHECK(pool_o <= pool_e + 6 * std::sqrt(pool_e + 1) + 1);
   REQUIRE(cells > 1);
-  CHECK(chi_squared_tail(statistic, cells - 1) > sidak(1e-3, 24));
+  CHECK(chi_squared_tail(statistic, cells - 1) > sidak(1e-3, 36));
 }
 
 }  // namespace
@@ -143,9 +143,9 @@ TEST_CASE("out of media it is twice as far as to their nearer end on the span") 
   const auto check = [](const Case& c, bool enters, bool leaves) {
     const SpanProfile profile = *SpanProfile::of(c.span);
     const SegmentProfile coarse = profile.coarse(0);
-    constexpr std::size_t kGroup = SpanProfile::kBins / SegmentProfile::kBins;
+    const std::size_t group = profile.bins() / SegmentProfile::kBins;
     for (std::size_t j = 0; j < SegmentProfile::kBins; ++j) {
-      const double depth = -std::log(double{profile.transmittance(profile.edges()[j * kGroup + kGroup / 2])});
+      const double depth = -std::log(double{profile.transmittance(profile.edges()[j * group + group / 2])});
       const double ahead = profile.optical_depth() - depth, nearer = enters && leaves ? std::min(depth, ahead) : enters ? depth : ahead;
       const double expected = enters || leaves ? 2 * nearer : std::max(depth, ahead);
       CHECK(coarse.escape[j] == test::relative(expected).epsilon(1e-4));
@@ -189,10 +189,13 @@ TEST_CASE("distances toward lights follow their density") {
   const std::vector<LightPlace> places{{Vec3(0.3f, 0, 2), 0}, {Vec3(0, 0.01f, 6), 0}, {Vec3(40, 0, 3), 0.5f}, {Vec3(0, 0, 5.5f), 0},
                                        {Vec3(2, 1, -30), 0}, {std::nullopt, 0}};
   int seed = 0;
-  for (const auto& make : {+[] { return two_stretches(1); }, +[] { return endless(0.7f); }}) {
+  using Bins = SpanProfile::Bins;
+  for (const auto& [make, bins] : {std::pair{+[] { return two_stretches(1); }, Bins::many},
+                                   {+[] { return endless(0.7f); }, Bins::many}, {+[] { return two_stretches(1); }, Bins::few}}) {
     const Case c = make();
-    const auto profile = SpanProfile::of(c.span);
+    const auto profile = SpanProfile::of(c.span, bins);
     REQUIRE(profile);
+    REQUIRE(profile->bins() == static_cast<std::size_t>(bins));
     for (const LightPlace& place : places) {
       CAPTURE(seed);
       const bool on_ray = place.center && std::hypot(place.center->x, place.center->y) < 0.05f;

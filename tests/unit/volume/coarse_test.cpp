@@ -97,6 +97,12 @@ TEST_CASE("little beside much does not become nothing") {
   }
 }
 
+namespace {
+
+CoarseOptics coarse_optics(MediaView media, Vec3 p) { return CoarseRay(media, {p - Vec3{2, 4, -6}, {1, 2, -3}}).at(2); }
+
+}  // namespace
+
 TEST_CASE("coarse optics are channel means: exact for homogeneous media, sums where media overlap, nothing outside") {
   const auto fog = test::homogeneous({{0.1f, 0.2f, 0.6f}, {1, 2, 6}, 0.5f});
   const auto smoke = hills({{3, 0, 0}, {6, 6, 0}, 0}), glow = hills({Rgb{2.0f}, {}, 0});
