@@ -18,8 +18,10 @@ void volume_message(std::string_view bytes);  ///< what the process that reads .
 struct Target {
   const char* name;  ///< also of its folder in tests/fuzz/corpus
   void (*run)(std::string_view);
+  bool slow = false;  ///< with sanitizers: reads in a process of its own, or a corpus has what asks for hundreds of MB
 };
-inline constexpr Target kTargets[] = {{"scene", scene}, {"ply", ply},   {"vdb", vdb}, {"nvdb", nvdb},
-                                      {"exr", exr},     {"checkpoint", checkpoint},   {"volume_message", volume_message}};
+/// What forks comes first: the more memory a process has used, the longer that takes.
+inline constexpr Target kTargets[] = {{"vdb", vdb, true}, {"scene", scene}, {"ply", ply}, {"nvdb", nvdb}, {"exr", exr, true},
+                                      {"checkpoint", checkpoint}, {"volume_message", volume_message}};
 
 }  // namespace tyndall::fuzz
