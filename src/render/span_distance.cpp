@@ -67,7 +67,7 @@ void DistanceSampler::weigh(Weights weights) {
   Masses by_profile, by_angle;
   std::array<float, SpanProfile::kMostBins + 1> finite;
   std::ranges::copy(profile_->edges(), finite.begin());
-  if (finite[bins_] == kInfinity) finite[bins_] = finite[0] + 2 * profile_->reach();
+  finite[bins_] = profile_->finite_end();
   for (std::size_t i = 0; i < bins_; i += kBlock) {
     const Bins8 bins{load8(&finite[i]) - closest_, load8(&finite[i + 1]) - closest_, load8(&profile_->scatterings()[i]),
                      load8(&profile_->sigmas()[i])};
@@ -87,7 +87,7 @@ void DistanceSampler::weigh_far() {
   Masses by_profile, by_length;
   const auto edges = profile_->edges();
   for (std::size_t i = 0; i < bins_; ++i) {
-    const float end = edges[i + 1] < kInfinity ? edges[i + 1] : edges.front() + 2 * profile_->reach();
+    const float end = std::min(edges[i + 1], profile_->finite_end());
     by_length[i] = end - edges[i];
     by_profile[i] = profile_->scatterings()[i] * by_length[i];
   }

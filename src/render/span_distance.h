@@ -32,6 +32,7 @@ class DistanceSampler {
   void weigh(Weights weights);
   void weigh_far();
   static constexpr std::size_t kBlock = 8;
+  static_assert(SegmentProfile::kBins % kBlock == 0);  // and so are a profile's
   struct alignas(32) Masses : std::array<float, SpanProfile::kMostBins> {};
   void mix(const Masses& by_profile, const Masses& by_angle);
   float pdf_in(std::size_t bin, float t) const;

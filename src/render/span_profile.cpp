@@ -57,7 +57,7 @@ Extent extent_of(const Span& span) {
   return e;
 }
 
-/// Of distances that increase.
+/// Of distances that increase, but for where they begin anew.
 class SpanOptics {
  public:
   explicit SpanOptics(const Span& span) : span_(span) {}
@@ -182,7 +182,8 @@ void SpanProfile::fill(const F& optics) {
     scattering_[i] = o.sigma_s * dimming.pass(o.sigma_t * length);
     depth_[i + 1] = depth_[i] + o.sigma_t * length;
     scattered_ += scattering_[i] * length;
-    if (scattering_[i] > 0 && scattered_ > 0) reach_ = edge_[i] + length - edge_.front();
+    settled_ = edge_[i] + length;
+    if (scattering_[i] > 0 && scattered_ > 0) reach_ = settled_ - edge_.front();
   }
 }
 
@@ -207,15 +208,14 @@ SegmentProfile SpanProfile::coarse(float g) const {
   const std::size_t group = bins_ / SegmentProfile::kBins;
   SegmentProfile p;
   p.g = g;
-  const float last = end() < kInfinity ? end() : begin() + reach_;
-  const float average = optical_depth() / (last - begin());
+  const float average = optical_depth() / (settled_ - begin());
   for (std::size_t j = 0; j < SegmentProfile::kBins; ++j) {
     const std::size_t first = j * group, end = first + group;
     p.edge[j] = edge_[first];
     p.edge[j + 1] = edge_[end];
     float sum = 0, length = 0;
     for (std::size_t i = first; i < end; ++i) {
-      const float own = std::min(edge_[i + 1], last) - edge_[i];
+      const float own = std::min(edge_[i + 1], settled_) - edge_[i];
       sum += scattering_[i] * own;
       length += own;
     }

@@ -2,6 +2,7 @@
 /// span's origin. It weights choices; no estimate is made from it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -17,6 +18,7 @@ class SpanProfile {
  public:
   static constexpr std::size_t kMostBins = 32;
   enum class Bins : std::size_t { few = 16, many = kMostBins };
+  static_assert(kMostBins % SegmentProfile::kBins == 0 && std::size_t(Bins::few) % SegmentProfile::kBins == 0);
 
   /// Nothing where the span's media do not scatter, or so little that it takes 1e18 units to see it.
   static std::optional<SpanProfile> of(const Span& span, Bins bins = Bins::many);
@@ -24,6 +26,8 @@ class SpanProfile {
   std::size_t bins() const { return bins_; }     ///< a multiple of 8
   float begin() const { return edge_.front(); }  ///< distances between which light is scattered
   float end() const { return edge_[bins_]; }     ///< may be infinite
+  /// end(), or as far as choices along a span without one need to look; beyond the last bin's begin.
+  float finite_end() const { return end() < kInfinity ? end() : std::max(begin() + 2 * reach_, settled_); }
   std::span<const float> edges() const { return {edge_.data(), bins_ + 1}; }
   /// Mean of sigma_s x transmittance over each bin, 1/length; of the channels' means.
   std::span<const float> scatterings() const { return {scattering_.data(), bins_}; }
@@ -55,8 +59,9 @@ class SpanProfile {
 
   std::size_t bins_;
   Edges edge_{}, depth_{};
-  alignas(32) std::array<float, kMostBins> scattering_{}, sigma_t_{};
+  std::array<float, kMostBins> scattering_{}, sigma_t_{};
   float scattered_ = 0, reach_ = 0;
+  float settled_ = 0;  ///< end(), or where a last bin without end is taken to be over
   bool enters_ = false, leaves_ = false;  ///< the media begin, end, on the span
 };
 
