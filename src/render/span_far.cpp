@@ -35,6 +35,7 @@ template <typename Parts>
 bool deeper_than(float enough, const Ray& ray, const Parts& parts, float end = kInfinity) {
   float depth = 0;
   for (const Interval& part : parts) {
+    if (part.t0 >= end) break;
     depth += coarse_optical_depth(part.view(), ray, part.t0, std::min(part.t1, end), kReads);
     if (depth > enough) return true;
   }
@@ -46,7 +47,7 @@ bool deep(const Ray& ray, const Parts& parts) {
   return deeper_than(homogeneous_throughout(parts) ? kDeepUniform : kDeep, ray, parts);
 }
 
-/// Whether light hardly gets from one end of `lights` to the other: what shines here is as near as the next collision.
+/// Whether the media ahead are all but opaque within the size of `lights`: what shines here is as near as the next collision.
 template <typename Parts>
 bool opaque_among(const Bounds3& lights, const Ray& ray, const Parts& parts) {
   return !lights.empty() && deeper_than(kDeepLater, ray, parts, parts.front().t0 + length(lights.max - lights.min));

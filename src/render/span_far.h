@@ -6,9 +6,12 @@
 
 namespace tyndall {
 
-/// Whether choosing lights at the collision that the path draws anyhow says as much as pairs do, for 0.5 to 0.7 of the time:
-/// all lights are so far from the stretch that they shine on all of it alike, and its media so dense that many rays collide;
-/// or, after the path's first event, the media among the lights are all but opaque. With the default settings of media and distance only. Deterministic, from a few reads of the media.
+/// Whether choosing lights at the collision that the path draws anyhow says as much as pairs do:
+/// - all lights are so far from the stretch that they shine on all of it alike, and its media so dense that many rays
+///   collide: for 0.5 to 0.7 of the time; or
+/// - after the path's first event, its media are all but opaque within the size of the lights' box: at depths of 10 to 50
+///   for 0.8 to 1 of the time, with less error.
+/// With the default settings of media and distance only. Deterministic, from a few reads of the media.
 bool collisions_suffice(const LightContext& context, const Span& span);
 /// The same for a ray in media, of which only the stretch that it starts in is known, and no end but that of their boxes.
 bool collisions_suffice(const LightContext& context, const Ray& ray, const Interval& inside);

@@ -88,6 +88,8 @@ TEST_CASE("collisions suffice after the first event in media that are all but op
   CHECK_FALSE(pair.suffice(0.7f, 90, settings, 1));  // what is beyond the lights does not count
   CHECK_FALSE(pair.suffice(0.7f, kInfinity, settings, 1));
   CHECK(pair.suffice(1, kInfinity, settings, 1));
+  CHECK(pair.suffice_inside(1, 9));
+  CHECK_FALSE(pair.suffice_inside(0.7f, 90));
 }
 
 TEST_CASE("of a ray in media, its stretch to the end of their boxes counts") {
