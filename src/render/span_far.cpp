@@ -17,7 +17,7 @@ constexpr float kFarAway = 1.5f;
 /// 0.5 to 0.6 of the time for 1.1 times the error.
 constexpr float kDeep = 0.5f, kDeepUniform = 2;
 /// On later spans so deep within the size of the lights' box, among lights as well. In smoke of depth 50: 1.15 by processor
-/// time, 1.36 by instructions; of depth 10 1.0 to 1.1. From depth 2 on 1.26 in the former, but collisions next to lamps make
+/// time, 1.24 by instructions; of depth 10 1.0 to 1.1. From depth 2 on 1.26 in the former, but collisions next to lamps make
 /// fireflies in thinner smoke.
 constexpr float kDeepLater = 8;
 constexpr int kReads = 4;
