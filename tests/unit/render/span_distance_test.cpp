@@ -47,23 +47,25 @@ Case two_stretches(float scale) {
   return c;
 }
 
-/// Nothing is seen of the fog behind, in numbers: the way through the box is beyond what exp() holds.
-Case box_before_endless_fog() {
+/// From 1 to `border` one medium, from there on without end another.
+Case touching_stretches(float sigma_s, float border, float sigma_s_behind) {
   Case c;
-  c.media.push_back(homogeneous(2));
-  c.media.push_back(homogeneous(0.01f));
+  for (const float sigma : {sigma_s, sigma_s_behind}) c.media.push_back(homogeneous(sigma));
   c.span.ray = {{0, 0, 0}, {0, 0, 1}};
   c.span.t_end = kInfinity;
   for (std::size_t i = 0; i < 2; ++i) {
     SpanPart part{};
-    part.t0 = i == 0 ? 1 : 101;
-    part.t1 = i == 0 ? 101 : kInfinity;
+    part.t0 = i == 0 ? 1 : border;
+    part.t1 = i == 0 ? border : kInfinity;
     part.media.push_back(&c.media[i]);
     part.box = {{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
     c.span.parts.push_back(part);
   }
   return c;
 }
+
+/// Nothing is seen of the fog behind, in numbers: the way through the box is beyond what exp() holds.
+Case box_before_endless_fog() { return touching_stretches(2, 101, 0.01f); }
 
 Case one_stretch(float length) {
   Case c = two_stretches(length / 3);
@@ -181,17 +183,7 @@ TEST_CASE("out of media it is twice as far as to their nearer end on the span") 
 }
 
 TEST_CASE("a profile is of what scatters: not of clear stretches, nor of fog without coefficients") {
-  Case c;
-  for (const float sigma : {0.5f, 0.0f}) c.media.push_back(homogeneous(sigma));
-  c.span.ray = {{0, 0, 0}, {0, 0, 1}};
-  c.span.t_end = kInfinity;
-  for (std::size_t i = 0; i < 2; ++i) {
-    SpanPart part{};
-    part.t0 = i == 0 ? 1 : 4;
-    part.t1 = i == 0 ? 4 : kInfinity;
-    part.media.push_back(&c.media[i]);
-    c.span.parts.push_back(part);
-  }
+  Case c = touching_stretches(0.5f, 4, 0);
   const auto profile = SpanProfile::of(c.span);
   REQUIRE(profile);
   CHECK(profile->begin() == 1);
