@@ -24,7 +24,7 @@ Rgb visibility(const LightContext& context, const MediaState& media, Vec3 origin
   // Through media the whole way counts: at depth 4 the last 1e-4 of it is 4e-4 of the light.
   SpanWalk walk(world.media_context(), media, *crossings, distance);
   while (const auto interval = walk.next()) {
-    T *= transmittance(context.settings.transmittance, interval->view(), ray, interval->t0, interval->t1, rng, context.counters.tracking);
+    T *= transmittance(shadow_method(context), interval->view(), ray, interval->t0, interval->t1, rng, context.counters.tracking);
     if (is_black(T)) break;
   }
   context.counters.parity_errors += walk.parity_errors();

@@ -22,7 +22,7 @@ Rgb line_emission(const LightContext& context, const MediaState& media, const Ra
       sum += T * passed.emitted;
       T *= passed.transmittance;
     } else {
-      T *= transmittance(context.settings.transmittance, view, ray, interval->t0, interval->t1, rng, context.counters.tracking);
+      T *= transmittance(shadow_method(context), view, ray, interval->t0, interval->t1, rng, context.counters.tracking);
     }
     if (is_black(T)) break;
   }

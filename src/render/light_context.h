@@ -3,6 +3,7 @@
 #include "render/counters.h"
 #include "render/sampler.h"
 #include "render/world_parts.h"
+#include "volume/tracking.h"
 
 namespace tyndall {
 
@@ -21,5 +22,16 @@ inline bool is_last_event(const LightContext& context) { return context.event + 
 
 /// It is the only one of its path.
 inline bool is_only_event(const LightContext& context) { return context.event == 0 && is_last_event(context); }
+
+/// How shadow rays are marched. Twice as closely for the only event, whose noise is of nothing else: efficiency by relMSE with
+/// span_method() in smoke of depth 1, 5 and 10 was 1.3, 1.06 and 1.09 times that of 0.5 for everything.
+inline TransmittanceMethod shadow_method(const LightContext& context) {
+  return {context.settings.transmittance, is_only_event(context) ? 0.25f : 0.5f};
+}
+
+/// How the path's own stretch is marched: once for all that is gathered along it.
+inline TransmittanceMethod span_method(const LightContext& context) {
+  return {context.settings.transmittance, is_only_event(context) ? 0.125f : 0.25f};
+}
 
 }  // namespace tyndall

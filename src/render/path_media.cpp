@@ -16,7 +16,7 @@ constexpr float kSeenMore = 2;
 Rgb tracked_transmittance(const LightContext& context, const Span& span, Rng& rng) {
   Rgb T(1.0f);
   for (const SpanPart& part : span.parts) {
-    T *= transmittance(context.settings.transmittance, part.view(), span.ray, part.t0, part.t1, rng, context.counters.tracking);
+    T *= transmittance(span_method(context), part.view(), span.ray, part.t0, part.t1, rng, context.counters.tracking);
     if (is_black(T)) break;
   }
   return T;

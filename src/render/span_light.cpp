@@ -136,7 +136,7 @@ class TransmittanceWalk {
     for (const SpanPart& part : span_.parts) {
       const float t0 = std::max(part.t0, passed_), t1 = std::min(part.t1, t);
       if (!(t0 < t1) || is_black(T_)) continue;
-      T_ *= transmittance(context_.settings.transmittance, part.view(), span_.ray, t0, t1, rng_, context_.counters.tracking);
+      T_ *= transmittance(span_method(context_), part.view(), span_.ray, t0, t1, rng_, context_.counters.tracking);
     }
     passed_ = t;
     return T_;

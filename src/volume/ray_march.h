@@ -13,13 +13,14 @@ namespace tyndall::kernel {
 /// leave. With each X_i as the pivot in turn [Kettunen et al. 2021, eq. 10]:
 ///   exp(-x) = E[ 1/(N+1) sum_i exp(-X_i) sum_{k<=N} w_k / k! m_k({X_i - X_j}, j != i) ],  w_k = 1 / P(N >= k),
 /// m_k the mean of all products of k of the N differences. N is 0 most of the time: that is plain ray marching.
-/// Departures from the paper: the comb of an X_i has teeth evenly spaced in depth of the walk's rate instead of length, so
-/// that they stand where the medium varies and nothing about the ray needs to be known beforehand; and N has a geometric
-/// tail, whose weights keep the variance finite however far the X_i lie apart.
+/// Departures from the paper: the comb of an X_i has teeth spaced in depth of the walk's rate instead of length, so that they
+/// stand where the medium varies and nothing about the ray needs to be known beforehand, wider apart the more the control
+/// has dimmed what is left to know; and N has a geometric tail, whose weights keep the variance finite however far the X_i
+/// lie apart.
 class RayMarch {
  public:
-  RayMarch(Rng& rng, TrackingStats& stats) : orders_(draw_orders(rng, stats)) {
-    for (int i = 0; i <= orders_; ++i) combs_.push_back({kSpacing * double{rng.uniform()}, {}});
+  RayMarch(float spacing, Rng& rng, TrackingStats& stats) : base_spacing_(spacing), orders_(draw_orders(rng, stats)) {
+    for (int i = 0; i <= orders_; ++i) combs_.push_back({double{rng.uniform()}, {}});
   }
 
   /// A piece of the walk. False: little enough is left to be given up; the estimate is 0.
@@ -28,7 +29,9 @@ class RayMarch {
     const double length = walk.t_end() - walk.t();
     const float rate = walk.rate();
     if (rate > 0) {
-      const double end = marched_ + rate * length;
+      // Known before any look-up, so that it does not depend on what they read.
+      spacing_ = base_spacing_ * (1 + std::min({control_.r, control_.g, control_.b}));
+      const double end = marched_ + rate * length / spacing_;
       for (Comb& comb : combs_)
         if (!read_teeth(comb, walk, end, rng, stats)) return false;
       marched_ = end;
@@ -40,13 +43,12 @@ class RayMarch {
   Rgb transmittance() const { return {transmittance(0), transmittance(1), transmittance(2)}; }
 
  private:
-  static constexpr double kSpacing = 0.5;    // of the teeth; residual tracking makes a look-up every 1
-  static constexpr float kMore = 0.1f;       // P(N >= 1)
+  static constexpr float kMore = 0.05f;      // P(N >= 1)
   static constexpr float kEvenMore = 0.5f;   // P(N >= k + 1 | N >= k)
   static constexpr int kMostOrders = 63;     // 2^-62 of the corrections would need more
 
   struct Comb {
-    double tooth;  // next, in depth of the rate
+    double tooth;  // next, as marched_
     Rgb x;
   };
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
@@ -67,11 +69,11 @@ class RayMarch {
   template <typename Walk>
   bool read_teeth(Comb& comb, Walk& walk, double end, Rng& rng, TrackingStats& stats) {
     const float rate = walk.rate();
-    for (; comb.tooth < end; comb.tooth += kSpacing) {
-      const double from_start = (comb.tooth - marched_) / rate;
+    for (; comb.tooth < end; comb.tooth += 1) {
+      const double from_start = (comb.tooth - marched_) * spacing_ / rate;
       const Rgb excess = walk.excess_at(walk.t() + from_start);
       count_lookup(max_abs(excess), rate, stats);
-      comb.x += excess * static_cast<float>(kSpacing / rate);
+      comb.x += excess * (spacing_ / rate);
       if (guard_.spent(stats)) return false;
       if (guard_.roulette_is_due() && !survives_roulette(control_ + depth_of(walk.control(), from_start), rng)) return false;
     }
@@ -117,17 +119,19 @@ class RayMarch {
     return sum;
   }
 
-  LoopGuard guard_;  // of all combs together
+  float base_spacing_;  // of the teeth where nothing is dimmed yet
+  LoopGuard guard_;     // of all combs together
   int orders_;
-  double marched_ = 0;  // depth of the rate before the current piece
+  float spacing_ = 0;   // in the current piece, in depth of the rate
+  double marched_ = 0;  // before the current piece, in teeth
   Rgb control_;
   float relief_ = 0;    // log of the weight that roulette gave
   SmallVector<Comb, 4> combs_;  // orders_ + 1
 };
 
 template <typename Walk>
-Rgb ray_marching(Walk& walk, Rng& rng, TrackingStats& stats) {
-  RayMarch march(rng, stats);
+Rgb ray_marching(Walk& walk, float spacing, Rng& rng, TrackingStats& stats) {
+  RayMarch march(spacing, rng, stats);
   while (walk.next())
     if (!march.add(walk, rng, stats)) return {};
   return march.transmittance();

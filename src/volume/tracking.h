@@ -49,8 +49,15 @@ struct Flight {
 Flight free_flight(MediaView media, const Ray& ray, float t0, float t1, Rgb beta, float u_first, Rng& rng,
                    TrackingStats& stats);
 
+/// An estimator of transmittance, and how closely it looks.
+struct TransmittanceMethod {
+  TransmittanceStrategy strategy;
+  /// Of the look-ups of `raymarch`, > 0, in optical depth that its controls may be wrong by; residual tracking's mean is 1.
+  float spacing = 0.5f;
+};
+
 /// Estimate exp(-integral of sigma_t over [t0, t1]); exact when all media are homogeneous.
-Rgb transmittance(TransmittanceStrategy strategy, MediaView media, const Ray& ray, float t0, float t1, Rng& rng,
+Rgb transmittance(TransmittanceMethod method, MediaView media, const Ray& ray, float t0, float t1, Rng& rng,
                   TrackingStats& stats);
 
 /// Light emitted along an interval that reaches t0, and the transmittance of the whole interval.

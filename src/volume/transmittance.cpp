@@ -91,16 +91,17 @@ Rgb residual_ratio_tracking(Walk& walk, Rng& rng, TrackingStats& stats) {
 }  // namespace
 
 // NOLINTNEXTLINE(readability-function-size): as free_flight
-Rgb transmittance(TransmittanceStrategy strategy, MediaView media, const Ray& ray, float t0, float t1, Rng& rng,
+Rgb transmittance(TransmittanceMethod method, MediaView media, const Ray& ray, float t0, float t1, Rng& rng,
                   TrackingStats& stats) {
   if (media.empty() || !(t0 < t1)) return Rgb{1.0f};
   if (all_homogeneous(media)) {
     ++stats.segments;
     return sum_of(media).transmittance(double{t1} - t0);
   }
+  const TransmittanceStrategy strategy = method.strategy;
   if (strategy == TransmittanceStrategy::raymarch) {
     return with_walk<WalkMode::march>(media, ray, t0, t1, [&](auto& walk) {
-      const Rgb T = ray_marching(walk, rng, stats);
+      const Rgb T = ray_marching(walk, method.spacing, rng, stats);
       finish(walk, stats);
       return T;
     });

@@ -108,7 +108,7 @@ void global(benchmark::State& state) {
 }
 void estimator(benchmark::State& state, TransmittanceStrategy strategy) {
   measure(state, plume(), [&](const KnownRay& known, Rng& rng, TrackingStats& stats) {
-    return double{transmittance(strategy, plume().media, known.ray, 0, known.t1, rng, stats).g};
+    return double{transmittance({strategy}, plume().media, known.ray, 0, known.t1, rng, stats).g};
   });
 }
 

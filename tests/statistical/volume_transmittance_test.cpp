@@ -31,7 +31,7 @@ double deviation(TransmittanceStrategy strategy, const Line& line, const test::L
   std::array<Moments, 3> moments;
   Rng rng(17);
   for (int i = 0; i < count; ++i) {
-    const Rgb T = transmittance(strategy, line.media, line.ray, line.t0, line.t1, rng, stats);
+    const Rgb T = transmittance({strategy}, line.media, line.ray, line.t0, line.t1, rng, stats);
     for (int c = 0; c < 3; ++c) moments[static_cast<std::size_t>(c)].add(T[c]);
   }
   double worst = 0;
@@ -75,7 +75,7 @@ Moments marched(const Stripes& walk, int count, std::uint64_t seed, TrackingStat
   Rng rng(seed);
   for (int i = 0; i < count; ++i) {
     Stripes one = walk;
-    moments.add(kernel::ray_marching(one, rng, stats).r);
+    moments.add(kernel::ray_marching(one, 0.5f, rng, stats).r);
   }
   return moments;
 }
@@ -111,7 +111,7 @@ TEST_CASE("homogeneous media are exact, at any depth and to infinity") {
     for (const float length : {1e-6f, 1.0f, 1e6f, kInfinity}) {
       const auto fog = test::homogeneous({{sigma, 0, sigma / 2}, {0, 0, sigma / 2}, 0});
       const ParticipatingMedium* media[] = {&fog};
-      const Rgb T = transmittance(TransmittanceStrategy::ratio, media, kDiagonal, 0, length, rng, stats);
+      const Rgb T = transmittance({TransmittanceStrategy::ratio}, media, kDiagonal, 0, length, rng, stats);
       const double expected = sigma == 0 ? 1 : std::exp(-double{sigma} * length);
       CHECK(T.r == doctest::Approx(expected));
       CHECK(T.g == 1);
@@ -128,7 +128,7 @@ TEST_CASE("a constant grid is as exact as a homogeneous medium under residual tr
   // Through bricks that the fading outermost layer does not reach, and too dense to be lumped with those it does.
   const Ray ray{{-0.96f, 0.1f, 0.2f}, {1, 0, 0}};
   for (int i = 0; i < 100; ++i)
-    CHECK(transmittance(TransmittanceStrategy::residual, media, ray, 0, 1.46f, rng, stats).g ==
+    CHECK(transmittance({TransmittanceStrategy::residual}, media, ray, 0, 1.46f, rng, stats).g ==
           doctest::Approx(std::exp(-10 * 1.46)).epsilon(1e-5));
   CHECK(stats.lookups == 0);
 }
@@ -171,7 +171,7 @@ TEST_CASE("a march that would never end is given up and counted") {
   Stripes walk{1e17, 0, 0};
   Rng rng(7);
   TrackingStats stats;
-  CHECK(is_black(kernel::ray_marching(walk, rng, stats)));
+  CHECK(is_black(kernel::ray_marching(walk, 0.5f, rng, stats)));
   CHECK(stats.caps_hit == 1);
   CHECK(stats.lookups == kernel::kMaxLookups);
 }
@@ -188,7 +188,7 @@ TEST_CASE("ray marching finds the gaps of a thick cloud, and makes few look-ups 
     const float t1 = 0.2f + rng.uniform();
     const double T = test::integrate_line(media, ray, 0, t1, 2000).transmittance(1);
     for (int k = 0; k < kRepeats; ++k)
-      errors.add(transmittance(TransmittanceStrategy::raymarch, media, ray, 0, t1, rng, stats).g - T);
+      errors.add(transmittance({TransmittanceStrategy::raymarch}, media, ray, 0, t1, rng, stats).g - T);
   }
   CHECK(errors.deviation(0, 1e-4) < 4);
   CHECK(errors.standard_error() < 0.002);
@@ -203,7 +203,7 @@ TEST_CASE("ray marching varies least, then residual, ratio and delta tracking") 
     Moments moments;
     Rng rng(4);
     TrackingStats stats;
-    for (int i = 0; i < 20000; ++i) moments.add(transmittance(kStrategies[s], media, kDiagonal, 0, 4, rng, stats).g);
+    for (int i = 0; i < 20000; ++i) moments.add(transmittance({kStrategies[s], 0.25f}, media, kDiagonal, 0, 4, rng, stats).g);
     errors[s] = moments.standard_error();
   }
   CHECK(errors[3] < 0.75 * errors[0]);
