@@ -29,8 +29,9 @@ class RayMarch {
     const double length = walk.t_end() - walk.t();
     const float rate = walk.rate();
     if (rate > 0) {
-      // Known before any look-up, so that it does not depend on what they read.
-      spacing_ = base_spacing_ * (1 + std::min({control_.r, control_.g, control_.b}));
+      // Known before any look-up, so that it does not depend on what they read. A single tooth of what roulette left
+      // must not bring back all that the control took: there it grows no more.
+      spacing_ = base_spacing_ * (1 + std::min({control_.r, control_.g, control_.b, kThick}));
       const double end = marched_ + rate * length / spacing_;
       for (Comb& comb : combs_)
         if (!read_teeth(comb, walk, end, rng, stats)) return false;
@@ -65,7 +66,7 @@ class RayMarch {
   ///
   /// Roulette inside a piece goes by the control up to the tooth, not to the piece's end: from there on a control may
   /// stand for what turns out to be clear, and the few who survive would weigh exp(what it was too much). As teeth read
-  /// at least -control, a comb's depth up to a tooth is never more than its depth at the end.
+  /// at least -control, a comb's depth up to a tooth is more than its depth at the end by a spacing at most.
   template <typename Walk>
   bool read_teeth(Comb& comb, Walk& walk, double end, Rng& rng, TrackingStats& stats) {
     const float rate = walk.rate();

@@ -52,7 +52,7 @@ Flight free_flight(MediaView media, const Ray& ray, float t0, float t1, Rgb beta
 /// An estimator of transmittance, and how closely it looks.
 struct TransmittanceMethod {
   TransmittanceStrategy strategy;
-  /// Of the look-ups of `raymarch`, > 0, in optical depth that its controls may be wrong by; residual tracking's mean is 1.
+  /// Of the look-ups of `raymarch` where nothing is dimmed yet, > 0, in optical depth that its controls may be wrong by.
   float spacing = 0.5f;
 };
 

@@ -152,7 +152,7 @@ TEST_CASE("ray marching of one piece stops where nothing is left, at any depth a
       const Moments moments = marched({length, 0.25, subtracted}, kCount, 5, stats);
       const double T = std::exp(-length), worst = moments.deviation(T, 0.3 / kCount);
       CHECK_MESSAGE(worst < 4, length << ", subtracted " << subtracted << ": " << worst << " standard errors");
-      // 37 teeth reach a depth of 4.6 on the average, 16 more lose all but exp(-2), and a comb in eight corrects.
+      // 37 teeth reach a depth of 4.6 on the average, 16 more lose all but exp(-2), and a comb in eleven corrects.
       CHECK(static_cast<double>(stats.lookups) < 75.0 * kCount);
       CHECK(stats.caps_hit == 0);
     }
