@@ -16,6 +16,11 @@ float hash_to_unit(Vec3 p, Vec3 w) {
   return static_cast<float>(h >> 40) * 0x1p-24f;
 }
 
+/// Russian roulette is for paths of less throughput than this. A dark wall's path into bright smoke is too rare to be made
+/// rarer: efficiency by instructions and relMSE without the worst 0.1 %, against roulette from 1 down, in smoke 1.10 to 1.29,
+/// a Cornell box 1.14, metal 1.03 (MSE 1.24), a mesh in fog 1.00, a street in fog 0.95; from 0.1 down it is less again but for smoke.
+constexpr float kRouletteBelow = 1 / 3.0f;
+
 }  // namespace
 
 Path::Path(const LightContext& context, const Limits& limits, const Ray& camera_ray)
@@ -84,7 +89,7 @@ bool Path::scatter(const Vertex& vertex) {
 }
 
 bool Path::survive_roulette() {
-  const float survival = max_component(beta_) * eta_scale_;
+  const float survival = max_component(beta_) * eta_scale_ / kRouletteBelow;
   if (depth_ <= 1 || survival >= 1) return true;
   if (context_.sampler.next_wide() >= survival) return false;  // many bits, as survival may be next to nothing
   beta_ *= 1 / survival;
