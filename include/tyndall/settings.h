@@ -25,6 +25,10 @@ enum class DistanceStrategy { automatic, tracking, equiangular, both, profile };
 /// estimation toward it as well, with MIS. The second needs a grid, whose bricks are then lights among the others; it pays
 /// where small fires light surfaces, not where smoke that scatters the glow fills the picture.
 enum class EmissionStrategy { paths, lights };
+/// Where paths go from surfaces: as these scatter, or also toward media that glow with scattered light, with MIS.
+/// `automatic`: the latter with MediaStrategy::product, the former with what stands for other programs' methods. Homogeneous
+/// media draw no paths.
+enum class GuidingStrategy { automatic, off, media };
 /// Estimator of transmittance along shadow rays.
 enum class TransmittanceStrategy { residual, ratio, delta, raymarch };
 
@@ -52,6 +56,7 @@ struct RenderSettings {
   MediaStrategy media = MediaStrategy::product;
   DistanceStrategy distance = DistanceStrategy::automatic;
   EmissionStrategy emission = EmissionStrategy::paths;
+  GuidingStrategy guiding = GuidingStrategy::automatic;
   TransmittanceStrategy transmittance = TransmittanceStrategy::raymarch;
   std::vector<std::string> aovs{};  ///< names from aov_names()
   std::optional<PixelBounds> crop{};

@@ -36,6 +36,11 @@ constexpr Table<EmissionStrategy, 2> kEmissions{{
     {"paths", EmissionStrategy::paths},
     {"lights", EmissionStrategy::lights},
 }};
+constexpr Table<GuidingStrategy, 3> kGuidings{{
+    {"auto", GuidingStrategy::automatic},
+    {"off", GuidingStrategy::off},
+    {"media", GuidingStrategy::media},
+}};
 constexpr Table<TransmittanceStrategy, 4> kTransmittances{{
     {"residual", TransmittanceStrategy::residual},
     {"ratio", TransmittanceStrategy::ratio},
@@ -81,6 +86,7 @@ const std::vector<StrategyAxis>& strategy_axes() {
       axis<kMedia, &RenderSettings::media>("media", "what stands for a stretch of medium when its light is chosen"),
       axis<kDistances, &RenderSettings::distance>("distance", "how the distance of a scattering event is sampled"),
       axis<kEmissions, &RenderSettings::emission>("emission", "how the glow of hot media is found"),
+      axis<kGuidings, &RenderSettings::guiding>("guiding", "where paths from surfaces are sent besides as these scatter"),
       axis<kTransmittances, &RenderSettings::transmittance>("transmittance", "estimator along shadow rays"),
   };
   return axes;

@@ -42,12 +42,13 @@ LightSearch light_search(const LightContext& context, const Vertex& vertex) {
   return search;
 }
 
-Rgb direct_light(const LightContext& context, const Vertex& vertex, const LightSearch& search, Rgb beta) {
+Rgb direct_light(const LightContext& context, const Directions& directions, const LightSearch& search, Rgb beta) {
+  const Vertex& vertex = directions.vertex();
   Sampler sampler = context.sampler.fork();
   if (!context.world.lights.sought() || !vertex.has_smooth()) return {};
   // The density of the candidates stands for the technique: it is known for every direction, unlike the resampled one.
   const auto share = [&](const LightSample& light, LightId, float density) {
-    return light.delta ? 1.0f : mis_weight(density, vertex.pdf(light.wi, beta));
+    return light.delta ? 1.0f : mis_weight(density, directions.pdf(light.wi, beta));
   };
   return VertexLight(context, vertex, search, beta, share).estimate(sampler);
 }

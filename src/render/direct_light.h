@@ -3,8 +3,7 @@
 
 #include <cmath>
 
-#include "render/light_context.h"
-#include "render/vertex.h"
+#include "render/directions.h"
 
 namespace tyndall {
 
@@ -39,6 +38,6 @@ LightSearch light_search(const LightContext& context, const Vertex& vertex);
 /// hit emitters. Lights are chosen and looked at without visibility; of these some are traced, resampled by their
 /// contribution (resampling.h); light_counts.h says how many.
 /// Multiply by the throughput `beta`, which is passed for the densities only.
-Rgb direct_light(const LightContext& context, const Vertex& vertex, const LightSearch& search, Rgb beta);
+Rgb direct_light(const LightContext& context, const Directions& directions, const LightSearch& search, Rgb beta);
 
 }  // namespace tyndall

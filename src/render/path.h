@@ -48,7 +48,7 @@ class Path {
   bool lit_at_collisions(const Span& span) const;
   std::optional<Vertex> fly(const Span& span, const Trace& trace);
   void dim(const Span& span);
-  Rgb light_at(const Vertex& vertex, Rgb beta);
+  Rgb light_at(const Directions& directions, Rgb beta);
   float scattering_share(LightId id, float light_pdf) const;
   Vertex surface_vertex(const SurfaceHit& hit);
   float emission_share() const;
@@ -69,6 +69,7 @@ class Path {
   std::optional<Rgb> seen_;  ///< in place of beta_ for the light of what the camera's ray meets at its end
   int depth_ = 0;         ///< scattering events so far
   float eta_scale_ = 1;   ///< undoes the 1/eta^2 of transmissions in Russian roulette
+  float emphasis_ = 1;    ///< and what paths weigh less for having been guided
   PathRecord record_;
   bool first_event_in_medium_ = false;
 

@@ -6,11 +6,12 @@ namespace tyndall {
 
 /// Light from emitters that is scattered at the vertex, by a path of throughput `beta`. What the span's pairs stand for is
 /// not in it.
-Rgb Path::light_at(const Vertex& vertex, Rgb beta) {
+Rgb Path::light_at(const Directions& directions, Rgb beta) {
+  const Vertex& vertex = directions.vertex();
   span_event_.reset();
   if (vertex.on_surface() || !span_search_) {
     search_ = light_search(context_, vertex);
-    return is_black(beta) ? Rgb() : direct_light(context_, vertex, search_, beta);
+    return is_black(beta) ? Rgb() : direct_light(context_, directions, search_, beta);
   }
   span_event_ = SpanEvent{*span_search_, collision_t_, collision_density_};
   return tracks(context_.settings) ? collision_light(context_, vertex, *span_event_, beta) : Rgb();

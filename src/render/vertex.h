@@ -19,6 +19,7 @@ struct ScatterSample {
   float pdf;      ///< 1/sr
   bool specular;  ///< next-event estimation cannot reach it
   float eta = 1;  ///< relative index crossed
+  float emphasis = 1;  ///< pdf, by that of the scattering function alone
 };
 
 class Vertex {

@@ -6,6 +6,7 @@
 #include "light/lights.h"
 #include "render/fire_lights.h"
 #include "render/camera_ray.h"
+#include "render/media_glow.h"
 #include "render/media_state.h"
 #include "render/pixel_filter.h"
 #include "render/span_walk.h"
@@ -34,6 +35,7 @@ struct World::Parts {
   FireLights fire;  ///< empty unless asked for
   bool has_fire;    ///< it was
   Lights lights;
+  MediaGlow glow;  ///< empty where all media are homogeneous
   std::vector<LightId> first_light;  ///< by placed shape; kNone where it does not emit
   CameraRays camera;
   FilterSampler filter;

@@ -26,6 +26,7 @@ RenderSettings settings_of(const Scene& scene, const Variant& variant) {
   settings.media = variant.media;
   settings.distance = variant.distance;
   settings.emission = variant.emission;
+  settings.guiding = variant.guiding;
   settings.reproducible = true;
   return settings;
 }

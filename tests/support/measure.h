@@ -22,6 +22,7 @@ struct Variant {
   MediaStrategy media = MediaStrategy::product;
   DistanceStrategy distance = DistanceStrategy::automatic;
   EmissionStrategy emission = RenderSettings{}.emission;
+  GuidingStrategy guiding = RenderSettings{}.guiding;
 };
 
 /// Builds a world and renders it as often as asked.

@@ -1,0 +1,31 @@
+/// Where a path goes from a vertex: as it scatters there, and on surfaces also toward media that glow.
+#pragma once
+
+#include <optional>
+
+#include "render/glow_directions.h"
+#include "render/light_context.h"
+#include "render/vertex.h"
+
+namespace tyndall {
+
+/// Path guiding by a mixture of densities [Vorba et al. 2014], by what is known of the scene instead of what was learned.
+class Directions {
+ public:
+  /// Of the event that context.event counts.
+  Directions(const LightContext& context, const Vertex& vertex);
+
+  const Vertex& vertex() const { return vertex_; }
+  /// 1/sr, of sample(); `beta` as for a Vertex.
+  float pdf(Vec3 wi, Rgb beta) const;
+  std::optional<ScatterSample> sample(Rgb beta, float uc, Vec2 u) const;
+
+ private:
+  float mixed(Vec3 wi, float scattered) const { return (1 - glow_->share()) * scattered + glow_->share() * glow_->pdf(wi); }
+  std::optional<ScatterSample> toward_glow(Rgb beta, float u, Vec2 on_cone) const;
+
+  const Vertex& vertex_;
+  std::optional<GlowDirections> glow_;
+};
+
+}  // namespace tyndall
