@@ -76,7 +76,8 @@ float GlowDirections::pdf(Vec3 w) const {
     const Cells8 cells(*glow_, i, p_);
     // By the distance at which the direction passes: cosines would lose the bits of narrow cones.
     const Float8 cx = cells.y * w.z - cells.z * w.y, cy = cells.z * w.x - cells.x * w.z, cz = cells.x * w.y - cells.y * w.x;
-    const Mask8 passed = cx * cx + cy * cy + cz * cz <= cells.radius * cells.radius && cells.x * w.x + cells.y * w.y + cells.z * w.z > 0.0f;
+    const Float8 ahead = cells.x * w.x + cells.y * w.y + cells.z * w.z;
+    const Mask8 passed = cx * cx + cy * cy + cz * cz <= cells.radius * cells.radius && ahead > 0.0f;
     const Mask8 inside = cells.around() || passed;
     sum += reduce(choose(inside, load8(&importance_[i]) / cells.height(), Float8(0.0f)));
   }

@@ -8,9 +8,10 @@ namespace {
 
 /// A medium's box is cut into about as many cubes as this, of which the brightest are kept.
 constexpr float kCubes = 512;
-constexpr int kMostCubes = 64;  ///< along an axis
-/// Lamps are taken together in the cubes of a grid of this many along an axis.
-constexpr int kLampCubes = 8;
+constexpr float kMostCubes = 64;  ///< along an axis
+/// Lamps are taken together in about as many cubes as this.
+constexpr float kLampCubes = 512;
+constexpr std::size_t kMostLamps = 1 << 16;
 constexpr int kReads = 3;  ///< of a medium along a cube's edge
 
 struct Glow {
@@ -35,43 +36,46 @@ class Cubes {
     // Flat boxes are cut as if they had some thickness.
     const float volume = std::max(e.x, 1e-3f * longest) * std::max(e.y, 1e-3f * longest) * std::max(e.z, 1e-3f * longest);
     const float edge = std::cbrt(volume / wanted);
-    for (int i = 0; i < 3; ++i) counts_[static_cast<std::size_t>(i)] = edge > 0 ? std::clamp(static_cast<int>(e[i] / edge), 1, kMostCubes) : 1;
-    step_ = {e.x / static_cast<float>(counts_[0]), e.y / static_cast<float>(counts_[1]), e.z / static_cast<float>(counts_[2])};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const float length = e[static_cast<int>(i)];
+      counts_[i] = edge > 0 ? static_cast<std::size_t>(std::clamp(length / edge, 1.0f, kMostCubes)) : 1;
+      step_[static_cast<int>(i)] = length / static_cast<float>(counts_[i]);
+    }
   }
 
-  std::size_t size() const { return static_cast<std::size_t>(counts_[0]) * static_cast<std::size_t>(counts_[1]) * static_cast<std::size_t>(counts_[2]); }
+  std::size_t size() const { return counts_[0] * counts_[1] * counts_[2]; }
   Vec3 step() const { return step_; }
   Vec3 corner(std::size_t index) const {
-    const auto nx = static_cast<std::size_t>(counts_[0]), ny = static_cast<std::size_t>(counts_[1]);
-    const Vec3 at{static_cast<float>(index % nx), static_cast<float>(index / nx % ny), static_cast<float>(index / (nx * ny))};
-    return box_.min + at * step_;
+    const std::size_t x = index % counts_[0], y = index / counts_[0] % counts_[1], z = index / (counts_[0] * counts_[1]);
+    return box_.min + Vec3{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)} * step_;
   }
   /// Of the cube that holds `p`, or is next to it.
   std::size_t index(Vec3 p) const {
     const Vec3 from = p - box_.min;
     std::size_t index = 0;
     for (int axis = 2; axis >= 0; --axis) {
-      const int count = counts_[static_cast<std::size_t>(axis)];
-      const float at = step_[axis] > 0 ? from[axis] / step_[axis] : 0.0f;
-      const int cell = std::clamp(static_cast<int>(std::clamp(at, 0.0f, static_cast<float>(kMostCubes))), 0, count - 1);
-      index = index * static_cast<std::size_t>(count) + static_cast<std::size_t>(cell);
+      const std::size_t count = counts_[static_cast<std::size_t>(axis)];
+      const float at = step_[axis] > 0 ? std::clamp(from[axis] / step_[axis], 0.0f, kMostCubes) : 0.0f;
+      index = index * count + std::min(static_cast<std::size_t>(at), count - 1);
     }
     return index;
   }
 
  private:
   Bounds3 box_;
-  std::array<int, 3> counts_{};
+  std::array<std::size_t, 3> counts_{};
   Vec3 step_;
 };
 
-/// What lamps of a place send out, and where on average they stand.
+/// What lamps of a place send out, and where on average they stand. Of very many lamps some stand for all.
 std::vector<Lamp> gather_lamps(const Lights& lights) {
   if (lights.near_box().empty()) return {};
-  const Cubes cubes(lights.near_box(), kLampCubes * kLampCubes * kLampCubes);
+  const Cubes cubes(lights.near_box(), kLampCubes);
   std::vector<Lamp> lamps(cubes.size());
-  for (LightId id = 0; id < lights.size(); ++id) {
-    const auto power = static_cast<float>(lights.power(id));
+  const std::size_t step = lights.size() / kMostLamps + 1;
+  for (std::size_t i = 0; i < lights.size(); i += step) {
+    const auto id = static_cast<LightId>(i);
+    const auto power = static_cast<float>(lights.power(id) * static_cast<double>(step));
     const LightPlace place = lights.place(id);
     if (!place.center || !(power > 0) || !std::isfinite(power)) continue;
     Lamp& lamp = lamps[cubes.index(*place.center)];
@@ -100,22 +104,32 @@ Bounds3 reach_of(std::size_t medium, const std::vector<BoundaryGroup>& groups, s
   return reach;
 }
 
-Glow glow_of(const ParticipatingMedium& medium, const Cubes& cubes, std::size_t index, float far_light, const std::vector<Lamp>& lamps) {
-  const Vec3 corner = cubes.corner(index), step = cubes.step();
-  float sigma_t = 0, sigma_s = 0, own = 0;
-  for (int i = 0; i < kReads * kReads * kReads; ++i) {
-    const auto along = [](int k) { return (static_cast<float>(k) + 0.5f) / kReads; };
-    const Coefficients c = medium.at(corner + step * Vec3{along(i % kReads), along(i / kReads % kReads), along(i / (kReads * kReads))});
-    sigma_t += mean(c.sigma_t());
-    sigma_s += mean(c.sigma_s);
-    own += mean(c.sigma_a * c.Le);
+/// What a medium does in a box, on average of the channels.
+struct Average {
+  float sigma_t = 0, sigma_s = 0, emission = 0;
+
+  static Average of(const ParticipatingMedium& medium, Vec3 corner, Vec3 size) {
+    Average a;
+    const auto along = [](int k) { return (static_cast<float>(k % kReads) + 0.5f) / kReads; };
+    for (int i = 0; i < kReads * kReads * kReads; ++i) {
+      const Vec3 at{along(i), along(i / kReads), along(i / (kReads * kReads))};
+      const Coefficients c = medium.at(corner + size * at);
+      a.sigma_t += mean(c.sigma_t()) * kPerRead;
+      a.sigma_s += mean(c.sigma_s) * kPerRead;
+      a.emission += mean(c.sigma_a * c.Le) * kPerRead;
+    }
+    return a;
   }
-  Glow glow{.center = corner + step * 0.5f, .radius = 0.5f * length(step), .radiance = 0};
-  if (!(sigma_t > 0) || !std::isfinite(sigma_t) || !std::isfinite(own)) return glow;
-  const float depth = sigma_t / (kReads * kReads * kReads) * 2 * glow.radius;
-  const float scattered = sigma_s > 0 ? sigma_s * (fluence(lamps, glow.center, glow.radius) + far_light) / (4 * kPi) : 0.0f;
-  glow.radiance = (scattered + own) / sigma_t * -std::expm1(-depth);
-  return glow;
+
+ private:
+  static constexpr float kPerRead = 1.0f / (kReads * kReads * kReads);
+};
+
+/// Seen from outside; `light` is the fluence of lamps there.
+float radiance_of(const Average& medium, float radius, float light) {
+  if (!(medium.sigma_t > 0)) return 0;
+  const float source = medium.sigma_s * light / (4 * kPi) + medium.emission;
+  return source / medium.sigma_t * -std::expm1(-medium.sigma_t * 2 * radius);
 }
 
 }  // namespace
@@ -141,12 +155,14 @@ MediaGlow::MediaGlow(const std::vector<ParticipatingMedium>& media, const std::v
   for (const std::size_t i : filled) {
     const Cubes cubes(overlap(media[i].bounds(), reach_of(i, groups, unbounded)), kCubes / static_cast<float>(filled.size()));
     for (std::size_t k = 0; k < cubes.size(); ++k) {
-      const Glow glow = glow_of(media[i], cubes, k, far_light_, lamps);
+      Glow glow{.center = cubes.corner(k) + cubes.step() * 0.5f, .radius = 0.5f * length(cubes.step()), .radiance = 0};
+      const float light = far_light_ + fluence(lamps, glow.center, glow.radius);
+      glow.radiance = radiance_of(Average::of(media[i], cubes.corner(k), cubes.step()), glow.radius, light);
       if (glow.radiance > 0 && std::isfinite(glow.radiance)) glows.push_back(glow);
     }
   }
-  const auto brighter = [](const Glow& a, const Glow& b) { return a.radiance * a.radius * a.radius > b.radiance * b.radius * b.radius; };
-  std::stable_sort(glows.begin(), glows.end(), brighter);
+  const auto size = [](const Glow& g) { return g.radiance * g.radius * g.radius; };
+  std::stable_sort(glows.begin(), glows.end(), [&](const Glow& a, const Glow& b) { return size(a) > size(b); });
   size_ = std::min(glows.size(), kMostCells);
   for (std::size_t i = 0; i < size_; ++i) {
     const auto& [center, radius, radiance] = glows[i];
