@@ -25,9 +25,9 @@ enum class DistanceStrategy { automatic, tracking, equiangular, both, profile };
 /// estimation toward it as well, with MIS. The second needs a grid, whose bricks are then lights among the others; it pays
 /// where small fires light surfaces, not where smoke that scatters the glow fills the picture.
 enum class EmissionStrategy { paths, lights };
-/// Where paths go from surfaces: as these scatter, or also toward media that glow with scattered light, with MIS.
+/// Where paths go from the surface that they meet first: as it scatters, or also toward grids and clouds that glow, with MIS.
 /// `automatic`: the latter with MediaStrategy::product, the former with what stands for other programs' methods. Homogeneous
-/// media draw no paths.
+/// media draw no paths, and paths of one event need none.
 enum class GuidingStrategy { automatic, off, media };
 /// Estimator of transmittance along shadow rays.
 enum class TransmittanceStrategy { residual, ratio, delta, raymarch };

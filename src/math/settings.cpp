@@ -86,7 +86,7 @@ const std::vector<StrategyAxis>& strategy_axes() {
       axis<kMedia, &RenderSettings::media>("media", "what stands for a stretch of medium when its light is chosen"),
       axis<kDistances, &RenderSettings::distance>("distance", "how the distance of a scattering event is sampled"),
       axis<kEmissions, &RenderSettings::emission>("emission", "how the glow of hot media is found"),
-      axis<kGuidings, &RenderSettings::guiding>("guiding", "where paths from surfaces are sent besides as these scatter"),
+      axis<kGuidings, &RenderSettings::guiding>("guiding", "where the surface that a path meets first sends it besides as it scatters: grids and clouds that glow"),
       axis<kTransmittances, &RenderSettings::transmittance>("transmittance", "estimator along shadow rays"),
   };
   return axes;

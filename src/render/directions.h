@@ -1,4 +1,4 @@
-/// Where a path goes from a vertex: as it scatters there, and on surfaces also toward media that glow.
+/// Where a path goes from a vertex: as it scatters there, and from the surface met first also toward media that glow.
 #pragma once
 
 #include <optional>

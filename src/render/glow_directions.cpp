@@ -49,7 +49,8 @@ GlowDirections::GlowDirections(const MediaGlow& glow, const PointQuery& query) :
   }
   const float light = kPi * total_;
   if (!(light > 0) || !std::isfinite(light)) return;
-  share_ = kMostGuided * light / (light + glow.lamplight(p_));
+  // Narrow lobes know better where to go.
+  share_ = kMostGuided * query.diffuse * light / (light + glow.lamplight(p_));
   if (share_ < kLeastGuided) share_ = 0;
 }
 

@@ -35,10 +35,10 @@ class Cubes {
     const float longest = std::max({e.x, e.y, e.z});
     // Flat boxes are cut as if they had some thickness.
     const float volume = std::max(e.x, 1e-3f * longest) * std::max(e.y, 1e-3f * longest) * std::max(e.z, 1e-3f * longest);
-    const float edge = std::cbrt(volume / wanted);
+    const float edge = std::cbrt(volume / wanted);  // not a number where the box is too large for one: then it is one cube
     for (std::size_t i = 0; i < 3; ++i) {
       const float length = e[static_cast<int>(i)];
-      counts_[i] = edge > 0 ? static_cast<std::size_t>(std::clamp(length / edge, 1.0f, kMostCubes)) : 1;
+      counts_[i] = edge > 0 && length / edge < kInfinity ? static_cast<std::size_t>(std::clamp(length / edge, 1.0f, kMostCubes)) : 1;
       step_[static_cast<int>(i)] = length / static_cast<float>(counts_[i]);
     }
   }
@@ -55,7 +55,7 @@ class Cubes {
     std::size_t index = 0;
     for (int axis = 2; axis >= 0; --axis) {
       const std::size_t count = counts_[static_cast<std::size_t>(axis)];
-      const float at = step_[axis] > 0 ? std::clamp(from[axis] / step_[axis], 0.0f, kMostCubes) : 0.0f;
+      const float cells = from[axis] / step_[axis], at = cells > 0 ? std::min(cells, kMostCubes) : 0.0f;
       index = index * count + std::min(static_cast<std::size_t>(at), count - 1);
     }
     return index;
@@ -68,16 +68,18 @@ class Cubes {
 };
 
 /// What lamps of a place send out, and where on average they stand. Of very many lamps some stand for all.
-std::vector<Lamp> gather_lamps(const Lights& lights) {
+std::vector<Lamp> gather_lamps(const Lights& lights, const FireLights& fire) {
   if (lights.near_box().empty()) return {};
   const Cubes cubes(lights.near_box(), kLampCubes);
   std::vector<Lamp> lamps(cubes.size());
   const std::size_t step = lights.size() / kMostLamps + 1;
   for (std::size_t i = 0; i < lights.size(); i += step) {
     const auto id = static_cast<LightId>(i);
-    const auto power = static_cast<float>(lights.power(id) * static_cast<double>(step));
+    if (fire.holds(id)) continue;  // it glows by itself, whether it is sought or not
     const LightPlace place = lights.place(id);
-    if (!place.center || !(power > 0) || !std::isfinite(power)) continue;
+    if (!place.center) continue;
+    const auto power = static_cast<float>(lights.power(id) * static_cast<double>(step));
+    if (!(power > 0) || !std::isfinite(power)) continue;
     Lamp& lamp = lamps[cubes.index(*place.center)];
     const float sum = lamp.power + power;
     lamp.center = lamp.center * (lamp.power / sum) + *place.center * (power / sum);
@@ -85,6 +87,19 @@ std::vector<Lamp> gather_lamps(const Lights& lights) {
   }
   std::erase_if(lamps, [](const Lamp& lamp) { return lamp.power == 0; });
   return lamps;
+}
+
+/// Of lamps at infinity, which stand among the first lights: their power by the disk that it falls on.
+float gather_far(const Lights& lights, const FireLights& fire, const Bounds3& scene) {
+  const double disk = 0.25 * double{kPi} * double{length_squared(scene.extent())};
+  const std::size_t looks = std::min(lights.size(), kMostLamps);
+  double sum = 0;
+  for (LightId id = 0; id < looks; ++id) {
+    if (fire.holds(id) || lights.place(id).center) continue;
+    const double power = lights.power(id);
+    if (std::isfinite(power) && disk > 0) sum += power / disk;
+  }
+  return static_cast<float>(sum);
 }
 
 /// Radiance through a point from all sides together.
@@ -134,22 +149,18 @@ float radiance_of(const Average& medium, float radius, float light) {
 
 }  // namespace
 
-MediaGlow::MediaGlow(const std::vector<ParticipatingMedium>& media, const std::vector<BoundaryGroup>& groups,
-                     std::optional<MediumId> unbounded, const Lights& lights, const Bounds3& scene) {
+MediaGlow::MediaGlow(const std::vector<ParticipatingMedium>& media, const Surroundings& around) {
+  const auto& [groups, unbounded, lights, fire, scene] = around;
   std::vector<std::size_t> filled;
   for (std::size_t i = 0; i < media.size(); ++i) {
     if (!media[i].homogeneous() && !overlap(media[i].bounds(), reach_of(i, groups, unbounded)).empty()) filled.push_back(i);
   }
   if (filled.empty()) return;
 
-  const std::vector<Lamp> lamps = gather_lamps(lights);
+  const std::vector<Lamp> lamps = gather_lamps(lights, fire);
   lamps_ = lights.near_box();
   for (const Lamp& lamp : lamps) near_power_ += lamp.power;
-  const float disk = kPi * 0.25f * length_squared(scene.extent());
-  for (LightId id = 0; id < lights.size(); ++id) {
-    const double power = lights.power(id);
-    if (!lights.place(id).center && std::isfinite(power) && disk > 0) far_light_ += static_cast<float>(power) / disk;
-  }
+  far_light_ = gather_far(lights, fire, scene);
 
   std::vector<Glow> glows;
   for (const std::size_t i : filled) {

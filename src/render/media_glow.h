@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "light/lights.h"
+#include "render/fire_lights.h"
 #include "surface/geometry.h"
 #include "volume/medium.h"
 
@@ -22,9 +23,15 @@ class MediaGlow {
   using PerCell = std::array<T, kMostCells>;
 
   MediaGlow() = default;
-  /// Of the media that fill some space: the inside of a group, or `unbounded`. `scene`: encloses what lights shine on.
-  MediaGlow(const std::vector<ParticipatingMedium>& media, const std::vector<BoundaryGroup>& groups,
-            std::optional<MediumId> unbounded, const Lights& lights, const Bounds3& scene);
+  struct Surroundings {
+    const std::vector<BoundaryGroup>& groups;
+    std::optional<MediumId> unbounded;
+    const Lights& lights;
+    const FireLights& fire;
+    Bounds3 scene;  ///< encloses what lights shine on
+  };
+  /// Of the media that fill some space: the inside of a group, or the unbounded one.
+  MediaGlow(const std::vector<ParticipatingMedium>& media, const Surroundings& around);
 
   bool empty() const { return size_ == 0; }
   std::size_t size() const { return size_; }

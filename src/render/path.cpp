@@ -94,8 +94,9 @@ bool Path::scatter(const Vertex& vertex) {
 }
 
 bool Path::survive_roulette() {
+  if (depth_ <= 1) return true;
   const float survival = max_component(beta_) * eta_scale_ * std::pow(emphasis_, kGuidedLive) / kRouletteBelow;
-  if (depth_ <= 1 || !(survival < 1)) return true;
+  if (!(survival < 1)) return true;
   if (context_.sampler.next_wide() >= survival) return false;  // many bits, as survival may be next to nothing
   beta_ *= 1 / survival;
   return true;

@@ -156,7 +156,7 @@ World::Parts::Parts(UnitScene unit_scene, const BuildSettings& settings, std::si
   lights = build_lights(scene, emitters.shapes, scene_bounds(geometry, media),
                         {.strategies = settings.lights, .textures = &textures, .threads = settings.threads, .volumes = volumes});
   fire.set_first(lights.first_volume());
-  glow = MediaGlow(media, geometry.groups(), scene.camera.medium, lights, scene_bounds(geometry, media));
+  glow = MediaGlow(media, {geometry.groups(), scene.camera.medium, lights, fire, scene_bounds(geometry, media)});
   for (std::string& note : fire.notes(scene.media)) summary.notes.push_back(std::move(note));
   first_light.assign(geometry.placed().size(), kNone);
   for (std::size_t i = 0; i < emitters.placed.size(); ++i) first_light[emitters.placed[i]] = lights.first_light(i);

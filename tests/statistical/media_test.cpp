@@ -143,12 +143,12 @@ TEST_CASE("a metal floor and wide lamps behind fog") {
   check_all_agree("behind fog", look(2) + floor + lamps + fog, {{"passing", {.media = MediaStrategy::vertex}}, {"dimmed", {}}}, how);
 }
 
-// A coat, metal and diffuse surfaces beside smoke, of which they see more or less; lamps that scattered rays find as well. Without
+// Coats, rough and smooth, and a diffuse surface beside smoke, of which they see more or less; lamps that scattered rays find as well. Without
 // the guide's share in the weights of what is scattered the means are 1 to 2.4 % apart, 25 standard errors.
 TEST_CASE("paths sent toward smoke make the picture of those that are not") {
   const std::string floor = block("Material \"coateddiffuse\" \"float roughness\" 0.3 \"rgb reflectance\" [0.5 0.4 0.3]\nTranslate 0 -1.2 0\n"
                                   "Rotate -90 1 0 0\nShape \"disk\" \"float radius\" 4\n") +
-                            block("Material \"conductor\" \"float roughness\" 0.5\nTranslate 1.6 0 0.4\nShape \"sphere\" \"float radius\" 0.5\n");
+                            block("Material \"coateddiffuse\" \"float roughness\" 0\nTranslate 1.6 0 0.4\nShape \"sphere\" \"float radius\" 0.5\n");
   const std::string lamps = emitting_square({-1.5f, 1.5f, 0.3f}, 0.7f, 0.2f) + point_light({0.2f, 0.1f, 0}, 0.2f) + environment(0.02f);
   const std::string smoke = uniform_grid("smoke", {.sigma_a = {0.3f, 0.2f, 0.2f}, .sigma_s = {4, 5, 6}, .g = 0.5f}, holes()) + medium_box("smoke", "", kBox);
   Agreement how;
