@@ -128,10 +128,11 @@ struct Average {
     const auto along = [](int k) { return (static_cast<float>(k % kReads) + 0.5f) / kReads; };
     for (int i = 0; i < kReads * kReads * kReads; ++i) {
       const Vec3 at{along(i), along(i / kReads), along(i / (kReads * kReads))};
-      const Coefficients c = medium.at(corner + size * at);
-      a.sigma_t += mean(c.sigma_t()) * kPerRead;
-      a.sigma_s += mean(c.sigma_s) * kPerRead;
-      a.emission += mean(c.sigma_a * c.Le) * kPerRead;
+      const Vec3 p = corner + size * at;
+      const auto [sigma_a, sigma_s, g] = medium.optics_at(p);
+      a.sigma_t += mean(sigma_a + sigma_s) * kPerRead;
+      a.sigma_s += mean(sigma_s) * kPerRead;
+      if (medium.emissive()) a.emission += mean(sigma_a * medium.at(p).Le) * kPerRead;
     }
     return a;
   }
