@@ -21,7 +21,7 @@ class Directions {
   std::optional<ScatterSample> sample(Rgb beta, float uc, Vec2 u) const;
 
  private:
-  float mixed(Vec3 wi, float scattered) const { return (1 - glow_->share()) * scattered + glow_->share() * glow_->pdf(wi); }
+  float mixed(float guided, float scattered) const { return (1 - glow_->share()) * scattered + glow_->share() * guided; }
   std::optional<ScatterSample> toward_glow(Rgb beta, float u, Vec2 on_cone) const;
 
   const Vertex& vertex_;

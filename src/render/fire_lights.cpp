@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "math/hash.h"
+#include "render/media_state.h"
 
 namespace tyndall {
 namespace {
@@ -52,11 +53,7 @@ FireLights::FireLights(const std::vector<ParticipatingMedium>& media, const std:
   LightId next = 0;
   for (std::size_t i = 0; i < media.size(); ++i) {
     if (!media[i].emissive()) continue;
-    Bounds3 reach;
-    for (const BoundaryGroup& group : groups) {
-      if (group.inside == i) reach.expand(group.bounds);
-    }
-    if (unbounded == i) reach = {Vec3{-kInfinity, -kInfinity, -kInfinity}, Vec3{kInfinity, kInfinity, kInfinity}};
+    const Bounds3 reach = reach_of(static_cast<MediumId>(i), groups, unbounded);
     if (reach.empty()) continue;
     EmissiveBricks bricks(media[i]);
     if (bricks.empty()) continue;

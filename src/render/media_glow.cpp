@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/media_state.h"
+
 namespace tyndall {
 namespace {
 
@@ -109,16 +111,6 @@ float fluence(const std::vector<Lamp>& lamps, Vec3 p, float radius) {
   return sum;
 }
 
-/// Where a medium can be.
-Bounds3 reach_of(std::size_t medium, const std::vector<BoundaryGroup>& groups, std::optional<MediumId> unbounded) {
-  if (unbounded == medium) return {Vec3{-kInfinity, -kInfinity, -kInfinity}, Vec3{kInfinity, kInfinity, kInfinity}};
-  Bounds3 reach;
-  for (const BoundaryGroup& group : groups) {
-    if (group.inside == medium) reach.expand(group.bounds);
-  }
-  return reach;
-}
-
 /// What a medium does in a box, on average of the channels.
 struct Average {
   float sigma_t = 0, sigma_s = 0, emission = 0;
@@ -152,9 +144,15 @@ float radiance_of(const Average& medium, float radius, float light) {
 
 MediaGlow::MediaGlow(const std::vector<ParticipatingMedium>& media, const Surroundings& around) {
   const auto& [groups, unbounded, lights, fire, scene] = around;
-  std::vector<std::size_t> filled;
+  struct Filled {
+    const ParticipatingMedium& medium;
+    Bounds3 box;
+  };
+  std::vector<Filled> filled;
   for (std::size_t i = 0; i < media.size(); ++i) {
-    if (!media[i].homogeneous() && !overlap(media[i].bounds(), reach_of(i, groups, unbounded)).empty()) filled.push_back(i);
+    if (media[i].homogeneous()) continue;
+    const Bounds3 box = overlap(media[i].bounds(), reach_of(static_cast<MediumId>(i), groups, unbounded));
+    if (!box.empty()) filled.push_back({media[i], box});
   }
   if (filled.empty()) return;
 
@@ -164,12 +162,12 @@ MediaGlow::MediaGlow(const std::vector<ParticipatingMedium>& media, const Surrou
   far_light_ = gather_far(lights, fire, scene);
 
   std::vector<Glow> glows;
-  for (const std::size_t i : filled) {
-    const Cubes cubes(overlap(media[i].bounds(), reach_of(i, groups, unbounded)), kCubes / static_cast<float>(filled.size()));
+  for (const auto& [medium, box] : filled) {
+    const Cubes cubes(box, kCubes / static_cast<float>(filled.size()));
     for (std::size_t k = 0; k < cubes.size(); ++k) {
       Glow glow{.center = cubes.corner(k) + cubes.step() * 0.5f, .radius = 0.5f * length(cubes.step()), .radiance = 0};
       const float light = far_light_ + fluence(lamps, glow.center, glow.radius);
-      glow.radiance = radiance_of(Average::of(media[i], cubes.corner(k), cubes.step()), glow.radius, light);
+      glow.radiance = radiance_of(Average::of(medium, cubes.corner(k), cubes.step()), glow.radius, light);
       if (glow.radiance > 0 && std::isfinite(glow.radiance)) glows.push_back(glow);
     }
   }

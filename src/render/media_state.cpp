@@ -4,6 +4,15 @@
 
 namespace tyndall {
 
+Bounds3 reach_of(MediumId medium, const std::vector<BoundaryGroup>& groups, std::optional<MediumId> unbounded) {
+  if (unbounded == medium) return {Vec3{-kInfinity, -kInfinity, -kInfinity}, Vec3{kInfinity, kInfinity, kInfinity}};
+  Bounds3 reach;
+  for (const BoundaryGroup& group : groups) {
+    if (group.inside == medium) reach.expand(group.bounds);
+  }
+  return reach;
+}
+
 float exit_distance(const Bounds3& box, const Ray& ray) {
   float t = kInfinity;
   for (int axis = 0; axis < 3; ++axis) {

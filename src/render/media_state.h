@@ -14,6 +14,8 @@ namespace tyndall {
 /// Media that overlap somewhere; a medium that two groups bring counts twice.
 using ActiveMedia = SmallVector<const ParticipatingMedium*, 4>;
 
+/// A box that holds `medium` wherever it is the inside of a group, infinite where it is `unbounded`; empty where it is nowhere.
+Bounds3 reach_of(MediumId medium, const std::vector<BoundaryGroup>& groups, std::optional<MediumId> unbounded);
 
 /// How far `ray` goes until it has left `box` for good: infinite where the box is.
 float exit_distance(const Bounds3& box, const Ray& ray);
