@@ -29,6 +29,10 @@ enum class EmissionStrategy { paths, lights };
 /// `automatic`: the latter with MediaStrategy::product, the former with what stands for other programs' methods. Homogeneous
 /// media draw no paths, and paths of one event need none.
 enum class GuidingStrategy { automatic, off, media };
+/// What collisions look for besides the light that they scatter themselves: nothing, or points to scatter at once more, near
+/// lamps without extent (point and spot lights), with MIS. `automatic`: the latter with MediaStrategy::product, the former with
+/// what stands for other programs' methods. Paths of one event have no part in it, nor does LightStrategy::exhaustive.
+enum class JointStrategy { automatic, off, points };
 /// Estimator of transmittance along shadow rays.
 enum class TransmittanceStrategy { residual, ratio, delta, raymarch };
 
@@ -57,6 +61,7 @@ struct RenderSettings {
   DistanceStrategy distance = DistanceStrategy::automatic;
   EmissionStrategy emission = EmissionStrategy::paths;
   GuidingStrategy guiding = GuidingStrategy::automatic;
+  JointStrategy joint = JointStrategy::automatic;
   TransmittanceStrategy transmittance = TransmittanceStrategy::raymarch;
   std::vector<std::string> aovs{};  ///< names from aov_names()
   std::optional<PixelBounds> crop{};

@@ -233,7 +233,8 @@ void Builder::count(const SelectionInput& input) {
   LightStats& stats = parts_->stats;
   stats.lights = parts_->lights.size() + parts_->instanced_lights;
   stats.infinite = parts_->infinite.size();
-  stats.points = parts_->points.size() + parts_->spots.size() + parts_->distants.size();
+  stats.near_points = parts_->points.size() + parts_->spots.size();
+  stats.points = stats.near_points + parts_->distants.size();
   for (const Emitter& e : parts_->emitters) stats.emitters += e.size();
   for (const double power : input.power) {
     stats.power += power;

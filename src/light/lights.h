@@ -64,6 +64,7 @@ struct LightStats {
   std::size_t lights = 0, emitters = 0, infinite = 0;  ///< all; primitives of emissive shapes; environments
   std::size_t shared = 0;                              ///< of the primitives, those that instances of an object share
   std::size_t points = 0;                              ///< lights without extent, those at infinity included
+  std::size_t near_points = 0;                         ///< of these, those that are at a place
   std::size_t dark = 0;                                ///< lights without power, which are never chosen
   double power = 0;  ///< W, mean of the channels, all lights
 };

@@ -41,6 +41,11 @@ constexpr Table<GuidingStrategy, 3> kGuidings{{
     {"off", GuidingStrategy::off},
     {"media", GuidingStrategy::media},
 }};
+constexpr Table<JointStrategy, 3> kJoints{{
+    {"auto", JointStrategy::automatic},
+    {"off", JointStrategy::off},
+    {"points", JointStrategy::points},
+}};
 constexpr Table<TransmittanceStrategy, 4> kTransmittances{{
     {"residual", TransmittanceStrategy::residual},
     {"ratio", TransmittanceStrategy::ratio},
@@ -87,6 +92,7 @@ const std::vector<StrategyAxis>& strategy_axes() {
       axis<kDistances, &RenderSettings::distance>("distance", "how the distance of a scattering event is sampled"),
       axis<kEmissions, &RenderSettings::emission>("emission", "how the glow of hot media is found"),
       axis<kGuidings, &RenderSettings::guiding>("guiding", "where the surface that a path meets first sends it besides as it scatters: grids and clouds that glow"),
+      axis<kJoints, &RenderSettings::joint>("joint", "what a collision draws the next one for, besides as it scatters: near point and spot lights"),
       axis<kTransmittances, &RenderSettings::transmittance>("transmittance", "estimator along shadow rays"),
   };
   return axes;

@@ -1,5 +1,6 @@
 #include "render/direct_light.h"
 
+#include "render/joint_light.h"
 #include "render/light_counts.h"
 #include "render/vertex_light.h"
 
@@ -47,8 +48,9 @@ Rgb direct_light(const LightContext& context, const Directions& directions, cons
   Sampler sampler = context.sampler.fork();
   if (!context.world.lights.sought() || !vertex.has_smooth()) return {};
   // The density of the candidates stands for the technique: it is known for every direction, unlike the resampled one.
-  const auto share = [&](const LightSample& light, LightId, float density) {
-    return light.delta ? 1.0f : mis_weight(density, directions.pdf(light.wi, beta));
+  const auto share = [&](const LightSample& light, LightId id, float density) {
+    if (light.delta) return vertex.on_surface() ? 1.0f : own_share(context, id);
+    return mis_weight(density, directions.pdf(light.wi, beta));
   };
   return VertexLight(context, vertex, search, beta, share).estimate(sampler);
 }

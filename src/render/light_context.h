@@ -7,6 +7,8 @@
 
 namespace tyndall {
 
+struct JointRay;
+
 /// What light estimation needs of the render at large.
 struct LightContext {
   const World::Parts& world;
@@ -15,6 +17,8 @@ struct LightContext {
   Sampler& sampler;
   Counters& counters;
   int event = 0;  ///< scattering events of the path before the one at hand
+  /// The ray to it, where the event before sought lamps jointly.
+  const JointRay* joint = nullptr;
 };
 
 /// What the ray after it meets counts no more, but for lights.

@@ -49,7 +49,9 @@ Path::Path(const Path& camera, const Beyond& beyond)
       media_(beyond.media),
       beta_{},
       seen_(beyond.seen),
-      record_(camera.record_) {}
+      record_(camera.record_) {
+  context_.joint = nullptr;
+}
 
 PathRecord Path::run_beyond(const Trace& trace) {
   follow(arrive(trace));
@@ -78,6 +80,9 @@ bool Path::scatter(const Vertex& vertex) {
   add(seen * light_at(directions, seen), depth_);
   if (is_black(beta_) || (is_last_event(context_) && !context_.world.rays_find_lights())) return false;
 
+  const auto joint = joint_search(context_, vertex);
+  if (joint) add(beta_ * joint_light(context_, vertex, *joint), depth_ + 1);
+
   begin(Step::scatter);
   const float uc = context_.sampler.next_1d();
   const auto s = directions.sample(beta_, uc, context_.sampler.next_2d());
@@ -87,6 +92,8 @@ bool Path::scatter(const Vertex& vertex) {
   pdf_ = span_event_ ? vertex.pdf(s->wi, Rgb(1.0f)) : s->pdf;
   media_ = vertex.media_toward(context_.world.geometry, s->wi);
   ray_ = {vertex.origin(context_.world.geometry, s->wi), s->wi};
+  context_.joint = nullptr;
+  if (joint) context_.joint = &joint_.emplace(JointRay{*joint, s->wi, vertex.pdf(s->wi, Rgb(1.0f))});
   beta_ *= s->weight;
   eta_scale_ *= s->eta * s->eta;
   emphasis_ *= s->emphasis;

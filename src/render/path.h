@@ -1,6 +1,7 @@
 /// One path from the camera: the transport that makes the picture.
 #pragma once
 
+#include "render/joint_light.h"
 #include "render/path_record.h"
 #include "render/span_light.h"
 
@@ -77,6 +78,7 @@ class Path {
   bool light_sampled_ = false;  ///< next-event estimation could have found what this ray finds
   Vec3 from_;       ///< where it took place
   float pdf_ = 0;   ///< of the direction it took, 1/sr
+  std::optional<JointRay> joint_;  ///< the ray from it, if it sought lamps jointly; context_ points to it
   LightSearch search_;
   std::optional<SpanEvent> span_event_;  ///< in place of search_ when the event's lights are chosen along its span
 

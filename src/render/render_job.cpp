@@ -65,9 +65,10 @@ RenderSettings resolved(RenderSettings settings, const World::Parts& world) {
   world.lights.selector(settings.lights);  // throws when it was not built
   if (settings.emission == EmissionStrategy::lights && !world.has_fire)
     throw Error(Failure::usage, "the world was not built for emission as lights; set BuildSettings::fire");
-  // What stands for other programs' methods goes on from surfaces as they do.
-  if (settings.guiding == GuidingStrategy::automatic)
-    settings.guiding = settings.media == MediaStrategy::product ? GuidingStrategy::media : GuidingStrategy::off;
+  // What stands for other programs' methods goes on from events as they do.
+  const bool ours = settings.media == MediaStrategy::product;
+  if (settings.guiding == GuidingStrategy::automatic) settings.guiding = ours ? GuidingStrategy::media : GuidingStrategy::off;
+  if (settings.joint == JointStrategy::automatic) settings.joint = ours ? JointStrategy::points : JointStrategy::off;
   if (settings.media == MediaStrategy::vertex) settings.distance = DistanceStrategy::tracking;
   return settings;
 }

@@ -1,3 +1,4 @@
+#include "render/joint_light.h"
 #include "render/span_light.h"
 #include "render/vertex_light.h"
 
@@ -8,7 +9,8 @@ Rgb collision_light(const LightContext& context, const Vertex& vertex, const Spa
   const auto share = [&](const LightSample& light, LightId id, float density) {
     const SpanDensities others = span_densities(context, event, id);
     const float phase = light.delta ? 0.0f : vertex.pdf(light.wi, Rgb(1.0f));
-    return mis_weight(event.density * density, others.pair * light.pdf, event.density * phase);
+    const float own = light.delta ? own_share(context, id) : 1.0f;
+    return own * mis_weight(event.density * density, others.pair * light.pdf, event.density * phase);
   };
   return VertexLight(context, vertex, event.search, beta, share).estimate(sampler);
 }

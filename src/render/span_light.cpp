@@ -5,6 +5,7 @@
 
 #include "math/small_vector.h"
 #include "render/fire_light.h"
+#include "render/joint_light.h"
 #include "render/light_counts.h"
 #include "render/resampling.h"
 #include "volume/coarse.h"
@@ -91,7 +92,8 @@ class PairFinder {
     const float collide = scattering.sigma_t * search_.profile.transmittance(distance.t);
     const float tracked = tracks(context_.settings) ? collide * tries * light->pdf : 0.0f;
     const float by_phase = light->delta ? 0.0f : collide * scattering.pdf(wo, light->wi);
-    const Rgb contribution = f * light->L * (mis_weight(density, tracked, by_phase) / density);
+    const float share = light->delta ? own_share(context_, id) : 1.0f;
+    const Rgb contribution = f * light->L * (share * mis_weight(density, tracked, by_phase) / density);
     const float weight = mean(beta_ * contribution) * dimming(part, distance.t, p, *light);
     if (weight == 0) return std::nullopt;
     return Pair{distance.t, &part, *light, contribution, weight};

@@ -31,7 +31,8 @@ scene '"string type" "homogeneous"' >fog.pbrt
 scene "$grid \"float density\" [1 2 3 4 5 6 7 8]" >smoke.pbrt
 scene "$grid \"float density\" [1 2 3 4 5 6 7 8] \"float temperature\" [900 900 2000 900 900 900 900 900]" >fire.pbrt
 { scene ""; echo 'LightSource "point" "point3 from" [0 2 0] "rgb I" [1 1 1]'; } >two.pbrt
-for name in bare two fog smoke fire; do ran $name; done
+{ scene '"string type" "homogeneous"'; echo 'LightSource "point" "point3 from" [0 0.6 0] "rgb I" [1 1 1]'; } >within.pbrt
+for name in bare two fog smoke fire within; do ran $name; done
 
 absent "$(of_volume bare)" "a scene without media executes"
 present "$(of_volume fog)" "a scene with fog executes nothing of src/volume"
@@ -43,6 +44,10 @@ present "$(grep -E "$tree" two.txt)" "two lights are not sought in a tree"
 tracking='with_walk|MediumWalk|MergedWalk|BrickReader|GridRay|BrickGrid::lookup'
 absent "$(grep -E "$tracking" fog.txt)" "homogeneous media are tracked"
 present "$(grep -E "$tracking" smoke.txt)" "a grid is not tracked"
+
+joint='aim_near|joint_light'
+absent "$(grep -E "$joint" bare.txt two.txt fog.txt smoke.txt)" "collisions are drawn near lamps that no medium holds"
+present "$(grep -E "$joint" within.txt)" "collisions are not drawn near a lamp in fog"
 
 emission='EmissionField::at|BlackbodyTable|blackbody|emission_and_transmittance'
 absent "$(of_volume smoke | grep -E "$emission")" "smoke that does not shine is asked for its emission"

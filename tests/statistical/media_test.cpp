@@ -69,6 +69,8 @@ struct Factors {
     v.shadow_rays = candidates[c[3]].second;
     v.lights = lights[c[4]];
     v.transmittance = transmittance[c[5]];
+    // Every other combination: a factor of its own would double the nightly run.
+    v.joint = std::accumulate(c.begin(), c.end(), std::size_t{0}) % 2 == 1 ? JointStrategy::points : JointStrategy::off;
     return v;
   }
 };
@@ -155,6 +157,33 @@ TEST_CASE("paths sent toward smoke make the picture of those that are not") {
   if (!nightly()) how.d = 0.005;
   check_all_agree("guided", look(3) + floor + diffuse_plane(1.8f, 3, 0.5f) + lamps + smoke,
                   {{"off", {.guiding = GuidingStrategy::off}}, {"media", {.guiding = GuidingStrategy::media}}}, how);
+}
+
+/// An octahedron of the medium: the corners of its box are free of it.
+std::string medium_octahedron(const std::string& inside, float r) {
+  const std::string x = number(r), y = "-" + x;
+  return block("Material \"interface\"\nMediumInterface \"" + inside + "\" \"\"\nShape \"trianglemesh\" \"point3 P\" [" + x + " 0 0 " + y + " 0 0 0 " + x +
+               " 0 0 " + y + " 0 0 0 " + x + " 0 0 " + y + "]\n  \"integer indices\" [0 2 4 2 1 4 1 3 4 3 0 4 2 0 5 1 2 5 3 1 5 0 3 5]\n");
+}
+
+// Lamps in the box of the smoke, but where it is not: what chooses lights at collisions has no variance where these come near.
+// Without the weight of the path's own share "off" is 2.9 to 4.0 % below the mean of all, 28 to 32 standard errors.
+TEST_CASE("collisions drawn near lamps make the picture of those that are not, whatever else chooses lights") {
+  const std::string spot = "LightSource \"spot\" \"point3 from\" [0.9 0.9 -0.3] \"point3 to\" [-0.3 -1 0.2] \"float coneangle\" 50 "
+                           "\"float conedeltaangle\" 20 \"rgb I\" [0.1 0.2 0.3]\n";
+  const std::string lamps = point_light({0.2f, 0.9f, 0.9f}, 0.1f) + point_light({-0.9f, -0.3f, -0.9f}, 0.1f) + spot + emitting_square({-1.5f, 1.5f, 0.3f}, 0.3f, 0.3f);
+  const std::string smoke = uniform_grid("smoke", {.sigma_a = {0.3f, 0.2f, 0.2f}, .sigma_s = {4, 5, 6}, .g = 0.5f}, holes()) +
+                            homogeneous("haze", {.sigma_a = Rgb(0.1f), .sigma_s = {0.5f, 0.4f, 0.3f}, .g = -0.3f}) +
+                            medium_octahedron("smoke", 1.5f) + medium_octahedron("haze", 1.6f);
+  Agreement how;
+  if (!nightly()) how.d = 0.02;
+  check_all_agree("joint", look(3) + diffuse_plane(1.8f, 3, 0.5f) + lamps + smoke,
+                  {{"off", {.joint = JointStrategy::off}},
+                   {"points", {.joint = JointStrategy::points}},
+                   {"tracked", {.distance = DistanceStrategy::both, .joint = JointStrategy::points}},
+                   {"vertex", {.media = MediaStrategy::vertex, .joint = JointStrategy::points}},
+                   {"power", {.lights = LightStrategy::power, .joint = JointStrategy::points}}},
+                  how);
 }
 
 // 65,536 samples of each: standard errors of 0.002 at most; Approx allows 0.017. Roulette without its weight is off by 0.11.

@@ -27,6 +27,7 @@ RenderSettings settings_of(const Scene& scene, const Variant& variant) {
   settings.distance = variant.distance;
   settings.emission = variant.emission;
   settings.guiding = variant.guiding;
+  settings.joint = variant.joint;
   settings.reproducible = true;
   return settings;
 }

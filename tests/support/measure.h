@@ -23,6 +23,7 @@ struct Variant {
   DistanceStrategy distance = DistanceStrategy::automatic;
   EmissionStrategy emission = RenderSettings{}.emission;
   GuidingStrategy guiding = RenderSettings{}.guiding;
+  JointStrategy joint = RenderSettings{}.joint;
 };
 
 /// Builds a world and renders it as often as asked.
