@@ -52,9 +52,18 @@ CompareVariant variant_of(const std::string& name, const std::string& options, c
   return variant;
 }
 
+/// With the axis where another one has a strategy of this name: "off" alone says nothing.
+std::string title_of(const StrategyAxis& axis, std::string_view name) {
+  const auto& axes = strategy_axes();
+  const auto holders = std::count_if(axes.begin(), axes.end(), [&](const StrategyAxis& a) {
+    return std::find(a.names.begin(), a.names.end(), name) != a.names.end();
+  });
+  return holders > 1 ? std::string(axis.option) + " " + std::string(name) : std::string(name);
+}
+
 void add_axis(const StrategyAxis& axis, const RenderSettings& base, std::vector<CompareVariant>& variants) {
   for (const std::string_view name : axis.names) {
-    variants.push_back(variant_of(std::string(name), "--" + std::string(axis.option) + " " + std::string(name), base));
+    variants.push_back(variant_of(title_of(axis, name), "--" + std::string(axis.option) + " " + std::string(name), base));
   }
 }
 
