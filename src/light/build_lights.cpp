@@ -233,8 +233,7 @@ void Builder::count(const SelectionInput& input) {
   LightStats& stats = parts_->stats;
   stats.lights = parts_->lights.size() + parts_->instanced_lights;
   stats.infinite = parts_->infinite.size();
-  stats.near_points = parts_->points.size() + parts_->spots.size();
-  stats.points = stats.near_points + parts_->distants.size();
+  stats.points = parts_->points.size() + parts_->spots.size() + parts_->distants.size();
   for (const Emitter& e : parts_->emitters) stats.emitters += e.size();
   for (const double power : input.power) {
     stats.power += power;
@@ -251,9 +250,10 @@ void Builder::count(const SelectionInput& input) {
 }
 
 void Builder::enclose() {
+  for (const PointEmitter& p : parts_->points) parts_->point_box.expand(p.position());
+  for (const SpotEmitter& s : parts_->spots) parts_->point_box.expand(s.position());
   Bounds3& all = parts_->near_box;
-  for (const PointEmitter& p : parts_->points) all.expand(p.position());
-  for (const SpotEmitter& s : parts_->spots) all.expand(s.position());
+  all.expand(parts_->point_box);
   all.expand(box_of(parts_->emitters));
   std::vector<Bounds3> objects;
   for (const EmitterObject& o : parts_->instanced.objects()) objects.push_back(box_of(o.emitters()));

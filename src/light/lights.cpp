@@ -54,6 +54,7 @@ std::size_t Lights::sought() const { return size() - parts_->even_skies; }
 const LightStats& Lights::stats() const { return parts_->stats; }
 double Lights::power(LightId light) const { return parts_->power(light); }
 const Bounds3& Lights::near_box() const { return parts_->near_box; }
+const Bounds3& Lights::point_box() const { return parts_->point_box; }
 std::span<const LightId> Lights::infinite() const { return parts_->infinite; }
 LightId Lights::first_light(std::size_t emitter_shape) const { return parts_->first_light[emitter_shape]; }
 
@@ -131,6 +132,11 @@ LightPlace Lights::place(LightId light) const {
       break;
   }
   return {};
+}
+
+std::optional<Vec3> Lights::point(LightId light) const {
+  const Kind kind = parts_->find(light).kind;
+  return kind == Kind::point || kind == Kind::spot ? place(light).center : std::nullopt;
 }
 
 float Lights::pdf(LightId light, Vec3 p, const EmitterHit& hit) const {

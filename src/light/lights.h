@@ -64,7 +64,6 @@ struct LightStats {
   std::size_t lights = 0, emitters = 0, infinite = 0;  ///< all; primitives of emissive shapes; environments
   std::size_t shared = 0;                              ///< of the primitives, those that instances of an object share
   std::size_t points = 0;                              ///< lights without extent, those at infinity included
-  std::size_t near_points = 0;                         ///< of these, those that are at a place
   std::size_t dark = 0;                                ///< lights without power, which are never chosen
   double power = 0;  ///< W, mean of the channels, all lights
 };
@@ -114,8 +113,10 @@ class Lights {
   LightId first_volume() const;
   double power(LightId light) const;  ///< W, mean of the channels
   LightPlace place(LightId light) const;
+  std::optional<Vec3> point(LightId light) const;  ///< where a point or spot light stands; nothing for any other
   /// Encloses all lights of surfaces and points; empty where all are at infinity. Glowing media are not in it.
   const Bounds3& near_box() const;
+  const Bounds3& point_box() const;  ///< of point and spot lights alone
   const LightStats& stats() const;
   std::size_t memory_bytes() const;  ///< selectors included
 

@@ -42,7 +42,7 @@ struct Lights::Parts {
   std::size_t instanced_lights = 0;
   EmissionMaps maps;
   double scene_radius = 1;
-  Bounds3 near_box;
+  Bounds3 near_box, point_box;
   std::vector<SelectorStats> selector_stats;
   std::vector<std::unique_ptr<const LightSelector>> selectors;  ///< as in selector_stats
   /// The same without the volumes; empty where there are none.

@@ -49,7 +49,7 @@ Rgb direct_light(const LightContext& context, const Directions& directions, cons
   if (!context.world.lights.sought() || !vertex.has_smooth()) return {};
   // The density of the candidates stands for the technique: it is known for every direction, unlike the resampled one.
   const auto share = [&](const LightSample& light, LightId id, float density) {
-    if (light.delta) return vertex.on_surface() ? 1.0f : own_share(context, id);
+    if (light.delta) return own_share(context, id);
     return mis_weight(density, directions.pdf(light.wi, beta));
   };
   return VertexLight(context, vertex, search, beta, share).estimate(sampler);

@@ -9,9 +9,11 @@
 namespace tyndall {
 namespace {
 
-/// More than one takes as much more time as it saves.
+/// A second one took 1.05 times the instructions in smoke, and saved less.
 constexpr CutSettings kOneLamp{.candidates = 1, .splitting = 0};
-/// Of the medium on the way to a lamp, roughly: behind more of it, little of what is drawn arrives.
+/// Optical depth on the way to a lamp, roughly: behind more of it, little of what is drawn arrives. By relMSE without the worst
+/// 0.1 %, a limit of 2 has 1.03 of the efficiency without joint sampling in smoke of depth 10 and 0.91 at 50, one of 5 has 1.05
+/// at 10; none has 0.89 at 50. By MSE all gain there.
 constexpr float kDeepest = 3;
 constexpr int kReads = 4;
 
@@ -70,34 +72,27 @@ Rgb scattering(const World::Parts& world, const MediaState& media, Vec3 p, Vec3 
 /// Whether there may be something to scatter at near the lamp, and little enough in between for it to be worth two rays. It depends
 /// on nothing but the collision and the lamp, as both sides of MIS ask.
 bool in_reach(const JointSearch& search, Vec3 lamp) {
-  if (!search.reach.contains(lamp)) return false;
   const Vec3 to_lamp = lamp - search.query.p;
   const float distance = length(to_lamp);
+  if (!search.reach.contains(lamp) || !(distance > 0)) return false;
   const MediaView media{search.media.data(), search.media.size()};
   return coarse_optical_depth(media, {search.query.p, to_lamp * (1 / distance)}, 0, distance, kReads) < kDeepest;
-}
-
-/// The place of a light without extent.
-std::optional<Vec3> lamp_at(const LightContext& context, LightId light) {
-  if (context.world.fire.holds(light)) return std::nullopt;
-  const LightPlace place = context.world.lights.place(light);
-  return place.radius > 0 ? std::nullopt : place.center;
 }
 
 /// By one lamp that was chosen.
 Rgb by_way_of(const LightContext& context, const Vertex& vertex, const JointSearch& search, LightCandidate tried, Sampler& sampler) {
   const Vec2 around = sampler.next_2d();
   const float along = sampler.next_1d();
-  const auto lamp = lamp_at(context, tried.light);
-  if (!lamp) return {};
+  const auto lamp = context.world.lights.point(tried.light);
+  if (!lamp || !(tried.tries > 0) || !in_reach(search, *lamp)) return {};
   const auto aim = aim_near(vertex.p(), *lamp, around, along);
-  if (!aim || !in_reach(search, *lamp)) return {};
+  if (!aim) return {};
   const Rgb f = vertex.eval(aim->w);
   const Ray ray{vertex.origin(context.world.geometry, aim->w), aim->w};
   const Vec3 p = ray.at(aim->t);
-  const auto light = context.world.lights.sample(tried.light, p, sampler.next_2d(), true);
-  if (!light || !light->delta || is_black(f) || is_black(light->L)) return {};
-  const Way way(context, vertex.media_toward(context.world.geometry, aim->w), ray, aim->t);
+  const auto light = context.world.lights.sample(tried.light, p, {}, true);
+  if (!light || is_black(f) || is_black(light->L)) return {};
+  const Way way(context, vertex.media(), ray, aim->t);
   if (!way.open()) return {};
   const MediaState there = way.end();
   const Rgb then = scattering(context.world, there, p, -aim->w, light->wi);
@@ -114,12 +109,11 @@ Rgb by_way_of(const LightContext& context, const Vertex& vertex, const JointSear
 
 std::optional<JointSearch> joint_search(const LightContext& context, const Vertex& vertex) {
   if (context.settings.joint == JointStrategy::off || vertex.on_surface() || is_last_event(context)) return std::nullopt;
-  if (context.world.lights.stats().near_points == 0 || context.selector.exhaustive()) return std::nullopt;
+  if (context.selector.exhaustive()) return std::nullopt;
   const auto& groups = context.world.geometry.groups();
-  const MediaState here = vertex.media_toward(context.world.geometry, vertex.wo());
-  const Bounds3 reach = here.bounds(groups);
-  if (!meet(reach, context.world.lights.near_box())) return std::nullopt;
-  JointSearch search{vertex.light_query(), {}, here.active(groups, context.world.media), reach};
+  const Bounds3 reach = vertex.media().bounds(groups);
+  if (!meet(reach, context.world.lights.point_box())) return std::nullopt;
+  JointSearch search{vertex.light_query(), {}, vertex.media().active(groups, context.world.media), reach};
   search.cut = context.selector.cut(search.query, kOneLamp);
   return search;
 }
@@ -136,7 +130,7 @@ Rgb joint_light(const LightContext& context, const Vertex& vertex, const JointSe
 float own_share(const LightContext& context, LightId light) {
   if (!context.joint) return 1;
   const auto& [search, w, pdf] = *context.joint;
-  const auto lamp = lamp_at(context, light);
+  const auto lamp = context.world.lights.point(light);
   if (!lamp) return 1;
   const float aimed = aim_pdf(search.query.p, *lamp, w);
   return aimed > 0 && in_reach(search, *lamp) ? mis_weight(pdf, context.selector.expected(search.cut, search.query, light) * aimed) : 1.0f;

@@ -1,8 +1,8 @@
 /// Light by way of one more collision, whose direction and distance are drawn together for a lamp.
 ///
 /// Rays that were scattered without regard to lamps seldom pass one closely, and gather 1/distance of its light when they do:
-/// among lamps in smoke these are the fireflies. A collision therefore also chooses a lamp without extent and a point near it
-/// to scatter at once more (lamp_aim.h). Lamp by lamp, MIS weighs it against what the path's own next ray gathers.
+/// among lamps in smoke these are the fireflies. A collision therefore also chooses a point or spot light and a place near it,
+/// where the light is scattered first (lamp_aim.h). Lamp by lamp, MIS weighs it against what the path's own next ray gathers.
 #pragma once
 
 #include <optional>
@@ -22,8 +22,8 @@ struct JointSearch {
 /// Nothing where no lamp is sought that way: on surfaces, at a path's last event, and as settings say.
 std::optional<JointSearch> joint_search(const LightContext& context, const Vertex& vertex);
 
-/// Unbiased estimate of what the collision `vertex` and then one more scatter of lamps without extent, less what own_share()
-/// leaves to the path's own ray. Multiply by the throughput.
+/// Unbiased estimate of lamps' light that is scattered once more before `vertex` scatters it: the share of it that
+/// own_share() does not leave to the path's own ray. Multiply by the throughput.
 Rgb joint_light(const LightContext& context, const Vertex& vertex, const JointSearch& search);
 
 /// The ray that a path went on by from a collision that sought lamps jointly.
@@ -33,8 +33,8 @@ struct JointRay {
   float pdf;  ///< 1/sr, of going there
 };
 
-/// MIS weight of what context.joint gathers from `light` in media, by whatever technique: 1 for what has extent, and where there is
-/// no such ray.
+/// MIS weight of what context.joint gathers from `light` in media, by whatever technique: 1 where there is no such ray, and for
+/// other lights than points and spots.
 float own_share(const LightContext& context, LightId light);
 
 }  // namespace tyndall

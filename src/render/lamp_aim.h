@@ -1,8 +1,9 @@
 /// A direction and a distance on it that are drawn together for a lamp without extent [Georgiev et al. 2013, "Joint importance
 /// sampling of low-order volumetric scattering", 4.2].
 ///
-/// Seen from p, directions are uniform in the angle from the lamp, within a cone; on the ray distances are equi-angular. The
-/// light that arrives there, 1/r^2, and the rays that come close, D dD, are then both in the density: what is left is bounded.
+/// Seen from p, directions are uniform in the angle from the lamp, within a cone; on the ray distances are equi-angular. How few
+/// rays pass the lamp at a small distance and how much light, 1/r^2, arrives there are then both in the density: of one p, what
+/// is left is bounded.
 #pragma once
 
 #include <optional>

@@ -73,6 +73,7 @@ void Path::begin(Step step) { context_.sampler.begin_step(1 + kSteps * depth_ + 
 /// Next-event estimation, then the direction of the next ray. False ends the path.
 bool Path::scatter(const Vertex& vertex) {
   context_.event = depth_ - 1;
+  if (vertex.on_surface()) context_.joint = nullptr;  // it was about what the ray gathers in media
   begin(Step::light);
   const Rgb seen = seen_.value_or(beta_);
   seen_.reset();

@@ -20,6 +20,8 @@ class Path {
 
   Path(const LightContext& context, const Limits& limits, const Ray& camera_ray);
 
+  Path(const Path&) = delete;  // context_ may point into it
+
   PathRecord run();
 
  private:

@@ -39,6 +39,7 @@ class Vertex {
 
   Vec3 p() const;
   Vec3 wo() const { return wo_; }
+  const MediaState& media() const { return media_; }  ///< on the side of wo
   bool on_surface() const { return std::holds_alternative<Surface>(kind_); }
 
   /// How light selection sees this vertex: with the directions that it favours.

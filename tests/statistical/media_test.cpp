@@ -162,8 +162,8 @@ TEST_CASE("paths sent toward smoke make the picture of those that are not") {
 /// An octahedron of the medium: the corners of its box are free of it.
 std::string medium_octahedron(const std::string& inside, float r) {
   const std::string x = number(r), y = "-" + x;
-  return block("Material \"interface\"\nMediumInterface \"" + inside + "\" \"\"\nShape \"trianglemesh\" \"point3 P\" [" + x + " 0 0 " + y + " 0 0 0 " + x +
-               " 0 0 " + y + " 0 0 0 " + x + " 0 0 " + y + "]\n  \"integer indices\" [0 2 4 2 1 4 1 3 4 3 0 4 2 0 5 1 2 5 3 1 5 0 3 5]\n");
+  return block("Material \"interface\"\nMediumInterface \"" + inside + "\" \"\"\nShape \"trianglemesh\" \"point3 P\" [" + x +
+               " 0 0 " + y + " 0 0 0 " + x + " 0 0 " + y + " 0 0 0 " + x + " 0 0 " + y + "]\n  \"integer indices\" [0 2 4 2 1 4 1 3 4 3 0 4 2 0 5 1 2 5 3 1 5 0 3 5]\n");
 }
 
 // Lamps in the box of the smoke, but where it is not: what chooses lights at collisions has no variance where these come near.
@@ -171,7 +171,8 @@ std::string medium_octahedron(const std::string& inside, float r) {
 TEST_CASE("collisions drawn near lamps make the picture of those that are not, whatever else chooses lights") {
   const std::string spot = "LightSource \"spot\" \"point3 from\" [0.9 0.9 -0.3] \"point3 to\" [-0.3 -1 0.2] \"float coneangle\" 50 "
                            "\"float conedeltaangle\" 20 \"rgb I\" [0.1 0.2 0.3]\n";
-  const std::string lamps = point_light({0.2f, 0.9f, 0.9f}, 0.1f) + point_light({-0.9f, -0.3f, -0.9f}, 0.1f) + spot + emitting_square({-1.5f, 1.5f, 0.3f}, 0.3f, 0.3f);
+  const std::string lamps = point_light({0.2f, 0.9f, 0.9f}, 0.1f) + point_light({-0.9f, -0.3f, -0.9f}, 0.1f) + spot +
+                            emitting_square({-1.5f, 1.5f, 0.3f}, 0.3f, 0.3f);
   const std::string smoke = uniform_grid("smoke", {.sigma_a = {0.3f, 0.2f, 0.2f}, .sigma_s = {4, 5, 6}, .g = 0.5f}, holes()) +
                             homogeneous("haze", {.sigma_a = Rgb(0.1f), .sigma_s = {0.5f, 0.4f, 0.3f}, .g = -0.3f}) +
                             medium_octahedron("smoke", 1.5f) + medium_octahedron("haze", 1.6f);

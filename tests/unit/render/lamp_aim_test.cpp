@@ -19,7 +19,12 @@ struct Place {
   Vec3 p, lamp;
 };
 constexpr Place kPlaces[] = {
-    {{0, 0, 0}, {0, 0, 1}}, {{1, 2, 3}, {1.01f, 2, 3}}, {{-5, 0.1f, 4}, {400, -70, 30}}, {{0, 0, 0}, {0x1p-40f, 0x1p-41f, 0}}, {{0, 0, 0}, {0, -0x1p40f, 0}}};
+    {{0, 0, 0}, {0, 0, 1}},
+    {{1, 2, 3}, {1.01f, 2, 3}},
+    {{-5, 0.1f, 4}, {400, -70, 30}},
+    {{0, 0, 0}, {0x1p-40f, 0x1p-41f, 0}},
+    {{0, 0, 0}, {0, -0x1p40f, 0}},
+};
 
 /// 1/length, at distance `t` on the ray of `aim`.
 double distance_pdf(const Place& place, const LampAim& aim, double t) {
