@@ -54,7 +54,9 @@ class Way {
 };
 
 bool meet(const Bounds3& a, const Bounds3& b) {
-  return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y && a.min.z <= b.max.z && b.min.z <= a.max.z;
+  const auto apart = [](float a0, float a1, float b0, float b1) { return a0 > b1 || b0 > a1; };
+  return !apart(a.min.x, a.max.x, b.min.x, b.max.x) && !apart(a.min.y, a.max.y, b.min.y, b.max.y) &&
+         !apart(a.min.z, a.max.z, b.min.z, b.max.z);
 }
 
 /// sigma_s x phase function: what the media that are at `p` scatter from `wi` to `wo`.
@@ -69,8 +71,8 @@ Rgb scattering(const World::Parts& world, const MediaState& media, Vec3 p, Vec3 
   return is_black(sigma_s) ? Rgb() : sigma_s * phase.eval(wo, wi);
 }
 
-/// Whether there may be something to scatter at near the lamp, and little enough in between for it to be worth two rays. It depends
-/// on nothing but the collision and the lamp, as both sides of MIS ask.
+/// Whether there may be something to scatter at near the lamp, and little enough in between for it to be worth two rays. It
+/// depends on nothing but the collision and the lamp, as both sides of MIS ask.
 bool in_reach(const JointSearch& search, Vec3 lamp) {
   const Vec3 to_lamp = lamp - search.query.p;
   const float distance = length(to_lamp);
@@ -80,7 +82,8 @@ bool in_reach(const JointSearch& search, Vec3 lamp) {
 }
 
 /// By one lamp that was chosen.
-Rgb by_way_of(const LightContext& context, const Vertex& vertex, const JointSearch& search, LightCandidate tried, Sampler& sampler) {
+Rgb by_way_of(const LightContext& context, const Vertex& vertex, const JointSearch& search, LightCandidate tried,
+              Sampler& sampler) {
   const Vec2 around = sampler.next_2d();
   const float along = sampler.next_1d();
   const auto lamp = context.world.lights.point(tried.light);
@@ -133,7 +136,8 @@ float own_share(const LightContext& context, LightId light) {
   const auto lamp = context.world.lights.point(light);
   if (!lamp) return 1;
   const float aimed = aim_pdf(search.query.p, *lamp, w);
-  return aimed > 0 && in_reach(search, *lamp) ? mis_weight(pdf, context.selector.expected(search.cut, search.query, light) * aimed) : 1.0f;
+  if (!(aimed > 0) || !in_reach(search, *lamp)) return 1;
+  return mis_weight(pdf, context.selector.expected(search.cut, search.query, light) * aimed);
 }
 
 }  // namespace tyndall
