@@ -12,22 +12,27 @@ constexpr float kShadowEnd = 1 - 1e-4f;
 
 }  // namespace
 
+Rgb transmittance_along(const LightContext& context, SpanWalk& walk, const Ray& ray, Rng& rng) {
+  Rgb T(1.0f);
+  while (const auto i = walk.next()) {
+    T *= transmittance(shadow_method(context), i->view(), ray, i->t0, i->t1, rng, context.counters.tracking);
+    if (is_black(T)) break;
+  }
+  return T;
+}
+
 Rgb visibility(const LightContext& context, const MediaState& media, Vec3 origin, Vec3 wi, float distance, Sampler& sampler) {
   const World::Parts& world = context.world;
   ++context.counters.shadow_rays;
   const Ray ray{origin, wi};
   const auto crossings = world.geometry.trace_shadow(ray, 0, distance * kShadowEnd);
   if (!crossings) return {};
-  Rgb T{1.0f};
-  if (!world.has_media()) return T;
+  if (!world.has_media()) return Rgb(1.0f);
 
   Rng rng = sampler.stream();
   // Through media the whole way counts: at depth 4 the last 1e-4 of it is 4e-4 of the light.
   SpanWalk walk(world.media_context(), media, *crossings, distance);
-  while (const auto interval = walk.next()) {
-    T *= transmittance(shadow_method(context), interval->view(), ray, interval->t0, interval->t1, rng, context.counters.tracking);
-    if (is_black(T)) break;
-  }
+  const Rgb T = transmittance_along(context, walk, ray, rng);
   context.counters.parity_errors += walk.parity_errors();
   return T;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/directions.h"
+#include "render/span_walk.h"
 
 namespace tyndall {
 
@@ -22,6 +23,9 @@ inline float mis_weight(float a, float b, float c) {
   const float first = b / a, second = c / a;
   return std::isnan(first) || std::isnan(second) ? 0.0f : 1 / (1 + first * first + second * second);
 }
+
+/// Of a shadow ray's media, by `walk`, which is left where nothing more comes through.
+Rgb transmittance_along(const LightContext& context, SpanWalk& walk, const Ray& ray, Rng& rng);
 
 /// Fraction of light that gets through media and past surfaces over `distance` from `origin` along `wi`.
 Rgb visibility(const LightContext& context, const MediaState& media, Vec3 origin, Vec3 wi, float distance, Sampler& sampler);

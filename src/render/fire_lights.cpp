@@ -11,11 +11,6 @@
 namespace tyndall {
 namespace {
 
-bool overlap(const Bounds3& a, const Bounds3& b) {
-  return a.min.x <= b.max.x && a.min.y <= b.max.y && a.min.z <= b.max.z && b.min.x <= a.max.x && b.min.y <= a.max.y &&
-         b.min.z <= a.max.z;
-}
-
 /// A third uniform number out of two.
 float third(Vec2 u) {
   const std::uint64_t bits = std::uint64_t{std::bit_cast<std::uint32_t>(u.x)} << 32 | std::bit_cast<std::uint32_t>(u.y);
@@ -70,7 +65,7 @@ std::vector<VolumeEmitter> FireLights::emitters() const {
   for (const Glow& glow : media_) {
     for (std::uint32_t i = 0; i < glow.bricks.size(); ++i) {
       const Bounds3 box = glow.bricks.box(i);
-      all.push_back({box, overlap(box, glow.reach) ? glow.bricks.intensity(i) : 0.0f});
+      all.push_back({box, overlap(box, glow.reach).empty() ? 0.0f : glow.bricks.intensity(i)});
     }
   }
   return all;

@@ -7,8 +7,8 @@
 namespace tyndall {
 namespace {
 
-/// Half angle of the cone. In smoke of depth 5 and 10 among a thousand lamps, 0.2 and 0.35 have the same error within a few
-/// percent, 0.1 has more.
+/// Half angle of the cone. In smoke of depth 5 and 10 among a thousand lamps, relMSE without the worst 0.1 % is within 2.5 % for
+/// 0.2 and 0.35; at depth 5, 0.1 has a third more MSE.
 constexpr float kWidest = 0.25f;
 const float kLeastCosine = std::cos(kWidest);
 

@@ -27,8 +27,6 @@ struct Lamp {
   float power = 0;
 };
 
-Bounds3 overlap(const Bounds3& a, const Bounds3& b) { return {max(a.min, b.min), min(a.max, b.max)}; }
-
 /// Cubes that tile a box.
 class Cubes {
  public:

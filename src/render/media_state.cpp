@@ -13,6 +13,8 @@ Bounds3 reach_of(MediumId medium, const std::vector<BoundaryGroup>& groups, std:
   return reach;
 }
 
+Bounds3 overlap(const Bounds3& a, const Bounds3& b) { return {max(a.min, b.min), min(a.max, b.max)}; }
+
 float exit_distance(const Bounds3& box, const Ray& ray) {
   float t = kInfinity;
   for (int axis = 0; axis < 3; ++axis) {

@@ -17,6 +17,9 @@ using ActiveMedia = SmallVector<const ParticipatingMedium*, 4>;
 /// A box that holds `medium` wherever it is the inside of a group, infinite where it is `unbounded`; empty where it is nowhere.
 Bounds3 reach_of(MediumId medium, const std::vector<BoundaryGroup>& groups, std::optional<MediumId> unbounded);
 
+/// What both boxes hold.
+Bounds3 overlap(const Bounds3& a, const Bounds3& b);
+
 /// How far `ray` goes until it has left `box` for good: infinite where the box is.
 float exit_distance(const Bounds3& box, const Ray& ray);
 

@@ -8,6 +8,7 @@
 #include "render/joint_light.h"
 #include "render/light_counts.h"
 #include "render/resampling.h"
+#include "render/scattering.h"
 #include "volume/coarse.h"
 
 namespace tyndall {
@@ -16,26 +17,6 @@ namespace {
 /// Transmittances below this do not count as less in choices: the medium may be thinner than it looks.
 constexpr float kLeastTransmittance = 1e-3f;
 constexpr int kShadowReads = 4;
-
-/// What the media do at a point of a span.
-struct Scattering {
-  Rgb sigma_s;
-  float sigma_t = 0;  ///< mean of the channels
-  PhaseMix phase;
-
-  static Scattering at(const SpanPart& part, Vec3 p) {
-    Scattering s;
-    for (const ParticipatingMedium* medium : part.media) {
-      const auto [sigma_a, sigma_s, g] = medium->optics_at(p);
-      s.sigma_s += sigma_s;
-      s.sigma_t += mean(sigma_a + sigma_s);
-      s.phase.add(sigma_s, g);
-    }
-    return s;
-  }
-  /// 1/sr, without regard to the path: both sides of MIS know it.
-  float pdf(Vec3 wo, Vec3 wi) const { return phase.pdf(wo, wi, Rgb(1.0f)); }
-};
 
 /// A pair of a light and a distance, looked at without visibility.
 struct Pair {
@@ -79,7 +60,7 @@ class PairFinder {
     const SpanPart& part = span_.part_at(distance.t);
     if (distance.t < part.t0 || distance.t > part.t1) return std::nullopt;  // between media
     const Vec3 p = span_.ray.at(distance.t);
-    const Scattering scattering = Scattering::at(part, p);
+    const Scattering scattering = Scattering::at(part.media, p);
     if (is_black(scattering.sigma_s)) return std::nullopt;
     const auto light = sample_light(context_, search_, {id, tries}, p, on_light);
     // What is not a number goes on, so that the film sees it and counts it.
@@ -237,7 +218,7 @@ Rgb span_light(const LightContext& context, const Span& span, const SpanSearch& 
 }
 
 float collision_density(const Span& span, const SpanSearch& search, float t) {
-  return Scattering::at(span.part_at(t), span.ray.at(t)).sigma_t * search.profile.transmittance(t);
+  return Scattering::at(span.part_at(t).media, span.ray.at(t)).sigma_t * search.profile.transmittance(t);
 }
 
 SpanDensities span_fire_densities(const LightContext& context, const SpanEvent& event, const FiresOnRay& fires) {
