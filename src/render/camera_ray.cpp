@@ -1,5 +1,6 @@
 #include "render/camera_ray.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "math/warp.h"
@@ -53,6 +54,24 @@ Ray CameraRays::ray(Vec2 p, Vec2 lens) const {
     d = normalize(focus - o);
   }
   return {to_world_.point(o), normalize(to_world_.vector(d))};
+}
+
+std::optional<Vec2> CameraRays::film_position(Vec3 p) const {
+  // In double, and from where rays start: far from the origin the last bit of a float may be more than a pixel.
+  const Vec3 c = center();
+  const std::array<double, 3> d{double{p.x} - c.x, double{p.y} - c.y, double{p.z} - c.z};
+  const Transform::Matrix m = to_world_.inverse().matrix();
+  std::array<double, 3> local{};
+  for (int r = 0; r < 3; ++r) local[r] = m[r][0] * d[0] + m[r][1] * d[1] + m[r][2] * d[2];
+  if (!(local[2] > 0)) return std::nullopt;
+  const double x = (local[0] / local[2] - x0_) / (x1_ - x0_), y = (local[1] / local[2] - y1_) / (y0_ - y1_);
+  return Vec2{static_cast<float>(x * width_), static_cast<float>(y * height_)};
+}
+
+float CameraRays::film_rounding() const {
+  constexpr float kSomeBits = 0x1p-20f;
+  const float pixels_a_radian = std::max(width_ / std::abs(x1_ - x0_), height_ / std::abs(y1_ - y0_));
+  return kSomeBits * std::max({width_, height_, pixels_a_radian});
 }
 
 std::array<float, 16> CameraRays::world_to_camera() const { return to_floats(to_world_.inverse().matrix()); }

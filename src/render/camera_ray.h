@@ -1,6 +1,8 @@
 /// From film positions to rays.
 #pragma once
 
+#include <optional>
+
 #include "tyndall/scene.h"
 
 namespace tyndall {
@@ -16,6 +18,10 @@ class CameraRays {
   Vec3 center() const { return to_world_.point({0, 0, 0}); }
   /// Whether every ray starts at center().
   bool is_pinhole() const { return !orthographic_ && lens_radius_ == 0; }
+  /// Where on the film (pixels of the full frame) a pinhole sees world point `p`; nothing for what is behind it.
+  std::optional<Vec2> film_position(Vec3 p) const;
+  /// Pixels below which film positions and the rays through them do not agree, for all the rounding.
+  float film_rounding() const;
   /// Distance of world point `p` along the viewing axis.
   float depth(Vec3 p) const { return dot(p - center(), axis_); }
   const Transform& to_world() const { return to_world_; }

@@ -62,16 +62,27 @@ FilterSampler::Axis::Axis(const PixelFilter& filter, int axis) : radius(axis == 
   for (float& w : weights) w *= static_cast<float>(distribution.total() / plain);
 }
 
-FilterSampler::Offset FilterSampler::Axis::sample(float u) const {
+FilterSampler::Axis::Place FilterSampler::Axis::sample(float u) const {
   const auto s = distribution.sample(u);
-  return {{radius * (2 * s.x - 1), 0}, weights[s.cell]};
+  return {radius * (2 * s.x - 1), weights[s.cell], s.pdf / (2 * radius)};
+}
+
+FilterSampler::Axis::Place FilterSampler::Axis::at(float x) const {
+  const float unit = 0.5f * (x / radius + 1);
+  if (!(unit >= 0 && unit < 1)) return {x, 0, 0};
+  return {x, weights[static_cast<std::size_t>(unit * kBins)], distribution.pdf(unit) / (2 * radius)};
 }
 
 FilterSampler::FilterSampler(const PixelFilter& filter) : x_(filter, 0), y_(filter, 1) {}
 
 FilterSampler::Offset FilterSampler::sample(Vec2 u) const {
-  const Offset x = x_.sample(u.x), y = y_.sample(u.y);
-  return {{x.p.x, y.p.x}, x.weight * y.weight};
+  return both(x_.sample(u.x), y_.sample(u.y));
+}
+
+FilterSampler::Offset FilterSampler::at(Vec2 p) const { return both(x_.at(p.x), y_.at(p.y)); }
+
+FilterSampler::Offset FilterSampler::both(Axis::Place x, Axis::Place y) {
+  return {{x.x, y.x}, x.weight * y.weight, x.pdf * y.pdf};
 }
 
 }  // namespace tyndall

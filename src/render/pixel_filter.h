@@ -19,11 +19,13 @@ class FilterSampler {
   struct Offset {
     Vec2 p;  ///< pixels from the centre
     float weight;
+    float pdf;  ///< 1/pixels^2
   };
 
   explicit FilterSampler(const PixelFilter& filter);
 
   Offset sample(Vec2 u) const;
+  Offset at(Vec2 p) const;  ///< what sample() says of that offset; its pdf is 0 beyond the radius
 
  private:
   /// One dimension, tabulated: f is taken as constant within each of many equal bins.
@@ -33,8 +35,13 @@ class FilterSampler {
     std::vector<float> weights;        ///< +-W by bin
 
     Axis(const PixelFilter& filter, int axis);
-    Offset sample(float u) const;  ///< p.x only
+    struct Place {
+      float x, weight, pdf;
+    };
+    Place sample(float u) const;
+    Place at(float x) const;
   };
+  static Offset both(Axis::Place x, Axis::Place y);
   Axis x_, y_;
 };
 

@@ -64,3 +64,21 @@ TEST_CASE("worldToNDC takes a point to its place on the film") {
   CHECK(row(0) / row(3) == doctest::Approx(0.25));
   CHECK(row(1) / row(3) == doctest::Approx(0.75));
 }
+
+TEST_CASE("a point is seen at the film position whose ray passes it, far from the origin too") {
+  Camera camera;
+  camera.fov_degrees = 50;
+  for (const float far : {0.0f, 1e4f}) {
+    camera.to_world = Transform::translate(far, -far, 3) * Transform::rotate(40, 1, 2, 3);
+    const CameraRays rays(camera, film(640, 360));
+    for (const Vec2 x : {Vec2{0, 0}, Vec2{320.25f, 100.5f}, Vec2{639, 359}, Vec2{-50, 400}}) {
+      const Ray ray = rays.ray(x, {0.5f, 0.5f});
+      const auto again = rays.film_position(ray.at(20));
+      REQUIRE(again);
+      // The ray's point is rounded to 2^-24 of 1e4 units: 20 units away that is 0.012 pixels.
+      CHECK(again->x == doctest::Approx(x.x).epsilon(1e-6).scale(far > 0 ? 5e4 : 500));
+      CHECK(again->y == doctest::Approx(x.y).epsilon(1e-6).scale(far > 0 ? 5e4 : 500));
+      CHECK_FALSE(rays.film_position(ray.at(-20)));
+    }
+  }
+}
