@@ -113,7 +113,8 @@ class Lights {
   LightId first_volume() const;
   double power(LightId light) const;  ///< W, mean of the channels
   LightPlace place(LightId light) const;
-  std::optional<Vec3> point(LightId light) const;  ///< where a point or spot light stands; nothing for any other
+  /// Where a point or spot light stands; nothing for any other. The scene's light sources, these among them, are the first.
+  std::optional<Vec3> point(LightId light) const;
   /// Encloses all lights of surfaces and points; empty where all are at infinity. Glowing media are not in it.
   const Bounds3& near_box() const;
   const Bounds3& point_box() const;  ///< of point and spot lights alone

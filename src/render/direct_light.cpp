@@ -1,6 +1,6 @@
 #include "render/direct_light.h"
 
-#include "render/joint_light.h"
+#include "render/joint_ray.h"
 #include "render/light_counts.h"
 #include "render/vertex_light.h"
 

@@ -1,10 +1,8 @@
 #include "render/joint_light.h"
 
 #include "render/direct_light.h"
-#include "render/fire_light.h"
 #include "render/lamp_aim.h"
-#include "render/scattering.h"
-#include "render/span_walk.h"
+#include "render/way.h"
 #include "volume/coarse.h"
 
 namespace tyndall {
@@ -17,37 +15,6 @@ constexpr CutSettings kOneLamp{.candidates = 1, .splitting = 0};
 /// at 10; none has 0.89 at 50.
 constexpr float kDeepest = 3;
 constexpr int kReads = 4;
-
-/// A ray from an event to a point where it scatters next.
-class Way {
- public:
-  Way(const LightContext& context, const MediaState& start, const Ray& ray, float t)
-      : context_(context), start_(start), ray_(ray), t_(t), crossings_(context.world.geometry.trace_shadow(ray, 0, t)) {
-    ++context.counters.shadow_rays;
-  }
-
-  bool open() const { return crossings_.has_value(); }
-  /// The media at its end.
-  MediaState end() const {
-    SpanWalk walk = media();
-    while (walk.next()) {}
-    context_.counters.parity_errors += walk.parity_errors();
-    return walk.state();
-  }
-  Rgb transmittance(Rng rng) const {
-    SpanWalk walk = media();
-    return transmittance_along(context_, walk, ray_, rng);
-  }
-
- private:
-  SpanWalk media() const { return {context_.world.media_context(), start_, *crossings_, t_}; }
-
-  const LightContext& context_;
-  MediaState start_;
-  Ray ray_;
-  float t_;
-  std::optional<Crossings> crossings_;
-};
 
 /// Whether there may be something to scatter at near the lamp, and little enough in between for it to be worth two rays. It
 /// depends on nothing but the collision and the lamp, as both sides of MIS ask.
@@ -66,24 +33,13 @@ Rgb by_way_of(const LightContext& context, const Vertex& vertex, const JointSear
   const float along = sampler.next_1d();
   const auto lamp = context.world.lights.point(tried.light);
   if (!lamp || !(tried.tries > 0) || !in_reach(search, *lamp)) return {};
-  const auto aim = aim_near(vertex.p(), *lamp, around, along);
+  const auto aim = aim_near(vertex.p(), *lamp, search.query.g, around, along);
   if (!aim) return {};
   const Rgb f = vertex.eval(aim->w);
-  const Ray ray{vertex.origin(context.world.geometry, aim->w), aim->w};
-  const Vec3 p = ray.at(aim->t);
-  const auto light = context.world.lights.sample(tried.light, p, {}, true);
-  if (!light || is_black(f) || is_black(light->L)) return {};
-  const Way way(context, vertex.media(), ray, aim->t);
-  if (!way.open()) return {};
-  const MediaState there = way.end();
-  const Scattering next = Scattering::at(there.active(context.world.geometry.groups(), context.world.media), p);
-  if (is_black(next.sigma_s)) return {};
+  if (is_black(f)) return {};
   const float share = mis_weight(tried.tries * aim->pdf, vertex.pdf(aim->w, Rgb(1.0f)));
-  // The radiance times r^2 is the lamp's intensity: near it neither factor is of a useful size.
-  const Rgb intensity = light->L * light->distance * light->distance;
-  const Rgb clear = f * (next.sigma_s * next.phase.eval(-aim->w, light->wi)) * intensity * (aim->spread * share / tried.tries);
-  const Rgb T = way.transmittance(sampler.stream());
-  return is_black(T) ? Rgb() : clear * T * arriving(context, there, p, *light, sampler);
+  const Way way{vertex.media(), {vertex.origin(context.world.geometry, aim->w), aim->w}, aim->t};
+  return f * lamplight(context, way, tried.light, sampler) * (aim->spread * share / tried.tries);
 }
 
 }  // namespace
@@ -108,14 +64,12 @@ Rgb joint_light(const LightContext& context, const Vertex& vertex, const JointSe
   return sum;
 }
 
-float own_share(const LightContext& context, LightId light) {
-  if (!context.joint) return 1;
-  const auto& [search, w, pdf] = *context.joint;
+float CollisionRay::own_share(const LightContext& context, LightId light) const {
   const auto lamp = context.world.lights.point(light);
   if (!lamp) return 1;
-  const float aimed = aim_pdf(search.query.p, *lamp, w);
-  if (!(aimed > 0) || !in_reach(search, *lamp)) return 1;
-  return mis_weight(pdf, context.selector.expected(search.cut, search.query, light) * aimed);
+  const float aimed = aim_pdf(search_.query.p, *lamp, w_);
+  if (!(aimed > 0) || !in_reach(search_, *lamp)) return 1;
+  return mis_weight(pdf_, context.selector.expected(search_.cut, search_.query, light) * aimed);
 }
 
 }  // namespace tyndall

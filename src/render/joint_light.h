@@ -3,11 +3,12 @@
 /// Rays that were scattered without regard to lamps seldom pass one closely, and gather 1/distance of its light when they do:
 /// among lamps in smoke these are the fireflies. A collision therefore also chooses a point or spot light and a place near it,
 /// where the light is scattered first (lamp_aim.h). Lamp by lamp, MIS weighs it against what the path's own next ray gathers.
+/// film_light.h does the same for the camera's rays.
 #pragma once
 
 #include <optional>
 
-#include "render/light_context.h"
+#include "render/joint_ray.h"
 #include "render/vertex.h"
 
 namespace tyndall {
@@ -27,14 +28,15 @@ std::optional<JointSearch> joint_search(const LightContext& context, const Verte
 Rgb joint_light(const LightContext& context, const Vertex& vertex, const JointSearch& search);
 
 /// The ray that a path went on by from a collision that sought lamps jointly.
-struct JointRay {
-  JointSearch search;
-  Vec3 w;
-  float pdf;  ///< 1/sr, of going there
-};
+class CollisionRay final : public JointRay {
+ public:
+  CollisionRay(const JointSearch& search, Vec3 w, float pdf) : search_(search), w_(w), pdf_(pdf) {}
+  float own_share(const LightContext& context, LightId light) const override;
 
-/// MIS weight of what context.joint gathers from `light` in media, by whatever technique: 1 where there is no such ray, and for
-/// other lights than points and spots.
-float own_share(const LightContext& context, LightId light);
+ private:
+  JointSearch search_;
+  Vec3 w_;
+  float pdf_;  ///< 1/sr, of going there
+};
 
 }  // namespace tyndall

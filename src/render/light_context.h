@@ -7,7 +7,7 @@
 
 namespace tyndall {
 
-struct JointRay;
+class JointRay;
 
 /// What light estimation needs of the render at large.
 struct LightContext {
@@ -17,7 +17,7 @@ struct LightContext {
   Sampler& sampler;
   Counters& counters;
   int event = 0;  ///< scattering events of the path before the one at hand
-  /// The ray to it, where the event before sought lamps jointly.
+  /// The ray to it, where lamps were also sought jointly for that (joint_ray.h).
   const JointRay* joint = nullptr;
 };
 

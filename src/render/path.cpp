@@ -93,7 +93,7 @@ bool Path::scatter(const Vertex& vertex) {
   pdf_ = span_event_ ? vertex.pdf(s->wi, Rgb(1.0f)) : s->pdf;
   media_ = vertex.media_toward(context_.world.geometry, s->wi);
   ray_ = {vertex.origin(context_.world.geometry, s->wi), s->wi};
-  context_.joint = joint ? &joint_.emplace(JointRay{*joint, s->wi, vertex.pdf(s->wi, Rgb(1.0f))}) : nullptr;
+  context_.joint = joint ? &joint_.emplace(*joint, s->wi, vertex.pdf(s->wi, Rgb(1.0f))) : nullptr;
   beta_ *= s->weight;
   eta_scale_ *= s->eta * s->eta;
   emphasis_ *= s->emphasis;

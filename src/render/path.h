@@ -80,7 +80,7 @@ class Path {
   bool light_sampled_ = false;  ///< next-event estimation could have found what this ray finds
   Vec3 from_;       ///< where it took place
   float pdf_ = 0;   ///< of the direction it took, 1/sr
-  std::optional<JointRay> joint_;  ///< the ray from it, if it sought lamps jointly; context_ points to it
+  std::optional<CollisionRay> joint_;  ///< the ray from it, if it sought lamps jointly; context_ points to it
   LightSearch search_;
   std::optional<SpanEvent> span_event_;  ///< in place of search_ when the event's lights are chosen along its span
 

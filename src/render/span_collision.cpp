@@ -1,4 +1,4 @@
-#include "render/joint_light.h"
+#include "render/joint_ray.h"
 #include "render/span_light.h"
 #include "render/vertex_light.h"
 

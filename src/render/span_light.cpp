@@ -5,7 +5,7 @@
 
 #include "math/small_vector.h"
 #include "render/fire_light.h"
-#include "render/joint_light.h"
+#include "render/joint_ray.h"
 #include "render/light_counts.h"
 #include "render/resampling.h"
 #include "render/scattering.h"
