@@ -29,9 +29,9 @@ enum class EmissionStrategy { paths, lights };
 /// `automatic`: the latter with MediaStrategy::product, the former with what stands for other programs' methods. Homogeneous
 /// media draw no paths, and paths of one event need none.
 enum class GuidingStrategy { automatic, off, media };
-/// Whether a collision in media also aims the next one near point and spot lights that shine on it, with MIS. `automatic`: it does
-/// with MediaStrategy::product, and does not with what stands for other programs' methods. Paths of one event have no part in
-/// it, nor does LightStrategy::exhaustive.
+/// Whether rays are also drawn close to point and spot lights in media, with MIS: a collision aims the next one near lights that
+/// shine on it, and a pinhole's pixel takes film positions near the images of those that its filter sees. `automatic`: they are
+/// with MediaStrategy::product, and not with what stands for other programs' methods. LightStrategy::exhaustive has no part in it.
 enum class JointStrategy { automatic, off, points };
 /// Estimator of transmittance along shadow rays.
 enum class TransmittanceStrategy { residual, ratio, delta, raymarch };

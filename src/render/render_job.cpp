@@ -9,6 +9,7 @@
 #include "render/build_id.h"
 #include "render/checkpoint.h"
 #include "render/film_buffer.h"
+#include "render/film_light.h"
 #include "render/image_header.h"
 #include "render/path.h"
 #include "render/render_pass.h"
@@ -82,7 +83,8 @@ class RenderJob::Impl {
         settings_(resolved(settings, world)),
         selector_(world.lights.selector(settings.lights, settings.emission == EmissionStrategy::lights)),
         film_(world.scene.film, full_crop(world.scene, settings), parse_aovs(settings.aovs)),
-        pool_(settings.threads) {}
+        pool_(settings.threads),
+        film_lamps_(film_lamps(world, settings_, film_.crop(), pool_)) {}
 
   bool advance(int count, const PassWatch& watch, GivenUp if_given_up) {
     const auto start = Clock::now();
@@ -159,7 +161,8 @@ class RenderJob::Impl {
     for (int y = pixels.y0; y < pixels.y1; ++y) {
       if (pass.given_up) return false;
       for (int x = pixels.x0; x < pixels.x1; ++x) {
-        for (int s = samples_; s < samples_ + pass.count; ++s) render_sample(x, y, s, counters);
+        const PixelLamps lamps = film_lamps_.of(x, y);
+        for (int s = samples_; s < samples_ + pass.count; ++s) render_sample({settings_.seed, x, y, s}, lamps, counters);
       }
       pass.tell(pixels.width());
     }
@@ -204,26 +207,31 @@ class RenderJob::Impl {
             {"build", build_id()}};
   }
 
-  void render_sample(int x, int y, int sample, Counters& counters) {
-    Sampler sampler({settings_.seed, x, y, sample});
+  void render_sample(const SampleKey& key, const PixelLamps& lamps, Counters& counters) {
+    Sampler sampler(key);
     const FilterSampler::Offset offset = world_.filter.sample(sampler.next_2d());
     const Vec2 lens = sampler.next_2d();
-    const Vec2 on_film{static_cast<float>(x) + 0.5f + offset.p.x, static_cast<float>(y) + 0.5f + offset.p.y};
-    const LightContext context{world_, selector_, settings_, sampler, counters};
+    const Vec2 center{static_cast<float>(key.x) + 0.5f, static_cast<float>(key.y) + 0.5f};
+    const Vec2 on_film{center.x + offset.p.x, center.y + offset.p.y};
+    const FilmRay film_ray(lamps, on_film, offset.pdf);
+    LightContext context{world_, selector_, settings_, sampler, counters};
+    if (!lamps.empty()) context.joint = &film_ray;
     const Path::Limits limits{.max_depth = settings_.max_depth,
                               .want_transmittance = film_.wants(Aov::transmittance),
                               .want_albedo = film_.wants(Aov::albedo)};
+    const Rgb of_lamps = lamps.empty() ? Rgb() : film_light(context, lamps, center, sampler.fork());
     PathRecord record = Path(context, limits, world_.camera.ray(on_film, lens)).run();
+    record.volume_direct += of_lamps * (1 / offset.weight);  // which the record is taken times
     expose(record);
     place(record);
     if (!record.is_finite()) {
       ++counters.non_finite;
-      counters.bad_samples.push_back({x, y, sample});
+      counters.bad_samples.push_back({key.x, key.y, key.sample});
       if (counters.bad_samples.size() > 4 * kBadSamplesKept) counters.trim_bad_samples();
       record = PathRecord();
       record.alpha = 0;
     }
-    film_.add(x, y, sample, record, offset.weight);
+    film_.add(key.x, key.y, key.sample, record, offset.weight);
   }
 
   /// Positions and depths, in the user's space and units.
@@ -236,7 +244,8 @@ class RenderJob::Impl {
   void expose(PathRecord& record) const {
     const Film& film = world_.scene.film;
     record.scale_radiance(film.imaging_ratio);
-    const float brightest = max_component(record.radiance());
+    const Rgb radiance = record.radiance();  // may be negative, where the filter is
+    const float brightest = std::max(max_component(radiance), max_component(radiance * -1.0f));
     if (brightest > film.max_component) record.scale_radiance(film.max_component / brightest);
   }
 
@@ -245,6 +254,7 @@ class RenderJob::Impl {
   const LightSelector& selector_;
   FilmBuffer film_;
   ThreadPool pool_;
+  FilmLamps film_lamps_;
   int samples_ = 0;
   double seconds_ = 0;
   std::mutex mutex_;

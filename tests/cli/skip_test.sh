@@ -45,9 +45,10 @@ tracking='with_walk|MediumWalk|MergedWalk|BrickReader|GridRay|BrickGrid::lookup'
 absent "$(grep -E "$tracking" fog.txt)" "homogeneous media are tracked"
 present "$(grep -E "$tracking" smoke.txt)" "a grid is not tracked"
 
-joint='aim_near|joint_light'
-absent "$(grep -E "$joint" bare.txt two.txt fog.txt smoke.txt)" "collisions are drawn near lamps that no medium holds"
-present "$(grep -E "$joint" within.txt)" "collisions are not drawn near a lamp in fog"
+joint='aim_near|joint_light|film_light'
+absent "$(grep -E "$joint" bare.txt two.txt fog.txt smoke.txt)" "rays are drawn near lamps that no medium holds"
+present "$(grep -E 'joint_light' within.txt)" "collisions are not drawn near a lamp in fog"
+present "$(grep -E 'film_light' within.txt)" "film positions are not drawn near a lamp in fog"
 
 emission='EmissionField::at|BlackbodyTable|blackbody|emission_and_transmittance'
 absent "$(of_volume smoke | grep -E "$emission")" "smoke that does not shine is asked for its emission"

@@ -187,6 +187,32 @@ TEST_CASE("collisions drawn near lamps make the picture of those that are not, w
                   how);
 }
 
+// Few pixels, so that lamps' images and what is around them are much of the picture. The lamps stand again where the smoke is
+// not, before it and behind, one of them hidden in part; the camera in a fog that dims them.
+TEST_CASE("rays drawn near lamps on the film make the picture of those that are not, with negative filters too") {
+  const std::string spot = "LightSource \"spot\" \"point3 from\" [-0.9 0.9 0.3] \"point3 to\" [0.3 -1 -0.2] \"float coneangle\" 50 "
+                           "\"float conedeltaangle\" 20 \"rgb I\" [0.1 0.2 0.3]\n";
+  const std::string lamps = point_light({0.8f, 0.6f, -1}, 0.2f) + point_light({-0.5f, -0.7f, 1.2f}, 0.3f) + spot;
+  const std::string smoke = uniform_grid("smoke", {.sigma_a = {0.3f, 0.2f, 0.2f}, .sigma_s = {2, 1.5f, 1}, .g = 0.5f}, holes()) +
+                            homogeneous("haze", {.sigma_a = Rgb(0.1f), .sigma_s = {0.5f, 0.4f, 0.3f}, .g = -0.3f}) +
+                            medium_octahedron("smoke", 1.5f) + medium_octahedron("haze", 1.6f);
+  const std::string board = block("Translate -0.6 -0.9 0\n" + diffuse_plane(0.9f, 0.3f, 0.5f));
+  Agreement how;
+  if (!nightly()) how.d = 0.03;
+  View few{.eye = {1.4f, 0.9f, -3.4f}, .look = {0, -0.1f, 0}, .fov_degrees = 38, .resolution = 8, .max_depth = 1};
+  few.before_camera = homogeneous("fog", {.sigma_a = Rgb(0.3f)});
+  few.medium = "fog";
+  for (const char* filter : {"gaussian", "mitchell"}) {
+    few.filter = '"' + std::string(filter) + '"';
+    check_all_agree(filter, view(few) + board + lamps + smoke,
+                    {{"off", {.joint = JointStrategy::off}},
+                     {"points", {.joint = JointStrategy::points}},
+                     {"tracked", {.distance = DistanceStrategy::both, .joint = JointStrategy::points}},
+                     {"vertex", {.media = MediaStrategy::vertex, .joint = JointStrategy::points}}},
+                    how);
+  }
+}
+
 // 65,536 samples of each: standard errors of 0.002 at most; Approx allows 0.017. Roulette without its weight is off by 0.11.
 TEST_CASE("a sky behind fog leaves A = 1 - transmittance, passed or dimmed") {
   const std::string scene = look(3) + lights() + homogeneous("fog", {.sigma_a = Rgb(0.3f), .sigma_s = Rgb(0.2f)}) +

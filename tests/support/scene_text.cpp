@@ -55,7 +55,7 @@ std::string view(const View& v) {
   const Vec3 d = v.look - v.eye;
   const bool vertical = std::abs(d.y) > 0.9f * length(d);
   std::string text = "Film \"rgb\" \"integer xresolution\" " + n + " \"integer yresolution\" " + n + "\n" +
-                     "PixelFilter \"box\" \"float xradius\" 0.5 \"float yradius\" 0.5\n" +
+                     "PixelFilter " + v.filter + "\n" +
                      "Integrator \"volpath\" \"integer maxdepth\" " + std::to_string(v.max_depth) + "\n" +
                      "LookAt " + text_of(v.eye) + text_of(v.look) + (vertical ? "0 0 1\n" : "0 1 0\n") + v.before_camera;
   if (!v.medium.empty()) text += "MediumInterface \"\" \"" + v.medium + "\"\n";
