@@ -221,7 +221,7 @@ class RenderJob::Impl {
                               .want_albedo = film_.wants(Aov::albedo)};
     const Rgb of_lamps = lamps.empty() ? Rgb() : film_light(context, lamps, center, sampler.fork());
     PathRecord record = Path(context, limits, world_.camera.ray(on_film, lens)).run();
-    record.volume_direct += of_lamps * (1 / offset.weight);  // which the record is taken times
+    record.volume_direct += of_lamps * (1 / offset.weight);  // the film takes it times that weight
     expose(record);
     place(record);
     if (!record.is_finite()) {
