@@ -188,7 +188,8 @@ TEST_CASE("collisions drawn near lamps make the picture of those that are not, w
 }
 
 // Few pixels, so that lamps' images and what is around them are much of the picture. The lamps stand again where the smoke is
-// not, before it and behind, one of them hidden in part; the camera in a fog that dims them.
+// not, before it and behind, with a board among them and the camera in a fog that dims them. Without the weight of the camera ray's
+// own share "off" is 2.5 to 2.9 % below the mean of all with the Gaussian and 4.2 to 4.5 % with Mitchell's, 9 to 14 standard errors.
 TEST_CASE("rays drawn near lamps on the film make the picture of those that are not, with negative filters too") {
   const std::string spot = "LightSource \"spot\" \"point3 from\" [-0.9 0.9 0.3] \"point3 to\" [0.3 -1 -0.2] \"float coneangle\" 50 "
                            "\"float conedeltaangle\" 20 \"rgb I\" [0.1 0.2 0.3]\n";

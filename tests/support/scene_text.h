@@ -20,6 +20,7 @@ struct View {
   float fov_degrees = 0;  ///< above 0: a perspective camera instead
   int resolution = 16;
   int max_depth = 1000;
+  /// Of the pixels: its name and parameters.
   std::string filter = "\"box\" \"float xradius\" 0.5 \"float yradius\" 0.5";
   std::string before_camera{};  ///< media to declare
   std::string medium{};         ///< the camera's; empty: none declared
