@@ -38,6 +38,8 @@ class SpotEmitter {
   Rgb intensity() const { return I_; }
   Vec3 position() const { return position_; }
   LightBounds bounds() const;  ///< without intensity
+  /// All directions that it shines into, everything when the transform distorts it.
+  DirectionCone beam() const { return core_.full() ? core_ : DirectionCone::around(core_.axis, end_); }
 
  private:
   Vec3 position_;

@@ -44,6 +44,13 @@ Bounds3 Emitter::box(std::uint32_t i) const {
                     surface_);
 }
 
+LightPlace Emitter::place(std::uint32_t i) const {
+  LightPlace place = std::visit(
+      Overloaded{[](const QuadricEmitter& q) { return q.place(); }, [&](const auto& mesh) { return mesh.place(i); }}, surface_);
+  place.two_sided = emission_.two_sided;
+  return place;
+}
+
 LightBounds Emitter::bounds(std::uint32_t i) const {
   const EmitterExtent extent = std::visit(
       Overloaded{[](const QuadricEmitter& q) { return q.extent(); }, [&](const auto& mesh) { return mesh.extent(i); }},

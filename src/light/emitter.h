@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "light/bounds.h"
+#include "light/light_place.h"
 #include "light/patch_emitter.h"
 #include "light/quadric_emitter.h"
 #include "light/triangle_emitter.h"
@@ -42,6 +43,7 @@ class Emitter {
   double power(std::uint32_t i) const;  ///< W, mean of the channels
   LightBounds bounds(std::uint32_t i) const;
   Bounds3 box(std::uint32_t i) const;
+  LightPlace place(std::uint32_t i) const;
   bool delta() const { return emission_.invisible; }
   /// The power is given, not the radiance: it does not grow with the area.
   bool of_given_power() const { return emission_.power.has_value(); }

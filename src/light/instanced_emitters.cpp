@@ -80,9 +80,14 @@ double InstancedEmitters::power(Ref light) const {
   return emitter.power(primitive) * power_scale(emitter, instances_[light.instance].to_world);
 }
 
-Bounds3 InstancedEmitters::inner_box(Ref light) const {
+LightPlace InstancedEmitters::place(Ref light) const {
   const auto [emitter, primitive] = part(light);
-  return emitter.box(primitive);
+  LightPlace place = emitter.place(primitive);
+  const Similarity& placed = to_world(light);
+  place.center = to_vec3(placed.point(Vec3d(*place.center)));
+  place.radius = static_cast<float>(place.radius * placed.scale());
+  if (place.flat()) place.normal = to_vec3(normalize(placed.normal(Vec3d(place.normal))));
+  return place;
 }
 
 std::size_t InstancedEmitters::memory_bytes() const {

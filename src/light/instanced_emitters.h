@@ -61,7 +61,7 @@ class InstancedEmitters {
   Rgb radiance(const EmissionMaps& maps, Ref light, Vec2 uv, Vec3 ng, Vec3 wo) const;
   bool delta(Ref light) const { return part(light).emitter.delta(); }
   double power(Ref light) const;
-  Bounds3 inner_box(Ref light) const;  ///< in the object's space
+  LightPlace place(Ref light) const;
   const Similarity& to_world(Ref light) const { return instances_[light.instance].to_world; }
 
   std::size_t memory_bytes() const;

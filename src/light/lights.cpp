@@ -99,34 +99,19 @@ std::optional<LightSample> Lights::sample(LightId light, Vec3 p, Vec2 u, bool mi
   return std::nullopt;
 }
 
-namespace {
-
-LightPlace place_of(const Bounds3& box) {
-  const Vec3 half = (box.max - box.min) * 0.5f;
-  return {box.min + half, length(half)};
-}
-
-LightPlace place_of(const InstancedEmitters& instanced, InstancedEmitters::Ref light) {
-  const LightPlace inner = place_of(instanced.inner_box(light));
-  const Similarity& to_world = instanced.to_world(light);
-  return {to_vec3(to_world.point(Vec3d(*inner.center))), static_cast<float>(inner.radius * to_world.scale())};
-}
-
-}  // namespace
-
 LightPlace Lights::place(LightId light) const {
   const Parts::Reference r = parts_->find(light);
   switch (r.kind) {
     case Kind::point:
-      return {parts_->points[r.index].position(), 0};
+      return {.center = parts_->points[r.index].position()};
     case Kind::spot:
-      return {parts_->spots[r.index].position(), 0};
+      return {.center = parts_->spots[r.index].position(), .beam = parts_->spots[r.index].beam()};
     case Kind::emitter:
-      return place_of(parts_->emitters[r.index].box(r.primitive));
+      return parts_->emitters[r.index].place(r.primitive);
     case Kind::volume:
       return place_of(parts_->volumes[r.index].box);
     case Kind::instanced:
-      return place_of(parts_->instanced, parts_->instanced.find(light));
+      return parts_->instanced.place(parts_->instanced.find(light));
     case Kind::distant:
     case Kind::environment:
       break;

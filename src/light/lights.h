@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "light/light_place.h"
 #include "light/selection.h"
 #include "light/volume_emitter.h"
 #include "tyndall/math.h"
@@ -51,12 +52,6 @@ struct LightBuildOptions {
   const Textures* textures = nullptr;  ///< read for the alpha of emissive shapes; null: opaque. Must outlive the lights
   int threads = 0;                     ///< to build with; 0: one a core
   std::span<const VolumeEmitter> volumes{};  ///< pieces of glowing media; their ids are consecutive
-};
-
-/// Where a light is, roughly.
-struct LightPlace {
-  std::optional<Vec3> center;  ///< nothing: at infinity
-  float radius = 0;            ///< of a sphere around it
 };
 
 /// For the summary of a build.

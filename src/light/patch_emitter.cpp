@@ -87,6 +87,11 @@ EmitterExtent PatchEmitter::extent(std::uint32_t i) const {
   return extent;
 }
 
+LightPlace PatchEmitter::place(std::uint32_t i) const {
+  if (!rectangle_[i]) return place_of(extent(i).box);
+  return flat_place({&positions_[4 * std::size_t(i)], 4}, to_vec3(normalize(outward(i, form(i, {}).normal(0.5, 0.5)))));
+}
+
 Vec2 PatchEmitter::uv(std::uint32_t i, double u, double v) const {
   const auto x = static_cast<float>(u), y = static_cast<float>(v);
   if (uvs_.empty()) return {x, y};

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "light/emitter_sample.h"
+#include "light/light_place.h"
 #include "tyndall/scene.h"
 
 namespace tyndall {
@@ -18,6 +19,7 @@ class PatchEmitter {
   std::uint32_t size() const { return static_cast<std::uint32_t>(positions_.size() / 4); }
   double area(std::uint32_t i) const;
   EmitterExtent extent(std::uint32_t i) const;
+  LightPlace place(std::uint32_t i) const;  ///< flat for rectangles
 
   std::optional<EmitterSample> sample(std::uint32_t i, const RoundedPoint& p, Vec2 u) const;
   /// 1/sr, of the direction from `p` to `hit` on the patch.

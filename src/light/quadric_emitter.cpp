@@ -93,6 +93,12 @@ EmitterExtent QuadricEmitter::extent() const {
   return extent;
 }
 
+LightPlace QuadricEmitter::place() const {
+  LightPlace place = place_of(box_);
+  if (kind_ == Kind::disk) place.normal = extent().normals.axis;
+  return place;
+}
+
 // On spheres and cylinders z is uniform [Archimedes], on disks the squared radius.
 QuadricEmitter::ObjectPoint QuadricEmitter::object_sample(Vec2 u) const {
   const double phi = u.x * phi_max_;

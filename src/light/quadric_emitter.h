@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "light/emitter_sample.h"
+#include "light/light_place.h"
 #include "tyndall/scene.h"
 
 namespace tyndall {
@@ -18,6 +19,7 @@ class QuadricEmitter {
   /// Largest area of a projection, roughly: what its intensity is reckoned by.
   double projected_area() const { return projected_area_; }
   EmitterExtent extent() const;
+  LightPlace place() const;  ///< flat for disks
 
   /// Whole spheres under similarities: uniform in the cone they are seen under, from outside. All else: uniform over
   /// the surface in object space, by its true density in the world.

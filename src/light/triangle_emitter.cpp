@@ -76,6 +76,10 @@ Bounds3 TriangleEmitter::box(std::uint32_t i) const {
 
 EmitterExtent TriangleEmitter::extent(std::uint32_t i) const { return {box(i), DirectionCone::around(normal(i))}; }
 
+LightPlace TriangleEmitter::place(std::uint32_t i) const {
+  return flat_place({&positions_[3 * std::size_t(i)], 3}, normal(i));
+}
+
 Vec2 TriangleEmitter::uv(std::uint32_t i, double b1, double b2) const {
   const auto x = static_cast<float>(b1), y = static_cast<float>(b2);
   if (uvs_.empty()) return {x + y, y};

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "light/emitter_sample.h"
+#include "light/light_place.h"
 #include "tyndall/scene.h"
 
 namespace tyndall {
@@ -18,6 +19,7 @@ class TriangleEmitter {
   double area(std::uint32_t i) const;
   EmitterExtent extent(std::uint32_t i) const;
   Bounds3 box(std::uint32_t i) const;
+  LightPlace place(std::uint32_t i) const;
 
   /// Uniform in solid angle; uniform in area where the triangle is far off, which comes to the same and is ten times as
   /// fast, and where it is too small or `p` too near its own plane.

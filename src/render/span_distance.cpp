@@ -45,11 +45,35 @@ Float8 phase(Float8 at, Float8 distance, float g) {
   return (1 - g * g) / (base * sqrt(base));
 }
 
+/// Cosines at a light toward places of a ray: of flat lights, 1 of others.
+class Facing {
+ public:
+  Facing(const LightPlace& light, const Ray& ray, float closest)
+      : foot_(dot(light.normal, ray.o - *light.center + ray.d * closest)),
+        slope_(dot(light.normal, ray.d)),
+        flat_(light.flat() && (foot_ != 0 || slope_ != 0)),
+        two_sided_(light.two_sided) {}
+
+  /// Mean of two places, which are measured from the ray's closest point to the light, as if both were at distance `way` of it.
+  Float8 cosine(Float8 begin, Float8 end, Float8 way) const {
+    if (!flat_) return 1;
+    return 0.5f * (height(begin) + height(end)) / way;
+  }
+
+ private:
+  Float8 height(Float8 at) const {  ///< above the light's plane, on the side that it shines on
+    const Float8 h = foot_ + slope_ * at;
+    return two_sided_ ? abs(h) : max(h, Float8(0.0f));
+  }
+  float foot_, slope_;
+  bool flat_, two_sided_;
+};
+
 }  // namespace
 
 DistanceSampler::DistanceSampler(const SpanProfile& profile, const Ray& ray, const LightPlace& light,
                                  std::optional<Weights> weights)
-    : profile_(&profile), far_(!light.center) {
+    : profile_(&profile), far_(!light.center), lit_{profile.begin(), profile.end()} {
   mass_[0] = 1;
   if (far_) {
     weigh_far();
@@ -59,24 +83,32 @@ DistanceSampler::DistanceSampler(const SpanProfile& profile, const Ray& ray, con
   closest_ = dot(to_light, ray.d);
   const float reach = std::max(std::abs(closest_ - profile.begin()), 0x1p-100f);
   distance_ = std::max({length(to_light - ray.d * closest_), 0.5f * light.radius, kLeastOffset * reach});
-  if (weights) weigh(*weights);
+  if (weights) weigh(*weights, ray, light);
 }
 
-void DistanceSampler::weigh(Weights weights) {
+void DistanceSampler::weigh(Weights weights, const Ray& ray, const LightPlace& light) {
   bins_ = profile_->bins();
+  const RayPart part = lit_part(light, ray);
+  lit_ = {static_cast<float>(std::max(part.begin, double{lit_.begin})), static_cast<float>(std::min(part.end, double{lit_.end}))};
+  if (!(lit_.begin < lit_.end)) {
+    mass_[0] = 0;
+    return;
+  }
   Masses by_profile, by_angle;
   std::array<float, SpanProfile::kMostBins + 1> finite;
   std::ranges::copy(profile_->edges(), finite.begin());
-  finite[bins_] = profile_->finite_end();
+  finite[bins_] = std::max(profile_->finite_end(), lit_.begin + profile_->reach());
+  const auto within = [this](Float8 t) { return min(max(t, Float8(lit_.begin)), Float8(lit_.end)) - closest_; };
+  const Facing facing(light, ray, closest_);
   for (std::size_t i = 0; i < bins_; i += kBlock) {
-    const Bins8 bins{load8(&finite[i]) - closest_, load8(&finite[i + 1]) - closest_, load8(&profile_->scatterings()[i]),
+    const Bins8 bins{within(load8(&finite[i])), within(load8(&finite[i + 1])), load8(&profile_->scatterings()[i]),
                      load8(&profile_->sigmas()[i])};
     const Float8 middle = 0.5f * (bins.begin + bins.end);
     const Float8 way = sqrt(middle * middle + distance_ * distance_);
     const Float8 angle = angles(bins, distance_);
     store8(&by_angle[i], angle);
     store8(&by_profile[i], angle * bins.scattering * dimming(min(bins.sigma * way, Float8(profile_->optical_depth()))) *
-                               phase(middle, distance_, weights.g));
+                               phase(middle, distance_, weights.g) * facing.cosine(bins.begin, bins.end, way));
   }
   mix(by_profile, by_angle);
 }
@@ -106,6 +138,12 @@ void DistanceSampler::mix(const Masses& by_profile, const Masses& by_angle) {
   for (std::size_t i = 0; i < bins_; i += kBlock) store8(&mass_[i], a * load8(&by_profile[i]) + b * load8(&by_angle[i]));
 }
 
+DistanceSampler::Stretch DistanceSampler::lit(std::size_t bin) const {
+  if (bins_ == 1) return lit_;
+  const auto edges = profile_->edges();
+  return {std::max(edges[bin], lit_.begin), std::min(edges[bin + 1], lit_.end)};
+}
+
 /// That the stretch is seen under from the light. As one arc tangent: a difference of two loses narrow bins far away.
 float DistanceSampler::angle(float begin, float end) const {
   const float a = begin - closest_;
@@ -125,6 +163,7 @@ DistanceSample DistanceSampler::sample(float u) const {
     for (; bin < bins_ && !(u < mass_[bin]); ++bin) u -= mass_[bin];
     if (bin == bins_) --bin;
     while (bin > 0 && !(mass_[bin] > 0)) --bin;
+    if (!(mass_[bin] > 0)) return {lit_.begin, 0};
     u = std::min(u / mass_[bin], 0x1.fffffep-1f);
   }
   const float t = sample_in(bin, u);
@@ -132,15 +171,14 @@ DistanceSample DistanceSampler::sample(float u) const {
 }
 
 float DistanceSampler::pdf(float t) const {
-  if (!(t >= profile_->begin()) || t > profile_->end()) return 0;
+  if (!(t >= lit_.begin) || t > lit_.end) return 0;
   if (bins_ == 1) return pdf_in(0, t);
   const std::size_t bin = profile_->bin_at(t);
-  return mass_[bin] * pdf_in(bin, t);
+  return mass_[bin] > 0 ? mass_[bin] * pdf_in(bin, t) : 0.0f;
 }
 
 float DistanceSampler::sample_in(std::size_t bin, float u) const {
-  const auto edges = profile_->edges();
-  const float begin = edges[bin], end = bins_ == 1 ? profile_->end() : edges[bin + 1];
+  const auto [begin, end] = lit(bin);
   float t;
   if (!far_) {
     // closest + D tan(angle of begin + part), by the addition theorem.
@@ -155,8 +193,7 @@ float DistanceSampler::sample_in(std::size_t bin, float u) const {
 }
 
 float DistanceSampler::pdf_in(std::size_t bin, float t) const {
-  const auto edges = profile_->edges();
-  const float begin = edges[bin], end = bins_ == 1 ? profile_->end() : edges[bin + 1];
+  const auto [begin, end] = lit(bin);
   if (!far_) {
     const float off = t - closest_;
     return distance_ / (angle(begin, end) * (distance_ * distance_ + off * off));

@@ -165,23 +165,24 @@ TEST_CASE("importance of a spot: the largest cosine on the segment counts, and n
 }
 
 TEST_CASE("product: transmittance, scattering and phase function by fine bins") {
-  // A bin as short as this is a point: the sum over eight is the integral over them.
+  // A bin as short as this is a point: the sum over them is the integral.
+  constexpr int kBins = SegmentProfile::kBins;
   const Vec3 at{0.5f, 2, 1};
   const ClusterBounds light = ClusterBounds::from(test::point_bounds(at, 1));
   for (const float g : {0.0f, 0.7f, -0.6f}) {
-    SegmentQuery q = segment({0, 0, 0}, normalize(Vec3{1, 0.1f, 0.2f}), 0.08f, MediaStrategy::product);
+    SegmentQuery q = segment({0, 0, 0}, normalize(Vec3{1, 0.1f, 0.2f}), 0.01f * kBins, MediaStrategy::product);
     q.profile.g = g;
     double sum = 0;
-    for (int i = 0; i <= 8; ++i) q.profile.edge[i] = 0.01f * static_cast<float>(i);
-    for (int i = 0; i < 8; ++i) {
+    for (int i = 0; i <= kBins; ++i) q.profile.edge[i] = 0.01f * static_cast<float>(i);
+    for (int i = 0; i < kBins; ++i) {
       q.profile.scattering[i] = 1 + static_cast<float>(i);
       q.profile.sigma[i] = 0.3f;
-      q.profile.escape[i] = i < 4 ? 0.1f : 1e9f;
+      q.profile.escape[i] = i < kBins / 2 ? 0.1f : 1e9f;
       const double t = 0.01 * (i + 0.5);
       const Vec3d v = Vec3d(at) - Vec3d(q.d) * t;
       const double r = length(v), cosine = dot(Vec3d(q.d), v) / r;
       const double phase = (1 - g * g) / std::pow(1 + double(g) * g - 2 * g * cosine, 1.5);
-      sum += 0.01 / (r * r) * (1 + i) / 8 * std::exp(-std::min(0.3 * r, i < 4 ? 0.1 : 1e9)) * phase;
+      sum += 0.01 / (r * r) * (1.0 + i) / kBins * std::exp(-std::min(0.3 * r, i < kBins / 2 ? 0.1 : 1e9)) * phase;
     }
     CHECK(importance(light, false, q) == doctest::Approx(sum).epsilon(1e-3).scale(0));
   }

@@ -128,7 +128,9 @@ TEST_CASE("lights at infinity along a segment: by irradiance, length, and what t
 
   // Half of the reach scatters, a third of that arrives; forward scattering favours the sun ahead.
   q.importance = MediaStrategy::product;
-  q.profile.edge = {1, 2.5f, kInfinity, kInfinity, kInfinity, kInfinity, kInfinity, kInfinity, kInfinity};
+  q.profile.edge.fill(kInfinity);
+  q.profile.edge[0] = 1;
+  q.profile.edge[1] = 2.5f;
   q.profile.scattering[0] = 0.2f;
   q.profile.sigma[0] = 1;
   q.profile.escape[0] = std::log(3.0f);

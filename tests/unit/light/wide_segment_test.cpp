@@ -135,7 +135,9 @@ TEST_CASE("wide segments: an unbounded span is the limit of long ones") {
     scene.segment.t0 = i % 2 ? 0 : 100;
     const auto weights = [&](float t1) {
       scene.segment.t1 = t1;
-      scene.segment.profile.edge = {scene.segment.t0, 200, 300, t1, t1, t1, t1, t1, t1};
+      auto& edge = scene.segment.profile.edge;
+      edge.fill(t1);
+      std::copy_n(std::array{scene.segment.t0, 200.0f, 300.0f}.begin(), 3, edge.begin());
       const WideSegment local = scene.local();
       ChildImportance importance = child_importance(scene.node, local);
       for (float& w : importance.of) w *= static_cast<float>(local.to_world);

@@ -112,8 +112,9 @@ double integral(const DistanceSampler& sampler, double a, double b) {
 }
 
 /// Samples against the density: in each of the profile's bins cut into four, the share of samples is its integral.
-/// `peak`: where the ray passes the light so closely that the density peaks; not a number: nowhere.
-void check_sampler(const SpanProfile& profile, const DistanceSampler& sampler, float peak, int seed) {
+/// `peak`: where the ray passes the light so closely that the density peaks; not a number: nowhere. The density may jump where
+/// the `lit` part ends.
+void check_sampler(const SpanProfile& profile, const DistanceSampler& sampler, float peak, RayPart lit, int seed) {
   constexpr int kCuts = 4, kDraws = 100'000;
   const auto edges = profile.edges();
   const float last = edges.back() < kInfinity ? edges.back() : edges[profile.bins() - 1] * 4 + 4 * profile.reach();
@@ -123,6 +124,10 @@ void check_sampler(const SpanProfile& profile, const DistanceSampler& sampler, f
     for (int k = 0; k < kCuts; ++k) bounds.push_back(edges[i] + (end - edges[i]) * static_cast<float>(k) / kCuts);
   }
   bounds.push_back(last);
+  for (const double end : {lit.begin, lit.end}) {
+    const auto t = static_cast<float>(end);
+    if (t > bounds.front() && t < last) bounds.insert(std::lower_bound(bounds.begin(), bounds.end(), t), t);
+  }
   std::vector<double> expected(bounds.size(), 0), observed(bounds.size(), 0);  // the last: beyond
   double sum = 0;
   for (std::size_t i = 0; i + 1 < bounds.size(); ++i) {
@@ -197,7 +202,12 @@ TEST_CASE("a profile is of what scatters: not of clear stretches, nor of fog wit
 
 TEST_CASE("distances toward lights follow their density") {
   const std::vector<LightPlace> places{{Vec3(0.3f, 0, 2), 0}, {Vec3(0, 0.01f, 6), 0}, {Vec3(40, 0, 3), 0.5f}, {Vec3(0, 0, 5.5f), 0},
-                                       {Vec3(2, 1, -30), 0}, {std::nullopt, 0}};
+                                       {Vec3(2, 1, -30), 0}, {std::nullopt, 0},
+                                       // Flat ones that face along the ray, against it, both ways; a beam across it.
+                                       {.center = Vec3(0.5f, 0, 2.2f), .radius = 0.1f, .normal = {-0.6f, 0, 0.8f}},
+                                       {.center = Vec3(0.5f, 1, 7.1f), .radius = 0.1f, .normal = {0, -0.6f, -0.8f}},
+                                       {.center = Vec3(0.5f, 0, 2), .normal = {0.6f, 0, 0.8f}, .two_sided = true},
+                                       {.center = Vec3(3, 0, 0), .beam = DirectionCone::around({-0.6f, 0, 0.8f}, 0.2f)}};
   int seed = 0;
   using Bins = SpanProfile::Bins;
   for (const auto& [make, bins] : {std::pair{+[] { return two_stretches(1); }, Bins::many},
@@ -212,8 +222,10 @@ TEST_CASE("distances toward lights follow their density") {
       CAPTURE(seed);
       const bool on_ray = place.center && std::hypot(place.center->x, place.center->y) < 0.05f;
       const float peak = on_ray ? place.center->z : std::numeric_limits<float>::quiet_NaN();
-      check_sampler(*profile, DistanceSampler(*profile, c.span.ray, place, DistanceSampler::Weights{0.6f}), peak, ++seed);
-      if (place.center) check_sampler(*profile, DistanceSampler(*profile, c.span.ray, place, std::nullopt), peak, ++seed);
+      check_sampler(*profile, DistanceSampler(*profile, c.span.ray, place, DistanceSampler::Weights{0.6f}), peak,
+                    lit_part(place, c.span.ray), ++seed);
+      const RayPart all = lit_part({}, c.span.ray);
+      if (place.center) check_sampler(*profile, DistanceSampler(*profile, c.span.ray, place, std::nullopt), peak, all, ++seed);
     }
   }
 }
@@ -231,6 +243,61 @@ TEST_CASE("what lies behind a box that nothing gets through keeps its place") {
   }
 }
 
+TEST_CASE("distances toward a flat light go by the cosine at it, and none is where it does not shine") {
+  // Against an even light of the same place, in a clear medium: the squared weight of cos / r^2, which is 1 at best.
+  const Case c = one_stretch(6);
+  const auto profile = SpanProfile::of(c.span);
+  REQUIRE(profile);
+  Rng rng(11);
+  double flat_mean = 0, even_mean = 0;
+  constexpr int kLights = 300;
+  for (int i = 0; i < kLights; ++i) {
+    const float z = 2 * rng.uniform() - 1, phi = 2 * kPi * rng.uniform(), rho = std::sqrt(1 - z * z);
+    const Vec3 n{rho * std::cos(phi), rho * std::sin(phi), z};
+    const LightPlace even{.center = Vec3(1, 0, 6 * rng.uniform())}, flat{.center = even.center, .normal = n};
+    const auto emitted = [&](float t) { return std::max(dot(n, Vec3(0, 0, t) - *even.center), 0.0f); };
+    const auto squared_weight = [&](const DistanceSampler& sampler) {
+      double sum = 0, squares = 0;
+      constexpr int kSteps = 2000;
+      for (int k = 0; k < kSteps; ++k) {
+        const float t = 6 * (static_cast<float>(k) + 0.5f) / kSteps, r2 = length_squared(Vec3(0, 0, t) - *even.center);
+        const double f = emitted(t) / (r2 * std::sqrt(r2)) * profile->scatterings()[profile->bin_at(t)], pdf = sampler.pdf(t);
+        REQUIRE((f < 1e-4 || pdf > 0));
+        if (!(pdf > 0)) continue;
+        sum += f;
+        squares += f * f / pdf;
+      }
+      return sum > 0 ? squares * kSteps / 6 / (sum * sum) : 0.0;
+    };
+    const double faced = squared_weight(DistanceSampler(*profile, c.span.ray, flat, DistanceSampler::Weights{0}));
+    const double unfaced = squared_weight(DistanceSampler(*profile, c.span.ray, even, DistanceSampler::Weights{0}));
+    CHECK(faced <= 1.5);
+    flat_mean += faced / kLights;
+    even_mean += unfaced / kLights;
+  }
+  CHECK(flat_mean < 1.12);
+  CHECK(even_mean > 1.8);
+
+  const LightPlace away{.center = Vec3(1, 0, 8), .normal = {0, 0, 1}};
+  const DistanceSampler none(*profile, c.span.ray, away, DistanceSampler::Weights{0});
+  for (const float u : {0.0f, 0.5f, 0.999f}) CHECK(none.sample(u).pdf == 0);
+  for (const float t : {0.0f, 3.0f, 6.0f}) CHECK(none.pdf(t) == 0);
+}
+
+TEST_CASE("a beam far along a fog without end is found") {
+  const Case c = endless(1);
+  const auto profile = SpanProfile::of(c.span);
+  REQUIRE(profile);
+  const LightPlace spot{.center = Vec3(5, 0, 100), .beam = DirectionCone::around({-1, 0, 0}, 0.1f)};
+  const DistanceSampler sampler(*profile, c.span.ray, spot, DistanceSampler::Weights{0});
+  for (const float u : {0.0f, 0.3f, 0.999f}) {
+    const DistanceSample s = sampler.sample(u);
+    CHECK(s.pdf > 0);
+    CHECK(std::abs(s.t - 100) < 0.6f);
+    CHECK(sampler.pdf(s.t) == test::relative(s.pdf).epsilon(1e-4));
+  }
+}
+
 TEST_CASE("distances stay sound at every scale") {
   for (int k = -30; k <= 30; k += 5) {
     CAPTURE(k);
@@ -241,11 +308,16 @@ TEST_CASE("distances stay sound at every scale") {
     Rng rng(7);
     for (int i = 0; i < 2000; ++i) {
       const float size = std::ldexp(scale, static_cast<int>(40 * rng.uniform()) - 20);
-      const LightPlace place{Vec3(rng.uniform() - 0.5f, rng.uniform() - 0.5f, rng.uniform() - 0.5f) * size, 0};
+      LightPlace place{Vec3(rng.uniform() - 0.5f, rng.uniform() - 0.5f, rng.uniform() - 0.5f) * size, 0};
+      const Vec3 axis = normalize(Vec3{rng.uniform() - 0.5f, rng.uniform() - 0.5f, rng.uniform() - 0.5f});
+      if (i % 3 == 1) place.normal = axis;
+      if (i % 3 == 2) place.beam = DirectionCone::around(axis, 2 * rng.uniform());
       const DistanceSampler sampler(*profile, c.span.ray, place, DistanceSampler::Weights{0.9f});
       const DistanceSample s = sampler.sample(rng.uniform());
       REQUIRE(std::isfinite(s.t));
-      REQUIRE(s.pdf > 0);
+      REQUIRE((s.pdf > 0 || i % 3 > 0));
+      if (s.pdf == 0) continue;  // no light there
+      REQUIRE(sampler.pdf(s.t) == test::relative(s.pdf).epsilon(1e-3));
       REQUIRE(std::isfinite(s.pdf));
       REQUIRE(s.t >= profile->begin());
       REQUIRE(s.t <= profile->end());
