@@ -30,7 +30,8 @@ enum class EmissionStrategy { paths, lights };
 /// media draw no paths, and paths of one event need none.
 enum class GuidingStrategy { automatic, off, media };
 /// Whether rays are also drawn close to point and spot lights in media, with MIS: a collision aims the next one near lights that
-/// shine on it, and a pinhole's pixel takes film positions near the images of those that its filter sees. `automatic`: they are
+/// shine on it, and a pinhole's pixel takes film positions near the images of those that its filter sees. The pixel also aims at
+/// small shining surfaces that it sees, in media or not. `automatic`: they are
 /// with MediaStrategy::product, and not with what stands for other programs' methods. LightStrategy::exhaustive has no part in it.
 enum class JointStrategy { automatic, off, points };
 /// Estimator of transmittance along shadow rays.

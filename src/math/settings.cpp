@@ -92,7 +92,7 @@ const std::vector<StrategyAxis>& strategy_axes() {
       axis<kDistances, &RenderSettings::distance>("distance", "how the distance of a scattering event is sampled"),
       axis<kEmissions, &RenderSettings::emission>("emission", "how the glow of hot media is found"),
       axis<kGuidings, &RenderSettings::guiding>("guiding", "where the surface that a path meets first sends it besides as it scatters: grids and clouds that glow"),
-      axis<kJoints, &RenderSettings::joint>("joint", "whether collisions in media and pixels also draw rays close to point and spot lights"),
+      axis<kJoints, &RenderSettings::joint>("joint", "whether collisions in media and pixels also draw rays close to point and spot lights, and pixels to small shining surfaces"),
       axis<kTransmittances, &RenderSettings::transmittance>("transmittance", "estimator along shadow rays"),
   };
   return axes;

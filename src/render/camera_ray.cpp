@@ -68,6 +68,12 @@ std::optional<Vec2> CameraRays::film_position(Vec3 p) const {
   return Vec2{static_cast<float>(x * width_), static_cast<float>(y * height_)};
 }
 
+float CameraRays::solid_angle(Vec2 p) const {
+  const float x = x0_ + (x1_ - x0_) * (p.x / width_), y = y1_ + (y0_ - y1_) * (p.y / height_);
+  const float d2 = x * x + y * y + 1;
+  return std::abs((x1_ - x0_) * (y1_ - y0_)) / (width_ * height_ * d2 * std::sqrt(d2));
+}
+
 float CameraRays::film_rounding() const {
   constexpr float kSomeBits = 0x1p-20f;
   const float pixels_a_radian = std::max(width_ / std::abs(x1_ - x0_), height_ / std::abs(y1_ - y0_));

@@ -20,6 +20,8 @@ class CameraRays {
   bool is_pinhole() const { return !orthographic_ && lens_radius_ == 0; }
   /// Where on the film (pixels of the full frame) a pinhole sees world point `p`; nothing for what is behind it.
   std::optional<Vec2> film_position(Vec3 p) const;
+  /// Of the film at `p`, as a pinhole sees it whose transform keeps angles: sr per pixel^2.
+  float solid_angle(Vec2 p) const;
   /// Pixels below which film positions and the rays through them do not agree, for all the rounding.
   float film_rounding() const;
   /// Distance of world point `p` along the viewing axis.

@@ -8,6 +8,7 @@
 namespace tyndall {
 
 class JointRay;
+class ShineRay;
 
 /// What light estimation needs of the render at large.
 struct LightContext {
@@ -19,6 +20,8 @@ struct LightContext {
   int event = 0;  ///< scattering events of the path before the one at hand
   /// The ray to it, where lamps were also sought jointly for that (joint_ray.h).
   const JointRay* joint = nullptr;
+  /// The camera's ray, where small shining surfaces were also aimed at (shine_light.h).
+  const ShineRay* shine = nullptr;
 };
 
 /// What the ray after it meets counts no more, but for lights.

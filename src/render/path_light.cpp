@@ -1,6 +1,7 @@
 /// The light that a path gathers: at its events, and where its rays end.
 #include "render/fire_light.h"
 #include "render/path.h"
+#include "render/shine_light.h"
 
 namespace tyndall {
 
@@ -54,7 +55,9 @@ void Path::add_surface_emission(const SurfaceHit& hit) {
   const Rgb L = lights.emitted(*id, emitter, -ray_.d);
   if (is_black(L)) return;
   const float pdf = light_sampled_ ? lights.pdf(*id, from_, emitter) : 0.0f;
-  add(seen_.value_or(beta_) * L * scattering_share(*id, pdf), depth_);
+  const bool aimed_at = depth_ == 0 && context_.shine;
+  const float share = aimed_at ? context_.shine->own_share(context_.world, *id, emitter) : scattering_share(*id, pdf);
+  add(seen_.value_or(beta_) * L * share, depth_);
 }
 
 }  // namespace tyndall

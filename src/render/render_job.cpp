@@ -14,6 +14,7 @@
 #include "render/path.h"
 #include "render/render_pass.h"
 #include "render/scene_hash.h"
+#include "render/shine_light.h"
 
 namespace tyndall {
 namespace {
@@ -84,7 +85,8 @@ class RenderJob::Impl {
         selector_(world.lights.selector(settings.lights, settings.emission == EmissionStrategy::lights)),
         film_(world.scene.film, full_crop(world.scene, settings), parse_aovs(settings.aovs)),
         pool_(settings.threads),
-        film_lamps_(film_lamps(world, settings_, film_.crop(), pool_)) {}
+        film_lamps_(film_lamps(world, settings_, film_.crop(), pool_)),
+        film_shine_(film_shine(world, settings_, film_.crop(), pool_)) {}
 
   bool advance(int count, const PassWatch& watch, GivenUp if_given_up) {
     const auto start = Clock::now();
@@ -156,13 +158,19 @@ class RenderJob::Impl {
  private:
   using Clock = std::chrono::steady_clock;
 
+  /// What a pixel's samples seek on the film.
+  struct FilmLights {
+    PixelLamps lamps;
+    PixelShine shine;
+  };
+
   /// False: the pass was given up on the way.
   bool render_tile(RenderPass& pass, const PixelBounds& pixels, Counters& counters) {
     for (int y = pixels.y0; y < pixels.y1; ++y) {
       if (pass.given_up) return false;
       for (int x = pixels.x0; x < pixels.x1; ++x) {
-        const PixelLamps lamps = film_lamps_.of(x, y);
-        for (int s = samples_; s < samples_ + pass.count; ++s) render_sample({settings_.seed, x, y, s}, lamps, counters);
+        const FilmLights of_pixel{film_lamps_.of(x, y), film_shine_.of(x, y)};
+        for (int s = samples_; s < samples_ + pass.count; ++s) render_sample({settings_.seed, x, y, s}, of_pixel, counters);
       }
       pass.tell(pixels.width());
     }
@@ -207,21 +215,26 @@ class RenderJob::Impl {
             {"build", build_id()}};
   }
 
-  void render_sample(const SampleKey& key, const PixelLamps& lamps, Counters& counters) {
+  void render_sample(const SampleKey& key, const FilmLights& of_pixel, Counters& counters) {
+    const auto& [lamps, shine] = of_pixel;
     Sampler sampler(key);
     const FilterSampler::Offset offset = world_.filter.sample(sampler.next_2d());
     const Vec2 lens = sampler.next_2d();
     const Vec2 center{static_cast<float>(key.x) + 0.5f, static_cast<float>(key.y) + 0.5f};
     const Vec2 on_film{center.x + offset.p.x, center.y + offset.p.y};
     const FilmRay film_ray(lamps, on_film, offset.pdf);
+    const ShineRay shine_ray(shine, offset.pdf);
     LightContext context{world_, selector_, settings_, sampler, counters};
     if (!lamps.empty()) context.joint = &film_ray;
+    if (!shine.empty()) context.shine = &shine_ray;
     const Path::Limits limits{.max_depth = settings_.max_depth,
                               .want_transmittance = film_.wants(Aov::transmittance),
                               .want_albedo = film_.wants(Aov::albedo)};
     const Rgb of_lamps = lamps.empty() ? Rgb() : film_light(context, lamps, center, sampler.fork());
+    const Rgb of_shine = shine.empty() ? Rgb() : shine_light(context, shine, center, sampler.fork());
     PathRecord record = Path(context, limits, world_.camera.ray(on_film, lens)).run();
     record.volume_direct += of_lamps * (1 / offset.weight);  // the film takes it times that weight
+    record.emission += of_shine * (1 / offset.weight);
     expose(record);
     place(record);
     if (!record.is_finite()) {
@@ -255,6 +268,7 @@ class RenderJob::Impl {
   FilmBuffer film_;
   ThreadPool pool_;
   FilmLamps film_lamps_;
+  FilmShine film_shine_;
   int samples_ = 0;
   double seconds_ = 0;
   std::mutex mutex_;

@@ -50,6 +50,9 @@ absent "$(grep -E "$joint" bare.txt two.txt fog.txt smoke.txt)" "rays are drawn 
 present "$(grep -E 'joint_light' within.txt)" "collisions are not drawn near a lamp in fog"
 present "$(grep -E 'film_light' within.txt)" "film positions are not drawn near a lamp in fog"
 
+shine='shine_light|FilmShine::FilmShine'
+absent "$(grep -E "$shine" two.txt fog.txt smoke.txt within.txt)" "surfaces are aimed at where none shines"
+
 emission='EmissionField::at|BlackbodyTable|blackbody|emission_and_transmittance'
 absent "$(of_volume smoke | grep -E "$emission")" "smoke that does not shine is asked for its emission"
 present "$(of_volume fire | grep -E "$emission")" "fire is not asked for its emission"

@@ -1,0 +1,67 @@
+/// Small shining surfaces, where the camera sees them on the film.
+///
+/// A lamp of less than a pixel is met by few of the pixel's samples, and brightly: where bulbs are in the picture that is most
+/// of its noise.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "light/lights.h"
+#include "math/small_vector.h"
+#include "tyndall/image.h"
+
+namespace tyndall {
+
+/// The surfaces that may be aimed at for one pixel.
+class PixelShine {
+ public:
+  static constexpr std::size_t kMost = 8;  ///< the brightest; others are left to the filter's samples
+  struct Choice {
+    LightId light = 0;
+    float chance = 0;
+  };
+  using List = SmallVector<Choice, kMost>;
+
+  PixelShine() = default;
+  explicit PixelShine(List choices);  ///< chances in any unit, all > 0
+  bool empty() const { return choices_.empty(); }
+  Choice draw(float u) const;  ///< of one that is not empty; `u` in [0, 1)
+  float chance(LightId light) const;
+
+ private:
+  List choices_;  ///< chances sum to 1
+};
+
+/// All of them, by pixel.
+class FilmShine {
+ public:
+  /// The image of a shining primitive, all of which is within a circle.
+  struct Spot {
+    LightId light = 0;
+    Vec2 at;               ///< pixels of the full frame
+    float radius = 0;      ///< pixels
+    float brightness = 0;  ///< in any unit, of the image and not of its area
+  };
+  /// Which spots are worth it.
+  struct View {
+    PixelBounds pixels;
+    Vec2 filter_radius;
+    /// Whether a pixel's filter may see some of it, and it is small enough to be missed by most samples.
+    bool wants(const Spot& spot) const;
+  };
+
+  FilmShine() = default;
+  /// Pixels that spots fill to a good part have none: their samples meet them anyhow.
+  FilmShine(const View& view, const std::vector<Spot>& spots);
+  PixelShine of(int x, int y) const;
+
+ private:
+  void add_row(const View& view, int y, const std::vector<Spot>& spots, const std::vector<std::uint32_t>& seen);
+
+  PixelBounds pixels_;
+  std::vector<std::uint32_t> begin_;  ///< of each pixel's choices, and the end of the last's; empty without spots
+  std::vector<PixelShine::Choice> choices_;
+};
+
+}  // namespace tyndall
