@@ -60,8 +60,6 @@ LightId Lights::first_light(std::size_t emitter_shape) const { return parts_->fi
 
 std::span<const SelectorStats> Lights::selectors() const { return parts_->selector_stats; }
 
-std::size_t Lights::unshared() const { return parts_->lights.size(); }
-
 LightId Lights::first_volume() const { return static_cast<LightId>(parts_->lights.size() - parts_->volumes.size()); }
 
 const LightSelector& Lights::selector(LightStrategy strategy, bool with_volumes) const {

@@ -106,8 +106,6 @@ class Lights {
   LightId first_light(std::size_t emitter_shape) const;
   /// The light that is the first of LightBuildOptions::volumes, the others follow.
   LightId first_volume() const;
-  /// The first this many lights stand for themselves; those behind them are shared by instances.
-  std::size_t unshared() const;
   double power(LightId light) const;  ///< W, mean of the channels
   LightPlace place(LightId light) const;
   /// Where a point or spot light stands; nothing for any other. The scene's light sources, these among them, are the first.

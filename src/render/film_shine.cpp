@@ -11,8 +11,8 @@ namespace {
 constexpr float kLargest = 1;
 /// Share of the filter's support that the circles may fill together, which are larger than what shines in them.
 constexpr float kMostFilled = 1;
-/// Pixels. Whoever filters more widely meets lamps, and would list each a thousand times.
-constexpr float kWidestFilter = 32;
+/// Pixels. Whoever filters more widely meets lamps, and would list each hundreds of times.
+constexpr float kWidestFilter = 4;
 
 bool brighter(const PixelShine::Choice& a, const PixelShine::Choice& b) {
   return a.chance != b.chance ? a.chance > b.chance : a.light < b.light;
@@ -78,7 +78,9 @@ FilmShine::FilmShine(const View& view, const std::vector<Spot>& spots) : pixels_
   for (std::size_t i = 0; i < spots.size(); ++i) {
     if (!view.wants(spots[i])) continue;
     const Range rows = rows_of(view, spots[i]);
-    for (int y = rows.begin; y < rows.end; ++y) by_row[static_cast<std::size_t>(y - pixels_.y0)].push_back(static_cast<std::uint32_t>(i));
+    for (int y = rows.begin; y < rows.end; ++y) {
+      by_row[static_cast<std::size_t>(y - pixels_.y0)].push_back(static_cast<std::uint32_t>(i));
+    }
   }
   const auto none = [](const auto& row) { return row.empty(); };
   if (std::all_of(by_row.begin(), by_row.end(), none)) return;

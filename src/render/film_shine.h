@@ -36,7 +36,7 @@ class PixelShine {
 /// All of them, by pixel.
 class FilmShine {
  public:
-  /// The image of a shining primitive, all of which is within a circle.
+  /// The image of a shining primitive, as a circle that holds about all of it.
   struct Spot {
     LightId light = 0;
     Vec2 at;               ///< pixels of the full frame
@@ -52,7 +52,7 @@ class FilmShine {
   };
 
   FilmShine() = default;
-  /// Pixels that spots fill to a good part have none: their samples meet them anyhow.
+  /// Pixels whose filters spots would fill together have none: their samples meet them anyhow.
   FilmShine(const View& view, const std::vector<Spot>& spots);
   PixelShine of(int x, int y) const;
 

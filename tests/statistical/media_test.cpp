@@ -226,7 +226,10 @@ TEST_CASE("small shining surfaces that the camera aims at make the picture of th
                                shining("0.1 -0.5 -0.8", "50 50 90", triangle) +
                                shining("-0.25 0.62 1.4", "90 40 30", "Shape \"disk\" \"float radius\" 0.1\n") +
                                shining("1.15 -0.2 0", "40 40 60", "Rotate 30 0 1 0\nShape \"sphere\" \"float radius\" 0.08 \"float zmax\" 0.03\n") +
-                               emitting_square({-0.2f, 0, 0.6f}, 0.06f, 70);
+                               emitting_square({-0.2f, 0, 0.6f}, 0.06f, 70) +
+                               // In a shade that hides it, nearer to it than a shadow ray to its place would look.
+                               shining("3000 -2000 30000", "3e4 3e4 3e4", "Shape \"sphere\" \"float radius\" 300\n") +
+                               block("Translate 3000 -2000 30000\nMaterial \"diffuse\"\nShape \"sphere\" \"float radius\" 301\n");
   const std::string smoke = uniform_grid("smoke", {.sigma_a = {0.3f, 0.2f, 0.2f}, .sigma_s = {1, 0.8f, 0.6f}, .g = 0.5f}, holes()) +
                             medium_octahedron("smoke", 1.1f);
   const std::string board = block("Translate -0.2 0.62 1.1\n" + diffuse_plane(0, 0.12f, 0.5f));
