@@ -21,10 +21,6 @@ PixelBounds with_rim(const PixelBounds& pixels, Vec2 radius) {
   return {pixels.x0 - x, pixels.y0 - y, pixels.x1 + x, pixels.y1 + y};
 }
 
-bool brighter(const FilmLamp& a, const FilmLamp& b) {
-  return a.brightness != b.brightness ? a.brightness > b.brightness : a.light < b.light;
-}
-
 }  // namespace
 
 FilmReach::FilmReach(Vec2 filter_radius, float finest)
@@ -41,29 +37,15 @@ float FilmReach::pdf(Vec2 at, Vec2 x) const {
   return 1 / (2 * kPi * distance * (most_ - least_));
 }
 
-PixelLamps::PixelLamps(const FilmReach& reach, List lamps) : reach_(reach), lamps_(std::move(lamps)) {
-  if (lamps_.size() > kMost) {
-    std::partial_sort(lamps_.begin(), lamps_.begin() + kMost, lamps_.end(), brighter);
-    lamps_.truncate(kMost);
-  }
-  double sum = 0;
-  for (const FilmLamp& lamp : lamps_) sum += lamp.brightness;
-  if (!(sum > 0)) lamps_.clear();
-  for (FilmLamp& lamp : lamps_) lamp.brightness = static_cast<float>(lamp.brightness / sum);
-}
-
 PixelLamps::Draw PixelLamps::draw(float which, Vec2 around) const {
-  const FilmLamp* chosen = lamps_.begin();
-  while (which >= chosen->brightness && chosen != &lamps_.back()) which -= (chosen++)->brightness;
-  const Vec2 x = reach_.draw(chosen->at, around);
-  return {chosen->light, x, chosen->brightness * reach_.pdf(chosen->at, x), chosen->g};
+  const FilmLamp& lamp = lamps_.draw(which);
+  const Vec2 x = reach_.draw(lamp.at, around);
+  return {lamp.light, x, lamp.brightness * reach_.pdf(lamp.at, x), lamp.g};
 }
 
 float PixelLamps::pdf(LightId light, Vec2 x) const {
-  for (const FilmLamp& lamp : lamps_) {
-    if (lamp.light == light) return lamp.brightness * reach_.pdf(lamp.at, x);
-  }
-  return 0;
+  const FilmLamp* lamp = lamps_.find(light);
+  return lamp ? lamp->brightness * reach_.pdf(lamp->at, x) : 0.0f;
 }
 
 bool FilmLamps::View::sees(Vec2 at) const {
@@ -90,7 +72,7 @@ FilmLamps::FilmLamps(const View& view, std::vector<FilmLamp> lamps)
   std::size_t kept = 0;
   for (const FilmLamp& lamp : lamps_) {
     std::uint32_t& count = begin_[cell_of(lamp) + 1];
-    if (count == PixelLamps::kMost) continue;
+    if (count == PixelLamps::Lamps::kMost) continue;
     ++count;
     lamps_[kept++] = lamp;
   }
@@ -99,7 +81,7 @@ FilmLamps::FilmLamps(const View& view, std::vector<FilmLamp> lamps)
 }
 
 PixelLamps FilmLamps::of(int x, int y) const {
-  PixelLamps::List seen;
+  PixelLamps::Lamps::List seen;
   if (begin_.empty()) return {reach_, {}};
   const Vec2 center{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f};
   for (int row = pixel_of(center.y - radius_.y); row <= pixel_of(center.y + radius_.y); ++row) {
@@ -108,8 +90,7 @@ PixelLamps FilmLamps::of(int x, int y) const {
       FilmLamp lamp = lamps_[i];
       const float dx = (lamp.at.x - center.x) / radius_.x, dy = (lamp.at.y - center.y) / radius_.y;
       if (!(std::abs(dx) < 1 && std::abs(dy) < 1)) continue;
-      // Less at the rim, as the filter is: at equal distances light through it has no peak.
-      lamp.brightness *= std::exp(-2.25f * (dx * dx + dy * dy));
+      lamp.brightness *= toward_rim(dx, dy);
       seen.push_back(lamp);
     }
   }

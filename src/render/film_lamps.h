@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "light/lights.h"
-#include "math/small_vector.h"
+#include "render/pixel_lights.h"
 #include "tyndall/image.h"
 
 namespace tyndall {
@@ -32,13 +32,12 @@ class FilmReach {
   float least_, most_;  ///< pixels
 };
 
-/// The lamps that may be drawn for one pixel.
+/// The lamps that may be drawn for one pixel, and positions around them.
 class PixelLamps {
  public:
-  static constexpr std::size_t kMost = 8;  ///< the brightest; others are left to the filter's samples
-  using List = SmallVector<FilmLamp, kMost>;
+  using Lamps = PixelLights<FilmLamp>;
 
-  PixelLamps(const FilmReach& reach, List lamps);
+  PixelLamps(const FilmReach& reach, Lamps::List lamps) : reach_(reach), lamps_(std::move(lamps)) {}
   bool empty() const { return lamps_.empty(); }
 
   struct Draw {
@@ -52,7 +51,7 @@ class PixelLamps {
 
  private:
   FilmReach reach_;
-  List lamps_;  ///< brightnesses sum to 1
+  Lamps lamps_;
 };
 
 /// All lamps, by the pixel they are in.

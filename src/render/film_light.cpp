@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/direct_light.h"
+#include "render/gather_lights.h"
 #include "render/lamp_aim.h"
 #include "render/scattering.h"
 #include "render/way.h"
@@ -15,7 +16,6 @@ namespace {
 constexpr int kReads = 4;
 /// Optical depth before a lamp, roughly: less than a hundredth of its light comes through more.
 constexpr float kDeepest = 5;
-constexpr std::size_t kBlock = 4096;  ///< of lights, for one thread
 
 bool is_wanted(const World::Parts& world, const RenderSettings& settings) {
   return settings.joint == JointStrategy::points && settings.lights != LightStrategy::exhaustive && settings.max_depth > 0 &&
@@ -74,19 +74,12 @@ FilmLamps film_lamps(const World::Parts& world, const RenderSettings& settings, 
   const auto places = is_wanted(world, settings) ? places_with_lamps(world) : std::vector<Place>();
   if (places.empty()) return {view, {}};
   const std::size_t count = world.scene.lights.size();  // the first of all, points and spots among them
-  std::vector<std::vector<FilmLamp>> blocks((count + kBlock - 1) / kBlock);
-  pool.for_each(blocks.size(), 1, [&](std::size_t block) {
-    for (std::size_t i = block * kBlock; i < std::min(count, (block + 1) * kBlock); ++i) {
-      const auto light = static_cast<LightId>(i);
-      const auto p = world.lights.point(light);
-      const auto at = p ? world.camera.film_position(*p) : std::nullopt;
-      if (!at || !view.sees(*at)) continue;
-      if (const auto lamp = film_lamp(world, places, light, *at)) blocks[block].push_back(*lamp);
-    }
-  });
-  std::vector<FilmLamp> lamps;
-  for (const auto& block : blocks) lamps.insert(lamps.end(), block.begin(), block.end());
-  return {view, std::move(lamps)};
+  const auto look = [&](LightId light) -> std::optional<FilmLamp> {
+    const auto p = world.lights.point(light);
+    const auto at = p ? world.camera.film_position(*p) : std::nullopt;
+    return at && view.sees(*at) ? film_lamp(world, places, light, *at) : std::nullopt;
+  };
+  return {view, gather_lights(count, pool, look)};
 }
 
 Rgb film_light(const LightContext& context, const PixelLamps& lamps, Vec2 center, Sampler sampler) {

@@ -11,12 +11,6 @@ namespace {
 constexpr float kLargest = 1;
 /// Share of the filter's support that the circles may fill together, which are larger than what shines in them.
 constexpr float kMostFilled = 1;
-/// Pixels. Whoever filters more widely meets lamps, and would list each hundreds of times.
-constexpr float kWidestFilter = 4;
-
-bool brighter(const PixelShine::Choice& a, const PixelShine::Choice& b) {
-  return a.chance != b.chance ? a.chance > b.chance : a.light < b.light;
-}
 
 /// Pixels along one axis from which a filter may see a stretch of the film, within bounds.
 struct Range {
@@ -32,35 +26,13 @@ Range rows_of(const FilmShine::View& view, const FilmShine::Spot& spot) {
   return {spot.at.y, spot.radius + view.filter_radius.y, view.pixels.y0, view.pixels.y1};
 }
 
-/// Less at the rim, as the filter is, but what reaches in from beyond has its share.
-float dimmed(float brightness, float dx, float dy) { return brightness * std::exp(-2.25f * std::min(dx * dx + dy * dy, 1.5f)); }
-
 /// What one pixel knows of its spots.
 struct Gathered {
-  std::vector<PixelShine::Choice> choices;
+  std::vector<ShiningLight> lights;
   float filled = 0;  ///< pixels^2
 };
 
 }  // namespace
-
-PixelShine::PixelShine(List choices) : choices_(std::move(choices)) {
-  double sum = 0;
-  for (const Choice& c : choices_) sum += c.chance;
-  for (Choice& c : choices_) c.chance = static_cast<float>(c.chance / sum);
-}
-
-PixelShine::Choice PixelShine::draw(float u) const {
-  const Choice* chosen = choices_.begin();
-  while (u >= chosen->chance && chosen != &choices_.back()) u -= (chosen++)->chance;
-  return *chosen;
-}
-
-float PixelShine::chance(LightId light) const {
-  for (const Choice& c : choices_) {
-    if (c.light == light) return c.chance;
-  }
-  return 0;
-}
 
 bool FilmShine::View::wants(const Spot& spot) const {
   const float least = std::min(filter_radius.x, filter_radius.y), widest = std::max(filter_radius.x, filter_radius.y);
@@ -98,17 +70,17 @@ void FilmShine::add_row(const View& view, int y, const std::vector<Spot>& spots,
       const float dx = (spot.at.x - (static_cast<float>(x) + 0.5f)) / radius.x;
       const float dy = (spot.at.y - (static_cast<float>(y) + 0.5f)) / radius.y;
       Gathered& g = row[static_cast<std::size_t>(x - pixels_.x0)];
-      g.choices.push_back({spot.light, dimmed(spot.brightness, dx, dy)});
+      g.lights.push_back({spot.light, spot.brightness * toward_rim(dx, dy)});
       g.filled += kPi * spot.radius * spot.radius;
     }
   }
   for (Gathered& g : row) {
     if (g.filled < kMostFilled * 4 * radius.x * radius.y) {
-      const auto end = g.choices.begin() + static_cast<std::ptrdiff_t>(std::min(g.choices.size(), PixelShine::kMost));
-      std::partial_sort(g.choices.begin(), end, g.choices.end(), brighter);
-      choices_.insert(choices_.end(), g.choices.begin(), end);
+      const auto end = g.lights.begin() + static_cast<std::ptrdiff_t>(std::min(g.lights.size(), PixelShine::kMost));
+      std::partial_sort(g.lights.begin(), end, g.lights.end(), brighter<ShiningLight>);
+      lights_.insert(lights_.end(), g.lights.begin(), end);
     }
-    begin_.push_back(static_cast<std::uint32_t>(choices_.size()));
+    begin_.push_back(static_cast<std::uint32_t>(lights_.size()));
   }
 }
 
@@ -117,7 +89,7 @@ PixelShine FilmShine::of(int x, int y) const {
   const std::size_t pixel = static_cast<std::size_t>(y - pixels_.y0) * pixels_.width() + (x - pixels_.x0);
   PixelShine::List list;
   for (std::uint32_t i = begin_[pixel]; i < begin_[pixel + 1]; ++i) {
-    if (choices_[i].chance > 0) list.push_back(choices_[i]);
+    if (lights_[i].brightness > 0) list.push_back(lights_[i]);
   }
   return PixelShine(std::move(list));
 }

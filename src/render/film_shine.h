@@ -8,34 +8,23 @@
 #include <vector>
 
 #include "light/lights.h"
-#include "math/small_vector.h"
+#include "render/pixel_lights.h"
 #include "tyndall/image.h"
 
 namespace tyndall {
 
-/// The surfaces that may be aimed at for one pixel.
-class PixelShine {
- public:
-  static constexpr std::size_t kMost = 8;  ///< the brightest; others are left to the filter's samples
-  struct Choice {
-    LightId light = 0;
-    float chance = 0;
-  };
-  using List = SmallVector<Choice, kMost>;
-
-  PixelShine() = default;
-  explicit PixelShine(List choices);  ///< chances in any unit, all > 0
-  bool empty() const { return choices_.empty(); }
-  Choice draw(float u) const;  ///< of one that is not empty; `u` in [0, 1)
-  float chance(LightId light) const;
-
- private:
-  List choices_;  ///< chances sum to 1
+struct ShiningLight {
+  LightId light = 0;
+  float brightness = 0;
 };
+/// The surfaces that may be aimed at for one pixel.
+using PixelShine = PixelLights<ShiningLight>;
 
 /// All of them, by pixel.
 class FilmShine {
  public:
+  /// Pixels. Whoever filters more widely meets lamps, and would list each hundreds of times.
+  static constexpr float kWidestFilter = 4;
   /// The image of a shining primitive, as a circle that holds about all of it.
   struct Spot {
     LightId light = 0;
@@ -60,8 +49,8 @@ class FilmShine {
   void add_row(const View& view, int y, const std::vector<Spot>& spots, const std::vector<std::uint32_t>& seen);
 
   PixelBounds pixels_;
-  std::vector<std::uint32_t> begin_;  ///< of each pixel's choices, and the end of the last's; empty without spots
-  std::vector<PixelShine::Choice> choices_;
+  std::vector<std::uint32_t> begin_;  ///< of each pixel's lights, and the end of the last's; empty without spots
+  std::vector<ShiningLight> lights_;
 };
 
 }  // namespace tyndall

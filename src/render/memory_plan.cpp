@@ -8,6 +8,7 @@
 #include "light/instance_runs.h"
 #include "math/process_memory.h"
 #include "render/film_buffer.h"
+#include "render/film_shine.h"
 #include "tyndall/error.h"
 #include "tyndall/io.h"
 
@@ -55,9 +56,19 @@ double emitters_of(const std::vector<Shape>& shapes) {
   return count;
 }
 
-std::size_t plan_film(const Scene& scene) {
+std::vector<double> emitters_of(const std::vector<Object>& objects) {
+  std::vector<double> counts;
+  for (const Object& object : objects) counts.push_back(emitters_of(object.shapes));
+  return counts;
+}
+
+double pixels_of(const Scene& scene) {
   const PixelBounds& crop = scene.settings.crop.value_or(scene.film.crop);
-  const double pixels = static_cast<double>(std::max(crop.width(), 0)) * std::max(crop.height(), 0);
+  return static_cast<double>(std::max(crop.width(), 0)) * std::max(crop.height(), 0);
+}
+
+std::size_t plan_film(const Scene& scene) {
+  const double pixels = pixels_of(scene);
   const double channels = 4 + 4 * static_cast<double>(scene.settings.aovs.size());
   Sum sum;
   sum.add(pixels, 2 * sizeof(double) * (3 + channels));  // twice: a long pass keeps a way back
@@ -65,12 +76,28 @@ std::size_t plan_film(const Scene& scene) {
   return sum.bytes();
 }
 
+/// The lists of pixels that aim at small shining surfaces (film_shine.h). A surface of a pixel or so is in the lists of those
+/// whose filters see it.
+std::size_t plan_aims(const Scene& scene) {
+  const double radius = std::max(scene.filter.radius.x, scene.filter.radius.y);
+  const std::vector<double> of_object = emitters_of(scene.objects);
+  double surfaces = emitters_of(scene.shapes);
+  for (const Instance& instance : scene.instances) {
+    if (instance.object < of_object.size()) surfaces += of_object[instance.object];
+  }
+  if (surfaces == 0 || !(radius <= FilmShine::kWidestFilter)) return 0;
+  const double pixels = pixels_of(scene), pixels_of_surface = (4 * radius + 1) * (4 * radius + 1);
+  Sum sum;
+  sum.add(pixels, sizeof(std::uint32_t));
+  sum.add(std::min(pixels * PixelShine::kMost, surfaces * pixels_of_surface), sizeof(ShiningLight));
+  return sum.bytes();
+}
+
 /// `shared`: instances that can share their lights do, as in shared_runs().
 std::size_t plan_lights(const Scene& scene, bool shared) {
   Sum sum;
   sum.add(static_cast<double>(scene.lights.size()) + emitters_of(scene.shapes), kLight);
-  std::vector<double> of_object;
-  for (const Object& object : scene.objects) of_object.push_back(emitters_of(object.shapes));
+  const std::vector<double> of_object = emitters_of(scene.objects);
   if (shared)
     for (const double lights : of_object) sum.add(lights, kLight);
   for (const Instance& instance : scene.instances) {
@@ -165,7 +192,7 @@ std::string MemoryPlan::str() const {
 MemoryPlan plan_memory(const Scene& scene, std::span<const LightStrategy> lights) {
   const bool shared = std::all_of(lights.begin(), lights.end(), [](LightStrategy s) { return s == LightStrategy::tree; });
   return {process_memory().resident,
-          {{"film", plan_film(scene)},
+          {{"film", plan_film(scene) + plan_aims(scene)},
            {"geometry", plan_geometry(scene)},
            {"lights", plan_lights(scene, shared)},
            {"textures", plan_pictures(scene)},

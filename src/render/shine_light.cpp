@@ -5,12 +5,12 @@
 
 #include "math/similarity.h"
 #include "render/direct_light.h"
+#include "render/gather_lights.h"
 #include "render/span_walk.h"
 
 namespace tyndall {
 namespace {
 
-constexpr std::size_t kBlock = 4096;  ///< of lights, for one thread
 /// In the picture. More would take seconds to look through, and are triangles of larger things rather than bulbs.
 constexpr std::size_t kMostSpots = 1'000'000;
 /// A camera this near to a lamp, in its radii, may be inside it.
@@ -59,25 +59,18 @@ FilmShine film_shine(const World::Parts& world, const RenderSettings& settings, 
   if (!is_wanted(world, settings)) return {};
   const FilmShine::View view{pixels, world.scene.filter.radius};
   const std::size_t count = world.lights.first_volume();  // before them are all that instances do not share
-  std::vector<std::vector<FilmShine::Spot>> blocks((count + kBlock - 1) / kBlock);
-  pool.for_each(blocks.size(), 1, [&](std::size_t block) {
-    for (std::size_t i = block * kBlock; i < std::min(count, (block + 1) * kBlock); ++i) {
-      const auto spot = spot_of(world, static_cast<LightId>(i));
-      if (spot && view.wants(*spot)) blocks[block].push_back(*spot);
-    }
-  });
-  std::vector<FilmShine::Spot> spots;
-  for (const auto& block : blocks) {
-    spots.insert(spots.end(), block.begin(), block.end());
-    if (spots.size() > kMostSpots) return {};
-  }
-  return {view, spots};
+  const auto look = [&](LightId light) {
+    const auto spot = spot_of(world, light);
+    return spot && view.wants(*spot) ? spot : std::nullopt;
+  };
+  const auto spots = gather_lights(count, pool, look);
+  return spots.size() > kMostSpots ? FilmShine() : FilmShine(view, spots);
 }
 
 Rgb shine_light(const LightContext& context, const PixelShine& shine, Vec2 center, Sampler sampler) {
   const World::Parts& world = context.world;
   const Vec3 eye = world.camera.center();
-  const auto [id, chance] = shine.draw(sampler.next_1d());
+  const auto& [id, chance] = shine.draw(sampler.next_1d());
   const auto drawn = world.lights.sample(id, eye, sampler.next_2d(), false);
   if (!drawn || drawn->delta || is_black(drawn->L)) return {};
   // Traced as the filter's own ray is, and no shadow ray, which ends before the light: what is as close to it as the glass
@@ -98,10 +91,12 @@ Rgb shine_light(const LightContext& context, const PixelShine& shine, Vec2 cente
 }
 
 float ShineRay::own_share(const World::Parts& world, LightId light, const EmitterHit& hit) const {
-  const float chance = shine_.chance(light);
-  if (!(chance > 0)) return 1;
+  const ShiningLight* aimed_at = shine_.find(light);
+  if (!aimed_at) return 1;
   const auto at = world.camera.film_position(hit.p);
-  return at ? mis_weight(pdf_, film_pdf(world, chance * world.lights.pdf(light, world.camera.center(), hit), *at)) : 1.0f;
+  if (!at) return 1;
+  const float aimed = aimed_at->brightness * world.lights.pdf(light, world.camera.center(), hit);
+  return mis_weight(pdf_, film_pdf(world, aimed, *at));
 }
 
 }  // namespace tyndall

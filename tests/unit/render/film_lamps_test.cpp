@@ -55,7 +55,7 @@ TEST_CASE("a pixel has the lamps that its filter sees, in crops and at the film'
             found += drawn;
             if (drawn) CHECK(std::count(expected.begin(), expected.end(), lamp.light) == 1);
           }
-          CHECK(found == std::min(expected.size(), PixelLamps::kMost));
+          CHECK(found == std::min(expected.size(), PixelLamps::Lamps::kMost));
         }
       }
     }
@@ -66,7 +66,7 @@ TEST_CASE("of many lamps in a pixel the brightest are drawn") {
   std::vector<FilmLamp> lamps;
   for (LightId i = 0; i < 100; ++i) lamps.push_back({i, {2.5f, 2.5f}, static_cast<float>(1 + i)});
   const PixelLamps brightest = FilmLamps({{0, 0, 4, 4}, {1.5f, 1.5f}, kFinest}, lamps).of(2, 2);
-  for (LightId i = 0; i < 100; ++i) CHECK((brightest.pdf(i, {2.6f, 2.5f}) > 0) == (i >= 100 - PixelLamps::kMost));
+  for (LightId i = 0; i < 100; ++i) CHECK((brightest.pdf(i, {2.6f, 2.5f}) > 0) == (i >= 100 - PixelLamps::Lamps::kMost));
 }
 
 TEST_CASE("filters of any width are taken, those of many pixels without lamps") {
