@@ -16,6 +16,11 @@ constexpr LightCounts kSpan{3, 2};
 constexpr SpanCounts kOnlySpan{{16, 0}};
 /// Spans that scatter less than this share of the light take one candidate.
 constexpr float kThin = 1e-3f;
+constexpr LightCounts kThinSpan{1, 1};
+/// Where paths go on, spans that scatter less than this look for light the more seldom: around smoke many rays pass next to
+/// nothing. Instructions in a hall around a plume 0.83, in smoke of depth 1 and 5 0.96 and 0.98, for the same error within 1 %;
+/// with 0.3 the error of the first and the last grows by 1 %, that of the second by 7 %.
+constexpr float kFaint = 0.1f;
 /// In media of more than this optical depth most of the candidates are dim, and few of the distances matter. Measured in
 /// smoke: at depth 10 the efficiency rises by a quarter, at 1 it would fall by a sixth.
 constexpr float kDense = 3;
@@ -25,9 +30,10 @@ LightCounts chosen(const RenderSettings& settings, LightCounts unless_set) {
   return {settings.candidates.value_or(unless_set.candidates), settings.shadow_rays.value_or(unless_set.shadow_rays)};
 }
 
-/// Candidates that are counted by the settings are pairs.
+/// Candidates that are counted by the settings are pairs, and always looked at.
 SpanCounts chosen(const RenderSettings& settings, SpanCounts unless_set) {
-  return {chosen(settings, static_cast<LightCounts>(unless_set)), settings.candidates ? 1 : unless_set.distances};
+  const LightCounts counts = chosen(settings, static_cast<LightCounts>(unless_set));
+  return settings.candidates ? SpanCounts{counts} : SpanCounts{counts, unless_set.distances, unless_set.chance};
 }
 
 /// Not more candidates than there are lights to seek, and a shadow ray for every other one: with one light, along media,
@@ -64,9 +70,13 @@ LightCounts counts_at_vertex(const LightContext& context, const PointQuery& quer
 }
 
 SpanCounts counts_along_span(const LightContext& context, float scattered, float depth) {
-  if (scattered < kThin) return chosen(context.settings, SpanCounts{{1, 1}});
-  if (is_only_event(context)) return chosen(context.settings, depth > kDense ? kOnlyDenseSpan : kOnlySpan);
-  return chosen(context.settings, SpanCounts{among(context.world.lights.sought(), kSpan)});
+  const bool thin = scattered < kThin;
+  if (is_only_event(context)) {
+    return chosen(context.settings, thin ? SpanCounts{kThinSpan} : depth > kDense ? kOnlyDenseSpan : kOnlySpan);
+  }
+  SpanCounts counts{thin ? kThinSpan : among(context.world.lights.sought(), kSpan)};
+  counts.chance = std::min(scattered / kFaint, 1.0f);
+  return chosen(context.settings, counts);
 }
 
 }  // namespace tyndall

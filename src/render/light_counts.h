@@ -12,6 +12,7 @@ struct LightCounts {
 };
 struct SpanCounts : LightCounts {
   int distances = 1;  ///< along the span, looked at with each candidate
+  float chance = 1;   ///< of looking at any
 };
 
 /// How clusters are split for that many candidates.

@@ -68,7 +68,7 @@ class PairFinder {
 
     const Vec3 wo = -span_.ray.d;
     const Rgb f = scattering.sigma_s * scattering.phase.eval(wo, light->wi);
-    const float density = tries * static_cast<float>(search_.distances) * distance.pdf * light->pdf;
+    const float density = search_.chance * tries * static_cast<float>(search_.distances) * distance.pdf * light->pdf;
     if (is_black(f) || !(density > 0)) return std::nullopt;
     const float collide = scattering.sigma_t * search_.profile.transmittance(distance.t);
     const float tracked = tracks(context_.settings) ? collide * tries * light->pdf : 0.0f;
@@ -204,11 +204,13 @@ std::optional<SpanSearch> span_search(const LightContext& context, const Span& s
     search.cut = context.selector.cut(search.query, cut_settings(context, counts.candidates));
     search.shadow_rays = counts.shadow_rays;
     search.distances = counts.distances;
+    search.chance = counts.chance;
   }
   return search;
 }
 
 Rgb span_light(const LightContext& context, const Span& span, const SpanSearch& search, Rgb beta) {
+  if (search.chance < 1 && context.sampler.next_wide() >= search.chance) return {};
   Sampler sampler = context.sampler.fork();
   const float u = sampler.next_1d();
   const PairFinder finder(context, span, search, beta);
@@ -224,7 +226,7 @@ float collision_density(const Span& span, const SpanSearch& search, float t) {
 SpanDensities span_fire_densities(const LightContext& context, const SpanEvent& event, const FiresOnRay& fires) {
   if (fires.empty()) return {};
   const float found = fire_density(context, event.search, fires);
-  const auto distances = static_cast<float>(event.search.distances);
+  const float distances = event.search.chance * static_cast<float>(event.search.distances);
   const RenderSettings& settings = context.settings;
   return {.pair = pairs_along_spans(settings) ? found * distances * distances_to(context, event.search, fires[0].light).pdf(event.t) : 0.0f,
           .tracked = tracks(settings) ? found * event.density : 0.0f};
@@ -232,7 +234,7 @@ SpanDensities span_fire_densities(const LightContext& context, const SpanEvent& 
 
 SpanDensities span_densities(const LightContext& context, const SpanEvent& event, LightId id) {
   const float tries = context.selector.expected(event.search.cut, event.search.query, id);
-  const auto distances = static_cast<float>(event.search.distances);
+  const float distances = event.search.chance * static_cast<float>(event.search.distances);
   const RenderSettings& settings = context.settings;
   return {.pair = pairs_along_spans(settings) ? tries * distances * distances_to(context, event.search, id).pdf(event.t) : 0.0f,
           .tracked = tracks(settings) ? tries * event.density : 0.0f};

@@ -18,6 +18,7 @@ struct SpanSearch {
   float g = 0;  ///< mean cosine of the phase functions, roughly
   int shadow_rays = 0;  ///< to trace, 0: to all candidates
   int distances = 1;    ///< tried with each candidate
+  float chance = 1;     ///< of seeking any pair; roulette decides
 };
 /// Nothing when no light can be scattered, or when settings choose lights at collisions only.
 std::optional<SpanSearch> span_search(const LightContext& context, const Span& span);

@@ -250,6 +250,19 @@ TEST_CASE("small shining surfaces that the camera aims at make the picture of th
                   {off, points, {"vertex", {.candidates = 1, .media = MediaStrategy::vertex, .joint = JointStrategy::points}}}, how);
 }
 
+// Nothing but such fog is in the picture, and phase functions that find the sphere by themselves.
+TEST_CASE("fog that scatters next to nothing, and looks for light seldom, is as bright as by its collisions") {
+  const std::string lamps =
+      block("Translate -4 2 1\nAreaLightSource \"diffuse\" \"rgb L\" [9 8 6]\nShape \"sphere\" \"float radius\" 0.8\n") +
+      point_light({0.2f, 2.5f, 0.4f}, 1);
+  const std::string fog = homogeneous("fog", {.sigma_a = Rgb(0.01f), .sigma_s = Rgb(0.01f), .g = 0.7f}) +
+                          medium_box("fog", "", {{-1.5f, -1.5f, -1.5f}, {1.5f, 1.5f, 1.5f}});
+  Agreement how;
+  if (!nightly()) how.d = 0.02;
+  check_all_agree("faint", look(2) + lamps + fog,
+                  {{"seldom", {}}, {"both", {.distance = DistanceStrategy::both}}, {"vertex", {.media = MediaStrategy::vertex}}}, how);
+}
+
 // 65,536 samples of each: standard errors of 0.002 at most; Approx allows 0.017. Roulette without its weight is off by 0.11.
 TEST_CASE("a sky behind fog leaves A = 1 - transmittance, passed or dimmed") {
   const std::string scene = look(3) + lights() + homogeneous("fog", {.sigma_a = Rgb(0.3f), .sigma_s = Rgb(0.2f)}) +

@@ -68,6 +68,18 @@ TEST_CASE("stretches that scatter next to nothing look at one light") {
   check(Counted(3, true).span({}, 0, 0.9e-3f), 1, 1);
 }
 
+TEST_CASE("stretches that scatter little look seldom, but where nothing follows or candidates are counted") {
+  Counted many(3, true);
+  RenderSettings direct, set;
+  direct.max_depth = 1;
+  set.candidates = 2;
+  CHECK(many.span({}, 0, 0.5f).chance == 1);
+  CHECK(many.span({}, 0, 0.05f).chance == doctest::Approx(0.5));
+  CHECK(many.span({}, 2, 1e-4f).chance == doctest::Approx(1e-3));
+  CHECK(many.span(direct, 0, 0.05f).chance == 1);
+  CHECK(many.span(set, 0, 0.05f).chance == 1);
+}
+
 TEST_CASE("along dense stretches candidates are looked at from two distances where nothing follows") {
   Counted many(3, true);
   RenderSettings direct, set;
