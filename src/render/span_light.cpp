@@ -210,8 +210,8 @@ std::optional<SpanSearch> span_search(const LightContext& context, const Span& s
 }
 
 Rgb span_light(const LightContext& context, const Span& span, const SpanSearch& search, Rgb beta) {
-  if (search.chance < 1 && context.sampler.next_wide() >= search.chance) return {};
   Sampler sampler = context.sampler.fork();
+  if (search.chance < 1 && sampler.next_1d() >= search.chance) return {};
   const float u = sampler.next_1d();
   const PairFinder finder(context, span, search, beta);
   const bool all = context.selector.exhaustive();

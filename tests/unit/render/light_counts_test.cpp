@@ -68,14 +68,15 @@ TEST_CASE("stretches that scatter next to nothing look at one light") {
   check(Counted(3, true).span({}, 0, 0.9e-3f), 1, 1);
 }
 
-TEST_CASE("stretches that scatter little look seldom, but where nothing follows or candidates are counted") {
+TEST_CASE("stretches that scatter little look seldom, but on the only event and where candidates are counted") {
   Counted many(3, true);
   RenderSettings direct, set;
   direct.max_depth = 1;
   set.candidates = 2;
   CHECK(many.span({}, 0, 0.5f).chance == 1);
   CHECK(many.span({}, 0, 0.05f).chance == doctest::Approx(0.5));
-  CHECK(many.span({}, 2, 1e-4f).chance == doctest::Approx(1e-3));
+  CHECK(many.span({}, 2, 1e-4f).chance == 1 / 16.0f);
+  CHECK(many.span({}, 0, 0).chance == 1 / 16.0f);  // perhaps there is something that was not looked at
   CHECK(many.span(direct, 0, 0.05f).chance == 1);
   CHECK(many.span(set, 0, 0.05f).chance == 1);
 }
