@@ -18,7 +18,7 @@ constexpr SpanCounts kOnlySpan{{16, 0}};
 constexpr float kThin = 1e-3f;
 constexpr LightCounts kThinSpan{1, 1};
 /// But on the only event, spans that scatter less than this look for light the more seldom: around smoke many rays pass next to
-/// nothing. Instructions in a hall around a plume 0.83, in smoke of depth 1 and 5 0.96 and 0.98, for the same error within 1 %;
+/// nothing. Instructions in a hall around a plume 0.81, in smoke of depth 1 and 5 0.96 and 0.98, for the same error within 1 %;
 /// with 0.3 the error of the first and the last grows by 1 %, that of the second by 7 %.
 constexpr float kFaint = 0.1f;
 /// What is scattered is known coarsely: what was not seen must be found, and weigh little more.

@@ -226,17 +226,17 @@ float collision_density(const Span& span, const SpanSearch& search, float t) {
 SpanDensities span_fire_densities(const LightContext& context, const SpanEvent& event, const FiresOnRay& fires) {
   if (fires.empty()) return {};
   const float found = fire_density(context, event.search, fires);
-  const float distances = event.search.chance * static_cast<float>(event.search.distances);
+  const float pairs = event.search.chance * static_cast<float>(event.search.distances);  // for each candidate, on average
   const RenderSettings& settings = context.settings;
-  return {.pair = pairs_along_spans(settings) ? found * distances * distances_to(context, event.search, fires[0].light).pdf(event.t) : 0.0f,
+  return {.pair = pairs_along_spans(settings) ? found * pairs * distances_to(context, event.search, fires[0].light).pdf(event.t) : 0.0f,
           .tracked = tracks(settings) ? found * event.density : 0.0f};
 }
 
 SpanDensities span_densities(const LightContext& context, const SpanEvent& event, LightId id) {
   const float tries = context.selector.expected(event.search.cut, event.search.query, id);
-  const float distances = event.search.chance * static_cast<float>(event.search.distances);
+  const float pairs = event.search.chance * static_cast<float>(event.search.distances);  // for each candidate, on average
   const RenderSettings& settings = context.settings;
-  return {.pair = pairs_along_spans(settings) ? tries * distances * distances_to(context, event.search, id).pdf(event.t) : 0.0f,
+  return {.pair = pairs_along_spans(settings) ? tries * pairs * distances_to(context, event.search, id).pdf(event.t) : 0.0f,
           .tracked = tracks(settings) ? tries * event.density : 0.0f};
 }
 
