@@ -18,6 +18,11 @@ struct PixelBounds {
   int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
   int width() const { return x1 - x0; }
   int height() const { return y1 - y0; }
+  std::size_t size() const { return static_cast<std::size_t>(width()) * static_cast<std::size_t>(height()); }
+  /// Of a pixel inside, row by row.
+  std::size_t index(int x, int y) const {
+    return static_cast<std::size_t>(y - y0) * static_cast<std::size_t>(width()) + static_cast<std::size_t>(x - x0);
+  }
   bool operator==(const PixelBounds&) const = default;
 };
 

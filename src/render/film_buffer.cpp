@@ -65,16 +65,12 @@ FilmBuffer::FilmBuffer(const Film& film, PixelBounds crop, std::vector<Aov> aovs
 
 bool FilmBuffer::wants(Aov aov) const { return std::find(aovs_.begin(), aovs_.end(), aov) != aovs_.end(); }
 
-std::size_t FilmBuffer::index_of(int x, int y) const {
-  return static_cast<std::size_t>(y - crop_.y0) * crop_.width() + (x - crop_.x0);
-}
-
 std::vector<double> FilmBuffer::copy(const PixelBounds& tile) const {
   const std::size_t row = static_cast<std::size_t>(tile.width()) * stride_;
   std::vector<double> sums;
   sums.reserve(row * static_cast<std::size_t>(tile.height()));
   for (int y = tile.y0; y < tile.y1; ++y) {
-    const double* from = pixel(index_of(tile.x0, y));
+    const double* from = pixel(crop_.index(tile.x0, y));
     sums.insert(sums.end(), from, from + row);
   }
   return sums;

@@ -49,8 +49,7 @@ class FilmBuffer {
   double estimated_relmse(int samples) const;
 
  private:
-  std::size_t index_of(int x, int y) const;
-  double* pixel(int x, int y) { return sums_.data() + index_of(x, y) * stride_; }
+  double* pixel(int x, int y) { return sums_.data() + crop_.index(x, y) * stride_; }
   const double* pixel(std::size_t index) const { return sums_.data() + index * stride_; }
   void add_aov(Aov aov, double* sum, const PathRecord& record, float weight) const;
   void store_color(Image& image, const std::string& prefix, std::size_t offset, int samples) const;

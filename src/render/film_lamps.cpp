@@ -62,7 +62,7 @@ FilmLamps::FilmLamps(const View& view, std::vector<FilmLamp> lamps)
   });
   if (lamps_.empty()) return;
   cells_ = with_rim(view.pixels, radius_);
-  const auto cell_of = [&](const FilmLamp& lamp) { return cell(pixel_of(lamp.at.x), pixel_of(lamp.at.y)); };
+  const auto cell_of = [&](const FilmLamp& lamp) { return cells_.index(pixel_of(lamp.at.x), pixel_of(lamp.at.y)); };
   std::sort(lamps_.begin(), lamps_.end(), [&](const FilmLamp& a, const FilmLamp& b) {
     const std::size_t in_a = cell_of(a), in_b = cell_of(b);
     return in_a != in_b ? in_a < in_b : brighter(a, b);
@@ -85,8 +85,8 @@ PixelLamps FilmLamps::of(int x, int y) const {
   if (begin_.empty()) return {reach_, {}};
   const Vec2 center{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f};
   for (int row = pixel_of(center.y - radius_.y); row <= pixel_of(center.y + radius_.y); ++row) {
-    const std::uint32_t end = begin_[cell(pixel_of(center.x + radius_.x), row) + 1];
-    for (std::uint32_t i = begin_[cell(pixel_of(center.x - radius_.x), row)]; i < end; ++i) {
+    const std::uint32_t end = begin_[cells_.index(pixel_of(center.x + radius_.x), row) + 1];
+    for (std::uint32_t i = begin_[cells_.index(pixel_of(center.x - radius_.x), row)]; i < end; ++i) {
       FilmLamp lamp = lamps_[i];
       const float dx = (lamp.at.x - center.x) / radius_.x, dy = (lamp.at.y - center.y) / radius_.y;
       if (!(std::abs(dx) < 1 && std::abs(dy) < 1)) continue;

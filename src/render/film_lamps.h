@@ -71,8 +71,6 @@ class FilmLamps {
   PixelLamps of(int x, int y) const;
 
  private:
-  std::size_t cell(int x, int y) const { return static_cast<std::size_t>(y - cells_.y0) * cells_.width() + (x - cells_.x0); }
-
   FilmReach reach_;
   Vec2 radius_;
   PixelBounds cells_;                 ///< the pixels, and a rim around them

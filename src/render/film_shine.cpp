@@ -86,7 +86,7 @@ void FilmShine::add_row(const View& view, int y, const std::vector<Spot>& spots,
 
 PixelShine FilmShine::of(int x, int y) const {
   if (begin_.empty()) return {};
-  const std::size_t pixel = static_cast<std::size_t>(y - pixels_.y0) * pixels_.width() + (x - pixels_.x0);
+  const std::size_t pixel = pixels_.index(x, y);
   PixelShine::List list;
   for (std::uint32_t i = begin_[pixel]; i < begin_[pixel + 1]; ++i) {
     if (lights_[i].brightness > 0) list.push_back(lights_[i]);

@@ -76,8 +76,8 @@ std::size_t plan_film(const Scene& scene) {
   return sum.bytes();
 }
 
-/// The lists of pixels that aim at small shining surfaces (film_shine.h). A surface of a pixel or so is in the lists of those
-/// whose filters see it.
+/// The lists of pixels that aim at small shining surfaces (film_shine.h), and what finds where larger ones end (film_edges.h).
+/// A surface of a pixel or so is in the lists of those whose filters see it.
 std::size_t plan_aims(const Scene& scene) {
   const double radius = std::max(scene.filter.radius.x, scene.filter.radius.y);
   const std::vector<double> of_object = emitters_of(scene.objects);
@@ -88,7 +88,7 @@ std::size_t plan_aims(const Scene& scene) {
   if (surfaces == 0 || !(radius <= FilmShine::kWidestFilter)) return 0;
   const double pixels = pixels_of(scene), pixels_of_surface = (4 * radius + 1) * (4 * radius + 1);
   Sum sum;
-  sum.add(pixels, sizeof(std::uint32_t));
+  sum.add(pixels, sizeof(std::uint32_t) + sizeof(float) + 1);
   sum.add(std::min(pixels * PixelShine::kMost, surfaces * pixels_of_surface), sizeof(ShiningLight));
   return sum.bytes();
 }

@@ -86,7 +86,8 @@ class RenderJob::Impl {
         film_(world.scene.film, full_crop(world.scene, settings), parse_aovs(settings.aovs)),
         pool_(settings.threads),
         film_lamps_(film_lamps(world, settings_, film_.crop(), pool_)),
-        film_shine_(film_shine(world, settings_, film_.crop(), pool_)) {}
+        film_shine_(film_shine(world, settings_, film_.crop(), pool_)),
+        film_edges_(film_edges(world, settings_, film_.crop(), pool_)) {}
 
   bool advance(int count, const PassWatch& watch, GivenUp if_given_up) {
     const auto start = Clock::now();
@@ -161,7 +162,7 @@ class RenderJob::Impl {
   /// What a pixel's samples seek on the film.
   struct FilmLights {
     PixelLamps lamps;
-    PixelShine shine;
+    ShineView shine;
   };
 
   /// False: the pass was given up on the way.
@@ -169,7 +170,7 @@ class RenderJob::Impl {
     for (int y = pixels.y0; y < pixels.y1; ++y) {
       if (pass.given_up) return false;
       for (int x = pixels.x0; x < pixels.x1; ++x) {
-        const FilmLights of_pixel{film_lamps_.of(x, y), film_shine_.of(x, y)};
+        const FilmLights of_pixel{film_lamps_.of(x, y), {film_shine_.of(x, y), film_edges_.at(x, y)}};
         for (int s = samples_; s < samples_ + pass.count; ++s) render_sample({settings_.seed, x, y, s}, of_pixel, counters);
       }
       pass.tell(pixels.width());
@@ -226,12 +227,12 @@ class RenderJob::Impl {
     const ShineRay shine_ray(shine, offset.pdf);
     LightContext context{world_, selector_, settings_, sampler, counters};
     if (!lamps.empty()) context.joint = &film_ray;
-    if (!shine.empty()) context.shine = &shine_ray;
+    if (!shine.own_only()) context.shine = &shine_ray;
     const Path::Limits limits{.max_depth = settings_.max_depth,
                               .want_transmittance = film_.wants(Aov::transmittance),
                               .want_albedo = film_.wants(Aov::albedo)};
     const Rgb of_lamps = lamps.empty() ? Rgb() : film_light(context, lamps, center, sampler.fork());
-    const Rgb of_shine = shine.empty() ? Rgb() : shine_light(context, shine, center, sampler.fork());
+    const Rgb of_shine = shine.own_only() ? Rgb() : shine_light(context, shine, center, sampler.fork());
     PathRecord record = Path(context, limits, world_.camera.ray(on_film, lens)).run();
     record.volume_direct += of_lamps * (1 / offset.weight);  // the film takes it times that weight
     record.emission += of_shine * (1 / offset.weight);
@@ -269,6 +270,7 @@ class RenderJob::Impl {
   ThreadPool pool_;
   FilmLamps film_lamps_;
   FilmShine film_shine_;
+  FilmEdges film_edges_;
   int samples_ = 0;
   double seconds_ = 0;
   std::mutex mutex_;

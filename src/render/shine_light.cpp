@@ -6,7 +6,7 @@
 #include "math/similarity.h"
 #include "render/direct_light.h"
 #include "render/gather_lights.h"
-#include "render/span_walk.h"
+#include "render/seen_light.h"
 
 namespace tyndall {
 namespace {
@@ -16,10 +16,15 @@ constexpr std::size_t kMostSpots = 1'000'000;
 /// A camera this near to a lamp, in its radii, may be inside it.
 constexpr float kNearest = 2;
 
+/// Film positions a sample where a surface begins or ends. In a hall with bulbs and a street with lamps 8 leave 1.3 to 1.5 times
+/// the MSE, 21 leave 0.78 of it for a tenth more work where half of the pixels are such.
+constexpr int kPositions = 13;
+/// Of a Fibonacci lattice of so many points: spread evenly in the square and along both of its sides.
+constexpr int kLatticeStep = 8;
+
 bool is_wanted(const World::Parts& world, const RenderSettings& settings) {
-  const bool seen_by_pinhole = world.camera.is_pinhole() && similarity_scale(world.camera.to_world().matrix());
   const bool asked = settings.joint == JointStrategy::points && settings.lights != LightStrategy::exhaustive;
-  return asked && world.lights.stats().emitters > 0 && seen_by_pinhole;
+  return asked && world.lights.stats().emitters > 0 && world.camera.is_pinhole();
 }
 
 /// `light` as the camera sees it.
@@ -40,23 +45,87 @@ std::optional<FilmShine::Spot> spot_of(const World::Parts& world, LightId light)
                                        (place.two_sided ? std::abs(facing) : std::max(facing, 0.0f))};
 }
 
-/// 1/pixels^2, of position `at` by aiming with that density, 1/sr.
-float film_pdf(const World::Parts& world, float pdf, Vec2 at) { return pdf * world.camera.solid_angle(at); }
-
-Rgb transmittance_to(const LightContext& context, const Ray& ray, const Trace& trace, Sampler& sampler) {
-  const World::Parts& world = context.world;
-  if (!world.has_media()) return Rgb(1.0f);
-  Rng rng = sampler.stream();
-  SpanWalk walk(world.media_context(), world.camera_media, trace.crossings, trace.t_end);
-  const Rgb T = transmittance_along(context, walk, ray, rng);
-  context.counters.parity_errors += walk.parity_errors();
-  return T;
+/// 1/pixels^2, of meeting `light` at `hit` by aiming at one of `aims`; 0 for those that are not among them.
+float aimed_pdf(const World::Parts& world, const PixelShine& aims, LightId light, const EmitterHit& hit) {
+  const ShiningLight* aimed_at = aims.find(light);
+  const auto at = aimed_at ? world.camera.film_position(hit.p) : std::nullopt;
+  if (!at) return 0;
+  return aimed_at->brightness * world.lights.pdf(light, world.camera.center(), hit) * world.camera.solid_angle(*at);
 }
+
+/// Of one pixel's sample.
+class ShineEstimate {
+ public:
+  ShineEstimate(const LightContext& context, const ShineView& view, Vec2 center)
+      : context_(context), view_(view), center_(center), positions_(view.edge ? kPositions : 1) {}
+
+  /// By the ray to a point of one of the aims.
+  Rgb by_aiming(Sampler& sampler) const {
+    const World::Parts& world = context_.world;
+    const Vec3 eye = world.camera.center();
+    const LightId light = view_.aims.draw(sampler.next_1d()).light;
+    const auto drawn = world.lights.sample(light, eye, sampler.next_2d(), false);
+    if (!drawn || drawn->delta || is_black(drawn->L)) return {};
+    const Ray ray{eye, drawn->wi};
+    const auto seen = look_along(ray);
+    if (!seen || seen->light != light) return {};
+    const auto at = world.camera.film_position(seen->hit.p);
+    if (!at) return {};
+    const auto filter = world.filter.at({at->x - center_.x, at->y - center_.y});
+    const float pdf = aimed_pdf(world, view_.aims, light, seen->hit);
+    if (!(filter.pdf > 0) || !(pdf > 0)) return {};
+    const float share = mis_weight(pdf, static_cast<float>(positions_) * filter.pdf);
+    return exposed(seen->L * dimmed(context_, ray, *seen, sampler)) * (filter.weight * filter.pdf / pdf * share);
+  }
+
+  /// By film positions that the filter draws.
+  Rgb by_positions(Sampler& sampler) const {
+    const Vec2 shift = sampler.next_2d();
+    Rgb sum;
+    for (int i = 0; i < positions_; ++i) sum += through(context_.world.filter.sample(lattice_point(i, shift)), sampler);
+    return sum * (1 / static_cast<float>(positions_));
+  }
+
+ private:
+  static float wrapped(float u) { return std::min(u - std::floor(u), kOneMinusEpsilon); }
+  Vec2 lattice_point(int i, Vec2 shift) const {
+    const float spacing = 1 / static_cast<float>(positions_);
+    const int row = i * kLatticeStep % positions_;
+    return {wrapped(shift.x + static_cast<float>(i) * spacing), wrapped(shift.y + static_cast<float>(row) * spacing)};
+  }
+
+  Rgb through(const FilterSampler::Offset& offset, Sampler& sampler) const {
+    const World::Parts& world = context_.world;
+    const Ray ray = world.camera.ray({center_.x + offset.p.x, center_.y + offset.p.y}, {0.5f, 0.5f});
+    const auto seen = look_along(ray);
+    if (!seen) return {};
+    const float aimed = aimed_pdf(world, view_.aims, seen->light, seen->hit);
+    return exposed(seen->L * dimmed(context_, ray, *seen, sampler)) *
+           (offset.weight * mis_weight(static_cast<float>(positions_) * offset.pdf, aimed));
+  }
+
+  /// As much as the film takes of a sample that meets it: means are made of that.
+  Rgb exposed(Rgb radiance) const {
+    const Film& film = context_.world.scene.film;
+    const float brightest = max_component(radiance) * film.imaging_ratio;
+    return brightest > film.max_component ? radiance * (film.max_component / brightest) : radiance;
+  }
+
+  std::optional<SeenLight> look_along(const Ray& ray) const {
+    ++context_.counters.rays;
+    return seen_light(context_.world, ray);
+  }
+
+  const LightContext& context_;
+  const ShineView& view_;
+  Vec2 center_;
+  int positions_;
+};
 
 }  // namespace
 
 FilmShine film_shine(const World::Parts& world, const RenderSettings& settings, const PixelBounds& pixels, ThreadPool& pool) {
-  if (!is_wanted(world, settings)) return {};
+  if (!is_wanted(world, settings) || !similarity_scale(world.camera.to_world().matrix())) return {};
   const FilmShine::View view{pixels, world.scene.filter.radius};
   const std::size_t count = world.lights.first_volume();  // before them are all that instances do not share
   const auto look = [&](LightId light) {
@@ -67,36 +136,32 @@ FilmShine film_shine(const World::Parts& world, const RenderSettings& settings, 
   return spots.size() > kMostSpots ? FilmShine() : FilmShine(view, spots);
 }
 
-Rgb shine_light(const LightContext& context, const PixelShine& shine, Vec2 center, Sampler sampler) {
-  const World::Parts& world = context.world;
-  const Vec3 eye = world.camera.center();
-  const auto& [id, chance] = shine.draw(sampler.next_1d());
-  const auto drawn = world.lights.sample(id, eye, sampler.next_2d(), false);
-  if (!drawn || drawn->delta || is_black(drawn->L)) return {};
-  // Traced as the filter's own ray is, and no shadow ray, which ends before the light: what is as close to it as the glass
-  // of a bulb far off hides it.
-  const Ray ray{eye, drawn->wi};
-  ++context.counters.shadow_rays;
-  const Trace trace = world.geometry.trace(ray, 0, kInfinity);
-  if (!trace.hit || world.light_of(*trace.hit) != id) return {};
-  const EmitterHit hit{.p = trace.hit->p, .ng = trace.hit->ng, .uv = trace.hit->uv, .distance = trace.hit->t};
-  const auto at = world.camera.film_position(hit.p);
-  if (!at) return {};
-  const auto filter = world.filter.at({at->x - center.x, at->y - center.y});
-  const float pdf = film_pdf(world, chance * world.lights.pdf(id, eye, hit), *at);
-  if (!(filter.pdf > 0) || !(pdf > 0)) return {};
-  const float share = mis_weight(pdf, filter.pdf);
-  return world.lights.emitted(id, hit, -ray.d) * transmittance_to(context, ray, trace, sampler) *
-         (filter.weight * filter.pdf / pdf * share);
+FilmEdges film_edges(const World::Parts& world, const RenderSettings& settings, const PixelBounds& pixels, ThreadPool& pool) {
+  const FilmEdges::View view{pixels, world.scene.filter.radius};
+  if (!is_wanted(world, settings) || !(std::max(view.filter_radius.x, view.filter_radius.y) <= FilmShine::kWidestFilter)) return {};
+  const PixelBounds all = view.around();
+  std::vector<float> brightness(all.size());
+  pool.for_each(static_cast<std::size_t>(all.height()), 1, [&](std::size_t row) {
+    const int y = all.y0 + static_cast<int>(row);
+    for (int x = all.x0; x < all.x1; ++x) {
+      const Ray ray = world.camera.ray({static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f}, {0.5f, 0.5f});
+      const auto seen = seen_light(world, ray);
+      if (seen) brightness[all.index(x, y)] = mean(seen->L) * dimmed_roughly(world, ray, *seen);
+    }
+  });
+  return {view, brightness};
+}
+
+Rgb shine_light(const LightContext& context, const ShineView& view, Vec2 center, Sampler sampler) {
+  const ShineEstimate estimate(context, view, center);
+  Rgb sum;
+  if (!view.aims.empty()) sum += estimate.by_aiming(sampler);
+  if (view.edge) sum += estimate.by_positions(sampler);
+  return sum;
 }
 
 float ShineRay::own_share(const World::Parts& world, LightId light, const EmitterHit& hit) const {
-  const ShiningLight* aimed_at = shine_.find(light);
-  if (!aimed_at) return 1;
-  const auto at = world.camera.film_position(hit.p);
-  if (!at) return 1;
-  const float aimed = aimed_at->brightness * world.lights.pdf(light, world.camera.center(), hit);
-  return mis_weight(pdf_, film_pdf(world, aimed, *at));
+  return view_.edge ? 0.0f : mis_weight(pdf_, aimed_pdf(world, view_.aims, light, hit));
 }
 
 }  // namespace tyndall

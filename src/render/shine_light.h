@@ -1,33 +1,46 @@
-/// What small shining surfaces send straight to the camera, by aiming at them.
+/// What shining surfaces send straight to the camera, where the filter's own samples tell it badly: each sample of a pixel
 ///
-/// Each sample of a pixel that sees such surfaces (film_shine.h) also takes the ray to a point of one of them, surface by surface
-/// weighed by MIS against the filter's own sample, which may meet it.
+/// - that sees small ones (film_shine.h) also takes the ray to a point of one of them;
+/// - that sees where one begins or ends (film_edges.h) looks through several film positions in place of its own.
+///
+/// Both are weighed by MIS, surface by surface.
 #pragma once
 
 #include "math/parallel.h"
+#include "render/film_edges.h"
 #include "render/film_shine.h"
 #include "render/light_context.h"
 
 namespace tyndall {
 
-/// Those to aim at for pixels of `pixels`: shining primitives that stand for themselves, not shared by instances. None where
+/// Surfaces to aim at for pixels of `pixels`: shining primitives that stand for themselves, not shared by instances. None where
 /// settings or the camera do not have it: only rays of a pinhole that is not distorted are aimed.
 FilmShine film_shine(const World::Parts& world, const RenderSettings& settings, const PixelBounds& pixels, ThreadPool& pool);
 
+/// Pixels of `pixels` that look through several film positions. None where settings or the camera do not have it: only pinholes do.
+FilmEdges film_edges(const World::Parts& world, const RenderSettings& settings, const PixelBounds& pixels, ThreadPool& pool);
+
+/// How a pixel's samples look at shining surfaces.
+struct ShineView {
+  PixelShine aims;
+  bool edge = false;
+  bool own_only() const { return aims.empty() && !edge; }
+};
+
 /// Unbiased estimate, for the pixel at `center`, of the share of that light which ShineRay::own_share does not leave to the
-/// filter's samples. `shine`, the pixel's, must not be empty.
-Rgb shine_light(const LightContext& context, const PixelShine& shine, Vec2 center, Sampler sampler);
+/// filter's own samples. Not where they are the only ones.
+Rgb shine_light(const LightContext& context, const ShineView& view, Vec2 center, Sampler sampler);
 
 /// The camera's ray that a pixel's filter drew. LightContext::shine points to it, all along its path.
 class ShineRay {
  public:
-  /// `pdf`: of its film position, 1/pixels^2. `shine` must outlive it.
-  ShineRay(const PixelShine& shine, float pdf) : shine_(shine), pdf_(pdf) {}
+  /// `pdf`: of its film position, 1/pixels^2. `view` must outlive it.
+  ShineRay(const ShineView& view, float pdf) : view_(view), pdf_(pdf) {}
   /// MIS weight of what it meets of `light`, unscattered.
   float own_share(const World::Parts& world, LightId light, const EmitterHit& hit) const;
 
  private:
-  const PixelShine& shine_;
+  const ShineView& view_;
   float pdf_;
 };
 

@@ -250,6 +250,47 @@ TEST_CASE("small shining surfaces that the camera aims at make the picture of th
                   {off, points, {"vertex", {.candidates = 1, .media = MediaStrategy::vertex, .joint = JointStrategy::points}}}, how);
 }
 
+// Of several pixels each: round, flat and cut off by the frame, one held by smoke, one of many primitives that instances share, with a
+// small one before another. The rest is as for the small ones.
+TEST_CASE("shining surfaces whose edges are looked at closely make the picture of those that are not") {
+  const auto shining = [](const std::string& where, const std::string& L, const std::string& shape) {
+    return block("Translate " + where + "\nAreaLightSource \"diffuse\" \"rgb L\" [" + L + "]\n" + shape);
+  };
+  std::string lamp = "ObjectBegin \"lamp\"\nAreaLightSource \"diffuse\" \"rgb L\" [9 7 2]\n";
+  for (int i = 0; i < 16; ++i) {
+    lamp += block("Rotate " + number(22.5f * static_cast<float>(i)) + " 0 0 1\nShape \"trianglemesh\" \"point3 P\" [0 0 0  0.4 0 0  0.37 0.15 0.1] " +
+                  "\"integer indices\" [0 2 1]\n");
+  }
+  const std::string surfaces = shining("-0.5 0.3 0.2", "3 2 1", "Shape \"sphere\" \"float radius\" 0.35\n") +
+                               shining("-0.65 0.35 -0.9", "60 50 40", "Shape \"sphere\" \"float radius\" 0.03\n") +
+                               shining("0.55 0.4 -0.6", "2 4 1", "Shape \"disk\" \"float radius\" 0.3\n") +
+                               shining("-1.2 -0.6 0", "4 4 6", "Rotate 30 0 1 0\nShape \"sphere\" \"float radius\" 0.4 \"float zmax\" 0.2\n") + lamp +
+                               "ObjectEnd\n" + block("Translate 0.4 -0.5 0.8\nObjectInstance \"lamp\"\n");
+  const std::string smoke = uniform_grid("smoke", {.sigma_a = {0.3f, 0.2f, 0.2f}, .sigma_s = {1, 0.8f, 0.6f}, .g = 0.5f}, holes()) +
+                            medium_octahedron("smoke", 0.9f);
+  Agreement how;
+  if (!nightly()) how.d = 0.02;
+  View lens{.eye = {0.1f, 0.1f, -3.4f}, .look = {0, 0, 0}, .fov_degrees = 36, .resolution = 16, .max_depth = 0};
+  using Named = std::pair<std::string, Variant>;
+  const Named off{"off", {.candidates = 1, .joint = JointStrategy::off}}, points{"points", {.candidates = 1, .joint = JointStrategy::points}};
+  lens.medium = "fog";
+  lens.before_camera = homogeneous("fog", {.sigma_a = Rgb(0.1f)});
+  lens.filter = "\"gaussian\"";
+  check_all_agree("edges, gaussian", view(lens) + surfaces + smoke, {off, points}, how);
+
+  lens.max_depth = 1;
+  lens.before_camera = homogeneous("fog", {.sigma_a = Rgb(0.1f), .sigma_s = Rgb(0.02f)});
+  lens.filter = "\"mitchell\"";
+  check_all_agree("edges, mitchell", view(lens) + surfaces, {off, points}, how);
+
+  // Less than most of them send, and less than the film takes of a sample.
+  lens.max_depth = 0;
+  lens.filter = "\"gaussian\"";
+  std::string limited = view(lens) + surfaces;
+  limited.insert(limited.find("Film \"rgb\"") + 10, " \"float maxcomponentvalue\" 1.5");
+  check_all_agree("edges, limited", limited, {off, points}, how);
+}
+
 // Nothing but such fog is in the picture, and phase functions that find the sphere by themselves.
 TEST_CASE("fog that scatters next to nothing, and looks for light seldom, is as bright as by its collisions") {
   const std::string lamps =

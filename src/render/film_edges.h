@@ -1,0 +1,33 @@
+/// Pixels in which a shining surface begins or ends, as the camera sees it.
+///
+/// There one of the filter's samples meets the surface and the next does not: in a picture of bright lamps that is most of the
+/// noise.
+#pragma once
+
+#include <vector>
+
+#include "tyndall/image.h"
+#include "tyndall/math.h"
+
+namespace tyndall {
+
+class FilmEdges {
+ public:
+  struct View {
+    PixelBounds pixels;
+    Vec2 filter_radius;
+    /// Those whose centers tell about `pixels`: some lie outside of the frame.
+    PixelBounds around() const;
+  };
+
+  FilmEdges() = default;
+  /// `brightness`: of what shines at the center of each pixel of `view.around()`, row by row, in any unit.
+  FilmEdges(const View& view, const std::vector<float>& brightness);
+  bool at(int x, int y) const { return !edges_.empty() && edges_[pixels_.index(x, y)]; }
+
+ private:
+  PixelBounds pixels_;
+  std::vector<bool> edges_;  ///< empty without any
+};
+
+}  // namespace tyndall
