@@ -21,6 +21,12 @@ constexpr float kDeep = 0.5f, kDeepUniform = 2;
 /// fireflies in thinner smoke.
 constexpr float kDeepLater = 8;
 constexpr int kReads = 4;
+/// Lamps that stay as far from all of a stretch as this many of its half lengths. MSE of smoke of depth 5 with lamps in it is 1.00
+/// times that of pairs everywhere, with half of it 1.5, with a quarter 2.1; in a hall with bulbs around smoke 0.99, 1.04, 1.06.
+constexpr float kStandOff = 0.5f;
+/// The stretch is where the optical depth passed is between these.
+constexpr float kClear = 0.01f, kOpaque = 2;
+constexpr int kLooks = 8;  ///< at a part of it
 
 float distance(Vec3 p, const Bounds3& box) { return length(max(max(box.min - p, p - box.max), Vec3{0, 0, 0})); }
 
@@ -43,14 +49,61 @@ bool deeper_than(float enough, const Ray& ray, const Parts& parts, float end = k
 }
 
 template <typename Parts>
+float enough_depth(const Parts& parts) {
+  return homogeneous_throughout(parts) ? kDeepUniform : kDeep;
+}
+template <typename Parts>
 bool deep(const Ray& ray, const Parts& parts) {
-  return deeper_than(homogeneous_throughout(parts) ? kDeepUniform : kDeep, ray, parts);
+  return deeper_than(enough_depth(parts), ray, parts);
 }
 
 /// Whether the media ahead are all but opaque within the size of `lights`: what shines here is as near as the next collision.
 template <typename Parts>
 bool opaque_among(const Bounds3& lights, const Ray& ray, const Parts& parts) {
   return !lights.empty() && deeper_than(kDeepLater, ray, parts, parts.front().t0 + length(lights.max - lights.min));
+}
+
+/// Where media scatter before they are opaque, looked at from the ray's origin on, and how near lamps are to that.
+class Approach {
+ public:
+  Approach(const NearLamps& lamps, const Ray& ray) : lamps_(lamps), ray_(ray) {}
+
+  /// False: a lamp is too near to what was looked at.
+  bool look_through(const Interval& part) {
+    const auto extent = coarse_extent(part.view(), ray_, part.t0, part.t1);
+    if (!extent) return true;
+    const CoarseRay coarse(part.view(), ray_);
+    const float step = (extent->second - extent->first) / kLooks;
+    for (int i = 0; i < kLooks && depth_ < kOpaque; ++i) {
+      const float t = extent->first + (static_cast<float>(i) + 0.5f) * step;
+      if (!look_at(t, step, coarse.at(t).sigma_t * step)) return false;
+    }
+    return true;
+  }
+  bool deep(float enough) const { return depth_ > enough; }
+
+ private:
+  bool look_at(float t, float step, float depth) {
+    depth_ += depth;
+    if (!(depth_ > kClear) || !(depth > 0)) return true;
+    begin_ = std::min(begin_, t - 0.5f * step);
+    nearest_ = std::min(nearest_, lamps_.distance(ray_.at(t)));
+    return nearest_ > kStandOff * 0.5f * (t + 0.5f * step - begin_);
+  }
+
+  const NearLamps& lamps_;
+  const Ray& ray_;
+  float depth_ = 0, begin_ = kInfinity, nearest_ = kInfinity;
+};
+
+template <typename Parts>
+bool lamps_stand_off(const LightContext& context, const Ray& ray, const Parts& parts) {
+  if (context.world.near_lamps.empty() || !(parts.back().t1 < kInfinity)) return false;
+  Approach approach(context.world.near_lamps, ray);
+  for (const Interval& part : parts) {
+    if (!approach.look_through(part)) return false;
+  }
+  return approach.deep(enough_depth(parts));
 }
 
 template <typename Parts>
@@ -61,7 +114,8 @@ bool suffice(const LightContext& context, const Ray& ray, const Parts& parts) {
   if (is_only_event(context)) return false;  // it looks at many pairs
   const Bounds3& lights = context.world.lights.near_box();
   if (context.event > 0 && opaque_among(lights, ray, parts)) return true;
-  return far_from(lights, ray, parts.front().t0, parts.back().t1) && deep(ray, parts);
+  if (far_from(lights, ray, parts.front().t0, parts.back().t1)) return deep(ray, parts);
+  return lamps_stand_off(context, ray, parts);
 }
 
 }  // namespace

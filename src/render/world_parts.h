@@ -8,6 +8,7 @@
 #include "render/camera_ray.h"
 #include "render/media_glow.h"
 #include "render/media_state.h"
+#include "render/near_lamps.h"
 #include "render/pixel_filter.h"
 #include "render/span_walk.h"
 #include "render/unit_scene.h"
@@ -35,6 +36,7 @@ struct World::Parts {
   FireLights fire;  ///< empty unless asked for
   bool has_fire;    ///< it was
   Lights lights;
+  NearLamps near_lamps;  ///< where all media are unbounded, or all lamps far, of no place
   MediaGlow glow;  ///< empty where all media are homogeneous
   std::vector<LightId> first_light;  ///< by placed shape; kNone where it does not emit
   CameraRays camera;

@@ -214,6 +214,17 @@ TEST_CASE("rays drawn near lamps on the film make the picture of those that are 
   }
 }
 
+// Lamps around dense smoke, one of them close to it: rays that pass far from that one choose lights at collisions, others along the span.
+TEST_CASE("spans that no lamp comes close to, lit at their collisions, make the picture of pairs everywhere") {
+  const std::string lamps = point_light({1.6f, 1.2f, 0.3f}, 0.5f) + point_light({-1.5f, -0.2f, 1.3f}, 0.4f) + point_light({-0.9f, 0.8f, -0.7f}, 0.1f) +
+                            emitting_square({-1.8f, 1.5f, 0.3f}, 0.5f, 0.6f);
+  const std::string smoke = uniform_grid("smoke", {.sigma_a = {0.3f, 0.2f, 0.2f}, .sigma_s = {8, 9, 10}, .g = 0.4f}, holes()) + medium_box("smoke", "", kBox);
+  Agreement how;
+  if (!nightly()) how.d = 0.03;
+  check_all_agree("stand-off", look(4) + diffuse_plane(1.8f, 3, 0.5f) + lamps + smoke,
+                  {{"pairs", {.distance = DistanceStrategy::profile}}, {"auto", {}}, {"vertex", {.media = MediaStrategy::vertex}}}, how);
+}
+
 // Small surfaces of every kind, before, in and behind smoke, one half hidden by a board, one half off the frame, the camera in a fog
 // that dims them; then in one that scatters a little, behind which they are seen whole (Path's Beyond).
 TEST_CASE("small shining surfaces that the camera aims at make the picture of those that it does not") {

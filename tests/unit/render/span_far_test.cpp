@@ -92,6 +92,22 @@ TEST_CASE("collisions suffice after the first event in media that are all but op
   CHECK_FALSE(pair.suffice_inside(0.7f, 90));
 }
 
+TEST_CASE("collisions suffice in dense stretches that no lamp comes close to before they are opaque") {
+  const std::string place = "MakeNamedMedium \"m\" \"string type\" \"homogeneous\"\nAttributeBegin\nMaterial \"interface\"\n"
+                            "MediumInterface \"m\" \"\"\nShape \"sphere\" \"float radius\" 2\nAttributeEnd\n";
+  const auto lamp = [](const std::string& at) { return "LightSource \"point\" \"point3 from\" [" + at + "]\n"; };
+  const std::string beside = lamp("0.5 0 -1") + lamp("-0.5 0 1");
+  Asked aside(place + beside);
+  CHECK(aside.suffice(5, 2, {}, 0));
+  CHECK(aside.suffice(3, 2, {}, 1));
+  CHECK_FALSE(aside.suffice(0.9f));                  // few collide
+  CHECK_FALSE(aside.suffice(1.2f));                  // in as far as one sees, a lamp is close
+  CHECK_FALSE(aside.suffice(5, kInfinity, {}, 0));   // looks would be infinitely far apart
+  CHECK_FALSE(Asked(place + beside + lamp("0 0.05 -0.8")).suffice(5, 2, {}, 0));
+  CHECK(Asked(place + beside + lamp("0 0.05 0.8")).suffice(5, 2, {}, 0));  // behind what is opaque
+  CHECK_FALSE(Asked(beside).suffice(5, 2, {}, 0));  // no medium of the world has bounds
+}
+
 TEST_CASE("of a ray in media, its stretch to the end of their boxes counts") {
   Asked sun(kSun), lamp(kLamp);
   for (const float sigma : {0.2f, 2.0f}) {
