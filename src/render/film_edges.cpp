@@ -37,6 +37,7 @@ FilmEdges::FilmEdges(const View& view, const std::vector<float>& brightness) : p
     }
     return contrast;
   };
+  if (std::all_of(brightness.begin(), brightness.end(), [](float b) { return b == 0; })) return;
   std::vector<bool> edges;
   for (int y = pixels_.y0; y < pixels_.y1; ++y) {
     for (int x = pixels_.x0; x < pixels_.x1; ++x) edges.push_back(contrast_around(x, y).is_edge());

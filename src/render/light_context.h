@@ -20,7 +20,7 @@ struct LightContext {
   int event = 0;  ///< scattering events of the path before the one at hand
   /// The ray to it, where lamps were also sought jointly for that (joint_ray.h).
   const JointRay* joint = nullptr;
-  /// The camera's ray, where small shining surfaces were also aimed at (shine_light.h).
+  /// The camera's ray, where shining surfaces were also looked at otherwise (shine_light.h).
   const ShineRay* shine = nullptr;
 };
 

@@ -9,7 +9,7 @@ namespace {
 
 /// The box is cut into about as many cubes as this.
 constexpr float kCubes = 1 << 15;
-constexpr std::size_t kMostLamps = 1 << 18;
+constexpr std::size_t kMostLamps = 1 << 20;
 
 /// Each cube's nearest lamp, by passing lamps on from cube to cube, forth and back: now and then the second nearest.
 class Nearest {
@@ -67,11 +67,12 @@ class Nearest {
   std::vector<float> distances_;
 };
 
-std::vector<NearLamps::Lamp> gather_lamps(const Lights& lights) {
+std::vector<NearLamps::Lamp> gather_lamps(const Lights& lights, const FireLights& fire) {
   std::vector<NearLamps::Lamp> lamps;
   const std::size_t step = lights.size() / kMostLamps + 1;
   for (std::size_t i = 0; i < lights.size(); i += step) {
     const auto id = static_cast<LightId>(i);
+    if (fire.holds(id)) continue;
     const LightPlace place = lights.place(id);
     if (place.center && lights.power(id) > 0) lamps.push_back({*place.center, place.radius});
   }
@@ -80,14 +81,19 @@ std::vector<NearLamps::Lamp> gather_lamps(const Lights& lights) {
 
 }  // namespace
 
-NearLamps::NearLamps(const Bounds3& box, const std::vector<Lamp>& lamps) : cubes_(Cubes(box, kCubes)) {
+NearLamps::NearLamps(const Bounds3& box, const std::vector<Lamp>& lamps) : box_(box), cubes_(Cubes(box, kCubes)) {
   const Nearest nearest(*cubes_, lamps);
   const float half = 0.5f * length(cubes_->step());
   for (const float from_center : nearest.distances()) distances_.push_back(std::max(from_center - half, 0.0f));
 }
 
+float NearLamps::distance(Vec3 p) const {
+  const float outside = length(max(max(box_.min - p, p - box_.max), Vec3{0, 0, 0}));
+  return std::max(distances_[cubes_->index(p)] - outside, 0.0f);
+}
+
 NearLamps near_lamps(const std::vector<ParticipatingMedium>& media, const std::vector<BoundaryGroup>& groups,
-                     std::optional<MediumId> unbounded, const Lights& lights) {
+                     std::optional<MediumId> unbounded, const Lights& lights, const FireLights& fire) {
   Bounds3 all;
   for (MediumId id = 0; id < media.size(); ++id) {
     const Bounds3 box = reach_of(id, groups, unbounded);
@@ -95,7 +101,7 @@ NearLamps near_lamps(const std::vector<ParticipatingMedium>& media, const std::v
     all.expand(box.min);
     all.expand(box.max);
   }
-  return all.empty() || lights.near_box().empty() ? NearLamps() : NearLamps(all, gather_lamps(lights));
+  return all.empty() || lights.near_box().empty() ? NearLamps() : NearLamps(all, gather_lamps(lights, fire));
 }
 
 }  // namespace tyndall

@@ -55,8 +55,8 @@ void Path::add_surface_emission(const SurfaceHit& hit) {
   const Rgb L = lights.emitted(*id, emitter, -ray_.d);
   if (is_black(L)) return;
   const float pdf = light_sampled_ ? lights.pdf(*id, from_, emitter) : 0.0f;
-  const bool aimed_at = depth_ == 0 && context_.shine;
-  const float share = aimed_at ? context_.shine->own_share(context_.world, *id, emitter) : scattering_share(*id, pdf);
+  const bool seen_otherwise = depth_ == 0 && context_.shine;
+  const float share = seen_otherwise ? context_.shine->own_share(context_.world, *id, emitter) : scattering_share(*id, pdf);
   add(seen_.value_or(beta_) * L * share, depth_);
 }
 

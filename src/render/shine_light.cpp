@@ -22,7 +22,9 @@ constexpr int kPositions = 13;
 /// Of a Fibonacci lattice of so many points: spread evenly in the square and along both of its sides.
 constexpr int kLatticeStep = 8;
 
+/// Not where the film takes only so much of a sample: it would take more of a mean, or of an aimed ray's share.
 bool is_wanted(const World::Parts& world, const RenderSettings& settings) {
+  if (world.scene.film.max_component < kInfinity) return false;
   const bool asked = settings.joint == JointStrategy::points && settings.lights != LightStrategy::exhaustive;
   return asked && world.lights.stats().emitters > 0 && world.camera.is_pinhole();
 }
@@ -75,7 +77,7 @@ class ShineEstimate {
     const float pdf = aimed_pdf(world, view_.aims, light, seen->hit);
     if (!(filter.pdf > 0) || !(pdf > 0)) return {};
     const float share = mis_weight(pdf, static_cast<float>(positions_) * filter.pdf);
-    return exposed(seen->L * dimmed(context_, ray, *seen, sampler)) * (filter.weight * filter.pdf / pdf * share);
+    return seen->L * dimmed(context_, ray, *seen, sampler) * (filter.weight * filter.pdf / pdf * share);
   }
 
   /// By film positions that the filter draws.
@@ -100,15 +102,8 @@ class ShineEstimate {
     const auto seen = look_along(ray);
     if (!seen) return {};
     const float aimed = aimed_pdf(world, view_.aims, seen->light, seen->hit);
-    return exposed(seen->L * dimmed(context_, ray, *seen, sampler)) *
+    return seen->L * dimmed(context_, ray, *seen, sampler) *
            (offset.weight * mis_weight(static_cast<float>(positions_) * offset.pdf, aimed));
-  }
-
-  /// As much as the film takes of a sample that meets it: means are made of that.
-  Rgb exposed(Rgb radiance) const {
-    const Film& film = context_.world.scene.film;
-    const float brightest = max_component(radiance) * film.imaging_ratio;
-    return brightest > film.max_component ? radiance * (film.max_component / brightest) : radiance;
   }
 
   std::optional<SeenLight> look_along(const Ray& ray) const {
@@ -154,9 +149,10 @@ FilmEdges film_edges(const World::Parts& world, const RenderSettings& settings, 
 
 Rgb shine_light(const LightContext& context, const ShineView& view, Vec2 center, Sampler sampler) {
   const ShineEstimate estimate(context, view, center);
+  Sampler aiming = sampler.fork(), looking = sampler.fork();
   Rgb sum;
-  if (!view.aims.empty()) sum += estimate.by_aiming(sampler);
-  if (view.edge) sum += estimate.by_positions(sampler);
+  if (!view.aims.empty()) sum += estimate.by_aiming(aiming);
+  if (view.edge) sum += estimate.by_positions(looking);
   return sum;
 }
 

@@ -74,26 +74,30 @@ class Approach {
     if (!extent) return true;
     const CoarseRay coarse(part.view(), ray_);
     const float step = (extent->second - extent->first) / kLooks;
-    for (int i = 0; i < kLooks && depth_ < kOpaque; ++i) {
-      const float t = extent->first + (static_cast<float>(i) + 0.5f) * step;
-      if (!look_at(t, step, coarse.at(t).sigma_t * step)) return false;
+    for (int i = 0; i < kLooks && !opaque_; ++i) {
+      const float begin = extent->first + static_cast<float>(i) * step;
+      if (!look_at(begin, step, coarse.at(begin + 0.5f * step).sigma_t)) return false;
     }
     return true;
   }
-  bool deep(float enough) const { return depth_ > enough; }
+  bool deep(float enough) const { return opaque_ || depth_ > enough; }
 
  private:
-  bool look_at(float t, float step, float depth) {
-    depth_ += depth;
-    if (!(depth_ > kClear) || !(depth > 0)) return true;
-    begin_ = std::min(begin_, t - 0.5f * step);
-    nearest_ = std::min(nearest_, lamps_.distance(ray_.at(t)));
-    return nearest_ > kStandOff * 0.5f * (t + 0.5f * step - begin_);
+  bool look_at(float begin, float length, float sigma_t) {
+    const float left = kOpaque - depth_;
+    opaque_ = sigma_t * length >= left;
+    if (opaque_) length = left / sigma_t;
+    depth_ += sigma_t * length;
+    if (!(depth_ > kClear) || !(sigma_t > 0)) return true;
+    begin_ = std::min(begin_, begin);
+    nearest_ = std::min(nearest_, lamps_.distance(ray_.at(begin + 0.5f * length)));
+    return nearest_ > kStandOff * 0.5f * (begin + length - begin_);
   }
 
   const NearLamps& lamps_;
   const Ray& ray_;
   float depth_ = 0, begin_ = kInfinity, nearest_ = kInfinity;
+  bool opaque_ = false;
 };
 
 template <typename Parts>

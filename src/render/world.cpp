@@ -156,7 +156,7 @@ World::Parts::Parts(UnitScene unit_scene, const BuildSettings& settings, std::si
   lights = build_lights(scene, emitters.shapes, scene_bounds(geometry, media),
                         {.strategies = settings.lights, .textures = &textures, .threads = settings.threads, .volumes = volumes});
   fire.set_first(lights.first_volume());
-  near_lamps = tyndall::near_lamps(media, geometry.groups(), scene.camera.medium, lights);
+  near_lamps = tyndall::near_lamps(media, geometry.groups(), scene.camera.medium, lights, fire);
   glow = MediaGlow(media, {geometry.groups(), scene.camera.medium, lights, fire, scene_bounds(geometry, media)});
   for (std::string& note : fire.notes(scene.media)) summary.notes.push_back(std::move(note));
   first_light.assign(geometry.placed().size(), kNone);
