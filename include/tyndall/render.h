@@ -122,7 +122,7 @@ class RenderJob {
 
   PixelBounds pixels() const;  ///< of the frame, that are rendered
   int samples() const;     ///< a pixel, so far
-  double seconds() const;  ///< spent in advance()
+  double seconds() const;  ///< spent in looking at the film beforehand and in advance(); after restore(), as saved
   /// relMSE that the two replicates of each pixel predict: mean of variance / (mean^2 + 0.01) over pixels and
   /// channels. Infinity below 2 samples.
   double estimated_relmse() const;

@@ -10,12 +10,12 @@ namespace {
 /// Of the brighter of two pixels, that tells them apart: more than shading does, less than another lamp.
 constexpr float kLeastContrast = 0.1f;
 
-/// Of the darkest and the brightest of some pixels.
+/// The darkest and the brightest of some pixels.
 struct Contrast {
   float least = kInfinity, most = 0;
-  void add(float brightness) {
-    least = std::min(least, brightness);
-    most = std::max(most, brightness);
+  void add(const Contrast& other) {
+    least = std::min(least, other.least);
+    most = std::max(most, other.most);
   }
   bool is_edge() const { return most - least > kLeastContrast * most; }
 };
@@ -28,19 +28,26 @@ PixelBounds FilmEdges::View::around() const {
 }
 
 FilmEdges::FilmEdges(const View& view, const std::vector<float>& brightness) : pixels_(view.pixels) {
+  if (std::all_of(brightness.begin(), brightness.end(), [](float b) { return b == 0; })) return;
   const PixelBounds all = view.around();
   const int to_side = pixels_.x0 - all.x0, to_top = pixels_.y0 - all.y0;
-  const auto contrast_around = [&](int x, int y) {
-    Contrast contrast;
-    for (int j = y - to_top; j <= y + to_top; ++j) {
-      for (int i = x - to_side; i <= x + to_side; ++i) contrast.add(brightness[all.index(i, j)]);
+  // By columns and then across them: reads go as the sides of what a filter sees, not as its area.
+  const auto columns_around = [&](int y) {
+    std::vector<Contrast> columns;
+    for (int x = all.x0; x < all.x1; ++x) {
+      Contrast& column = columns.emplace_back();
+      for (int j = y - to_top; j <= y + to_top; ++j) column.add({brightness[all.index(x, j)], brightness[all.index(x, j)]});
     }
-    return contrast;
+    return columns;
   };
-  if (std::all_of(brightness.begin(), brightness.end(), [](float b) { return b == 0; })) return;
   std::vector<bool> edges;
   for (int y = pixels_.y0; y < pixels_.y1; ++y) {
-    for (int x = pixels_.x0; x < pixels_.x1; ++x) edges.push_back(contrast_around(x, y).is_edge());
+    const auto columns = columns_around(y);
+    for (auto from = columns.begin(); from + 2 * to_side != columns.end(); ++from) {
+      Contrast contrast;
+      std::for_each(from, from + 2 * to_side + 1, [&](const Contrast& column) { contrast.add(column); });
+      edges.push_back(contrast.is_edge());
+    }
   }
   if (std::find(edges.begin(), edges.end(), true) != edges.end()) edges_ = std::move(edges);
 }

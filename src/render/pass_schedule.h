@@ -1,9 +1,9 @@
 /// How many samples come next, and how long it will take.
 #pragma once
 
-#include <chrono>
 #include <optional>
 
+#include "math/stopwatch.h"
 #include "tyndall/render.h"
 
 namespace tyndall {
@@ -31,19 +31,16 @@ class PassSchedule {
   bool good_enough(const RenderJob& job) const;
   double fraction(double samples, double seconds) const;
 
-  using Clock = std::chrono::steady_clock;
-  static double since(Clock::time_point then) { return std::chrono::duration<double>(Clock::now() - then).count(); }
-
   /// The job as the first pass found it: empty, or resumed.
   struct Begun {
-    Clock::time_point when;
+    Stopwatch watch;
     int samples;
     double seconds;
   };
 
   RenderSettings settings_;
   std::optional<Begun> begun_;
-  Clock::time_point pass_begin_;
+  Stopwatch pass_watch_;
   bool checkpoints_;
   double samples_needed_ = 0;  ///< for settings.error, as far as is known; 0: not known
   double last_report_ = -1;

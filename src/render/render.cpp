@@ -1,6 +1,6 @@
 // The loop around a RenderJob: how long it goes on, and who hears of it.
-#include <chrono>
 
+#include "math/stopwatch.h"
 #include "render/pass_schedule.h"
 
 namespace tyndall {
@@ -22,7 +22,7 @@ class RenderLoop {
       report_progress(0);
       if (!given_up && control_.checkpoint && PassSchedule::is_checkpoint(job_.samples())) control_.checkpoint(job_);
       if (stop_requested()) break;
-      if (control_.save && since(last_save_) >= control_.save_seconds) save();
+      if (control_.save && since_save_.seconds() >= control_.save_seconds) save();
     }
     RenderReport report = job_.report();
     report.stopped = stop_requested() && (given_up || !schedule_.complete(job_));
@@ -31,25 +31,22 @@ class RenderLoop {
   }
 
  private:
-  using Clock = std::chrono::steady_clock;
-  static double since(Clock::time_point then) { return std::chrono::duration<double>(Clock::now() - then).count(); }
-
   /// False: it was given up. Keeping the way back open costs memory, so it is left out where passes are short.
   bool run_pass(int count) {
-    const auto start = Clock::now();
+    const Stopwatch pass_watch;
     const bool first = job_.samples() == 0;
     const bool slow = first || job_.seconds() / job_.samples() * count > kLongestWait / 2;
     const auto watch = [&](double samples) {
       report_progress(samples);
       if (!slow || !stop_requested()) return true;
-      return since(start) * (count - samples) <= kLongestWait * samples;
+      return pass_watch.seconds() * (count - samples) <= kLongestWait * samples;
     };
     return job_.advance(count, watch, slow ? RenderJob::GivenUp::undone : RenderJob::GivenUp::spoilt);
   }
 
   void save() {
     control_.save(job_);
-    last_save_ = Clock::now();
+    since_save_ = {};
   }
 
   bool stop_requested() const { return control_.stop != nullptr && control_.stop->load(std::memory_order_relaxed); }
@@ -63,7 +60,7 @@ class RenderLoop {
   const RenderControl& control_;
   RenderJob job_;
   PassSchedule schedule_;
-  Clock::time_point last_save_ = Clock::now();
+  Stopwatch since_save_;
 };
 
 }  // namespace

@@ -2,10 +2,10 @@
 #include <xmmintrin.h>
 
 #include <algorithm>
-#include <chrono>
 #include <mutex>
 
 #include "math/parallel.h"
+#include "math/stopwatch.h"
 #include "render/build_id.h"
 #include "render/checkpoint.h"
 #include "render/film_buffer.h"
@@ -87,10 +87,12 @@ class RenderJob::Impl {
         pool_(settings.threads),
         film_lamps_(film_lamps(world, settings_, film_.crop(), pool_)),
         film_shine_(film_shine(world, settings_, film_.crop(), pool_)),
-        film_edges_(film_edges(world, settings_, film_.crop(), pool_)) {}
+        film_edges_(film_edges(world, settings_, film_.crop(), pool_)) {
+    seconds_ = preparing_.seconds();
+  }
 
   bool advance(int count, const PassWatch& watch, GivenUp if_given_up) {
-    const auto start = Clock::now();
+    const Stopwatch pass_watch;
     RenderPass pass(film_.crop(), count, watch);
     const bool first = samples_ == 0, undo = if_given_up == GivenUp::undone;
     const Counters counters_before = counters_;
@@ -104,7 +106,7 @@ class RenderJob::Impl {
       const std::scoped_lock lock(mutex_);
       counters_ += counters;
     });
-    seconds_ += std::chrono::duration<double>(Clock::now() - start).count();
+    seconds_ += pass_watch.seconds();
     if (!pass.given_up) {
       samples_ += count;
     } else if (undo && first) {
@@ -157,8 +159,6 @@ class RenderJob::Impl {
   }
 
  private:
-  using Clock = std::chrono::steady_clock;
-
   /// What a pixel's samples seek on the film.
   struct FilmLights {
     PixelLamps lamps;
@@ -263,6 +263,7 @@ class RenderJob::Impl {
     if (brightest > film.max_component) record.scale_radiance(film.max_component / brightest);
   }
 
+  const Stopwatch preparing_;
   const World::Parts& world_;
   RenderSettings settings_;
   const LightSelector& selector_;

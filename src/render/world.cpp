@@ -1,9 +1,9 @@
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <optional>
 #include <utility>
 
+#include "math/stopwatch.h"
 #include "render/camera_media.h"
 #include "render/memory_plan.h"
 #include "render/scene_hash.h"
@@ -12,16 +12,6 @@
 
 namespace tyndall {
 namespace {
-
-/// Seconds since it was made.
-class Stopwatch {
- public:
-  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point start_ = Clock::now();
-};
 
 std::vector<ParticipatingMedium> build_media(const Scene& scene, const BuildSettings& settings, std::size_t most_memory,
                                              BuildSummary& summary) {
