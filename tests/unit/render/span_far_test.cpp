@@ -99,9 +99,10 @@ TEST_CASE("collisions suffice in dense stretches that no lamp comes close to bef
   const std::string beside = lamp("0.5 0 -1") + lamp("-0.5 0 1");
   Asked aside(place + beside);
   CHECK(aside.suffice(5, 2, {}, 0));
-  CHECK(aside.suffice(3, 2, {}, 1));
-  CHECK_FALSE(aside.suffice(0.9f));                  // few collide
-  CHECK_FALSE(aside.suffice(1.2f));                  // in as far as one sees, a lamp is close
+  CHECK_FALSE(aside.suffice(0.9f, 2, {}, 0));        // few collide
+  CHECK_FALSE(aside.suffice(1.2f, 2, {}, 0));        // in as far as one sees, a lamp is close
+  CHECK_FALSE(aside.suffice(0.45f, 2, {}, 1));       // later, fewer are enough,
+  CHECK(aside.suffice(0.6f, 2, {}, 1));              // and lamps may be closer
   CHECK_FALSE(aside.suffice(5, kInfinity, {}, 0));   // looks would be infinitely far apart
   CHECK_FALSE(Asked(place + beside + lamp("0 0.05 -0.8")).suffice(5, 2, {}, 0));
   CHECK(Asked(place + beside + lamp("0 0.05 0.8")).suffice(5, 2, {}, 0));  // behind what is opaque
