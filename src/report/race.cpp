@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <bit>
-#include <chrono>
 #include <numeric>
+#include <utility>
+
+#include "math/stopwatch.h"
 
 namespace tyndall {
 namespace {
@@ -25,16 +27,16 @@ bool stopped(const RaceControl& control) { return control.stop != nullptr && con
 class Runner {
  public:
   Runner(const World& world, const RenderSettings& settings, const RaceBudget& budget)
-      : job_(world, settings), budget_(budget) {}
+      : job_(world, settings), prepared_(job_.seconds()), budget_(budget) {}
 
   bool done() const { return run_.given_up || samples_left() == 0; }
 
   void turn(const RaceControl& control) {
     const int samples = next_pass();
     const bool first = job_.samples() == 0;
-    pass_start_ = Clock::now();
+    pass_watch_ = {};
     const auto go_on = [&](double) {
-      const bool patient = !first || !budget_.seconds || watch_seconds() < kPatience * *budget_.seconds;
+      const bool patient = !first || !budget_.seconds || pass_watch_.seconds() < kPatience * *budget_.seconds;
       return patient && !stopped(control);
     };
     if (!job_.advance(samples, go_on)) {
@@ -63,10 +65,7 @@ class Runner {
   }
 
  private:
-  using Clock = std::chrono::steady_clock;
-
-  double watch_seconds() const { return std::chrono::duration<double>(Clock::now() - pass_start_).count(); }
-  double a_sample() const { return job_.seconds() / job_.samples(); }
+  double a_sample() const { return (job_.seconds() - prepared_) / job_.samples(); }
 
   /// Samples that the budget still holds, to the nearest whole one.
   int samples_left() const {
@@ -86,9 +85,10 @@ class Runner {
   }
 
   RenderJob job_;
+  double prepared_;  ///< the job's clock before its first sample
   RaceBudget budget_;
   RaceRun run_;
-  Clock::time_point pass_start_;
+  Stopwatch pass_watch_;
 };
 
 double mean_fraction(const std::vector<Runner>& runners) {
@@ -104,11 +104,13 @@ std::vector<RaceRun> race(const World& world, const std::vector<RenderSettings>&
   std::vector<Runner> runners;
   for (const RenderSettings& m : methods) runners.emplace_back(world, m, budget);
   const auto running = [](const Runner& r) { return !r.done(); };
-  // Who has come least far is next: all reach each point of the race at about the same time.
+  // Who has come least far is next: all reach each point of the race at about the same time. One that has not begun may have
+  // spent its time, as one has that is done.
+  const auto is_behind = [](const Runner& a, const Runner& b) {
+    return std::pair(a.done(), a.fraction()) < std::pair(b.done(), b.fraction());
+  };
   while (std::any_of(runners.begin(), runners.end(), running)) {
-    std::min_element(runners.begin(), runners.end(), [](const Runner& a, const Runner& b) {
-      return a.fraction() < b.fraction();
-    })->turn(control);
+    std::min_element(runners.begin(), runners.end(), is_behind)->turn(control);
     if (stopped(control)) return {};
     if (control.progress) control.progress(mean_fraction(runners));
   }

@@ -222,7 +222,8 @@ TEST_CASE("spans that no lamp comes close to, lit at their collisions, make the 
   Agreement how;
   if (!nightly()) how.d = 0.03;
   check_all_agree("stand-off", look(4) + diffuse_plane(1.8f, 3, 0.5f) + lamps + smoke,
-                  {{"pairs", {.distance = DistanceStrategy::profile}}, {"auto", {}}, {"vertex", {.media = MediaStrategy::vertex}}}, how);
+                  {{"pairs", {.distance = DistanceStrategy::profile}}, {"auto", {}},
+                   {"vertex", {.media = MediaStrategy::vertex, .joint = JointStrategy::points}}}, how);  // next to a lamp its variance is infinite
 }
 
 // Small surfaces of every kind, before, in and behind smoke, one half hidden by a board, one half off the frame, the camera in a fog
