@@ -13,7 +13,7 @@
 #include "cli/progress_display.h"
 #include "cli/save.h"
 #include "cli/stop_signal.h"
-#include "math/stopwatch.h"
+#include "cli/stopwatch.h"
 #include "report/compare_results.h"
 #include "report/page.h"
 #include "tyndall/io.h"

@@ -15,8 +15,8 @@
 #include "cli/room.h"
 #include "cli/save.h"
 #include "cli/stop_signal.h"
+#include "cli/stopwatch.h"
 #include "cli/summary.h"
-#include "math/stopwatch.h"
 #include "tyndall/io.h"
 
 namespace tyndall::cli {

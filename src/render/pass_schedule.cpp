@@ -30,8 +30,8 @@ bool PassSchedule::complete(const RenderJob& job) const {
 }
 
 int PassSchedule::next_pass(const RenderJob& job) {
-  pass_watch_ = {};
-  if (!begun_) begun_ = Begun{pass_watch_, job.samples(), job.seconds()};
+  pass_timer_ = {};
+  if (!begun_) begun_ = Begun{pass_timer_, job.samples(), job.seconds()};
   if (complete(job)) return 0;
   const int done = job.samples();
   int pass = std::clamp(done, 1, kLargestPass);
@@ -55,14 +55,14 @@ double PassSchedule::fraction(double samples, double seconds) const {
 }
 
 std::optional<Progress> PassSchedule::progress(const RenderJob& job, double pass_samples) {
-  const double now = begun_ ? begun_->watch.seconds() : 0;
+  const double now = begun_ ? begun_->timer.seconds() : 0;
   if (!begun_ || (now - last_report_ < kReportSeconds && job.samples() < settings_.spp)) return std::nullopt;
   last_report_ = now;
   Progress p;
   p.samples_done = job.samples();
   p.seconds = now;
   // The job's clock stands still until a pass has ended.
-  p.fraction = fraction(p.samples_done + pass_samples, job.seconds() + (pass_samples > 0 ? pass_watch_.seconds() : 0));
+  p.fraction = fraction(p.samples_done + pass_samples, job.seconds() + (pass_samples > 0 ? pass_timer_.seconds() : 0));
   const double here = p.fraction - fraction(begun_->samples, begun_->seconds);  // what a checkpoint brought took no time here
   p.remaining = here > 0 ? now * (1 - p.fraction) / here : 0.0;
   return p;

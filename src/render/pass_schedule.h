@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "math/stopwatch.h"
+#include "math/timer.h"
 #include "tyndall/render.h"
 
 namespace tyndall {
@@ -33,14 +33,14 @@ class PassSchedule {
 
   /// The job as the first pass found it: empty, or resumed.
   struct Begun {
-    Stopwatch watch;
+    Timer timer;
     int samples;
     double seconds;
   };
 
   RenderSettings settings_;
   std::optional<Begun> begun_;
-  Stopwatch pass_watch_;
+  Timer pass_timer_;
   bool checkpoints_;
   double samples_needed_ = 0;  ///< for settings.error, as far as is known; 0: not known
   double last_report_ = -1;

@@ -1,6 +1,6 @@
 // The loop around a RenderJob: how long it goes on, and who hears of it.
 
-#include "math/stopwatch.h"
+#include "math/timer.h"
 #include "render/pass_schedule.h"
 
 namespace tyndall {
@@ -33,13 +33,13 @@ class RenderLoop {
  private:
   /// False: it was given up. Keeping the way back open costs memory, so it is left out where passes are short.
   bool run_pass(int count) {
-    const Stopwatch pass_watch;
+    const Timer pass_timer;
     const bool first = job_.samples() == 0;
     const bool slow = first || job_.seconds() / job_.samples() * count > kLongestWait / 2;
     const auto watch = [&](double samples) {
       report_progress(samples);
       if (!slow || !stop_requested()) return true;
-      return pass_watch.seconds() * (count - samples) <= kLongestWait * samples;
+      return pass_timer.seconds() * (count - samples) <= kLongestWait * samples;
     };
     return job_.advance(count, watch, slow ? RenderJob::GivenUp::undone : RenderJob::GivenUp::spoilt);
   }
@@ -60,7 +60,7 @@ class RenderLoop {
   const RenderControl& control_;
   RenderJob job_;
   PassSchedule schedule_;
-  Stopwatch since_save_;
+  Timer since_save_;
 };
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <mutex>
 
 #include "math/parallel.h"
-#include "math/stopwatch.h"
+#include "math/timer.h"
 #include "render/build_id.h"
 #include "render/checkpoint.h"
 #include "render/film_buffer.h"
@@ -92,7 +92,7 @@ class RenderJob::Impl {
   }
 
   bool advance(int count, const PassWatch& watch, GivenUp if_given_up) {
-    const Stopwatch pass_watch;
+    const Timer pass_timer;
     RenderPass pass(film_.crop(), count, watch);
     const bool first = samples_ == 0, undo = if_given_up == GivenUp::undone;
     const Counters counters_before = counters_;
@@ -106,7 +106,7 @@ class RenderJob::Impl {
       const std::scoped_lock lock(mutex_);
       counters_ += counters;
     });
-    seconds_ += pass_watch.seconds();
+    seconds_ += pass_timer.seconds();
     if (!pass.given_up) {
       samples_ += count;
     } else if (undo && first) {
@@ -263,7 +263,7 @@ class RenderJob::Impl {
     if (brightest > film.max_component) record.scale_radiance(film.max_component / brightest);
   }
 
-  const Stopwatch preparing_;
+  const Timer preparing_;
   const World::Parts& world_;
   RenderSettings settings_;
   const LightSelector& selector_;

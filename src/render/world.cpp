@@ -3,7 +3,7 @@
 #include <optional>
 #include <utility>
 
-#include "math/stopwatch.h"
+#include "math/timer.h"
 #include "render/camera_media.h"
 #include "render/memory_plan.h"
 #include "render/scene_hash.h"
@@ -15,7 +15,7 @@ namespace {
 
 std::vector<ParticipatingMedium> build_media(const Scene& scene, const BuildSettings& settings, std::size_t most_memory,
                                              BuildSummary& summary) {
-  const Stopwatch watch;
+  const Timer watch;
   std::vector<ParticipatingMedium> media;
   media.reserve(scene.media.size());
   for (const Medium& medium : scene.media) {
@@ -29,7 +29,7 @@ std::vector<ParticipatingMedium> build_media(const Scene& scene, const BuildSett
 }
 
 Geometry build_geometry(const Scene& scene, const Textures& textures, int threads, BuildSummary& summary) {
-  const Stopwatch watch;
+  const Timer watch;
   Geometry geometry(scene, &textures, threads);
   summary.triangles = geometry.triangle_count();
   summary.geometry_bytes = geometry.memory_bytes();
@@ -140,7 +140,7 @@ World::Parts::Parts(UnitScene unit_scene, const BuildSettings& settings, std::si
       has_fire(settings.fire),
       camera(scene.camera, scene.film),
       filter(scene.filter) {
-  const Stopwatch watch;
+  const Timer watch;
   const Emitters emitters = find_emitters(scene, geometry, summary);
   const std::vector<VolumeEmitter> volumes = fire.emitters();
   lights = build_lights(scene, emitters.shapes, scene_bounds(geometry, media),

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <bit>
+#include <chrono>
 #include <numeric>
 #include <utility>
-
-#include "math/stopwatch.h"
 
 namespace tyndall {
 namespace {
@@ -34,9 +33,9 @@ class Runner {
   void turn(const RaceControl& control) {
     const int samples = next_pass();
     const bool first = job_.samples() == 0;
-    pass_watch_ = {};
+    pass_start_ = Clock::now();
     const auto go_on = [&](double) {
-      const bool patient = !first || !budget_.seconds || pass_watch_.seconds() < kPatience * *budget_.seconds;
+      const bool patient = !first || !budget_.seconds || watch_seconds() < kPatience * *budget_.seconds;
       return patient && !stopped(control);
     };
     if (!job_.advance(samples, go_on)) {
@@ -65,6 +64,9 @@ class Runner {
   }
 
  private:
+  using Clock = std::chrono::steady_clock;
+
+  double watch_seconds() const { return std::chrono::duration<double>(Clock::now() - pass_start_).count(); }
   double a_sample() const { return (job_.seconds() - prepared_) / job_.samples(); }
 
   /// Samples that the budget still holds, to the nearest whole one.
@@ -88,7 +90,7 @@ class Runner {
   double prepared_;  ///< the job's clock before its first sample
   RaceBudget budget_;
   RaceRun run_;
-  Stopwatch pass_watch_;
+  Clock::time_point pass_start_;
 };
 
 double mean_fraction(const std::vector<Runner>& runners) {

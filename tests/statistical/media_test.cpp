@@ -220,10 +220,10 @@ TEST_CASE("spans that no lamp comes close to, lit at their collisions, make the 
                             emitting_square({-1.8f, 1.5f, 0.3f}, 0.5f, 0.6f);
   const std::string smoke = uniform_grid("smoke", {.sigma_a = {0.3f, 0.2f, 0.2f}, .sigma_s = {8, 9, 10}, .g = 0.4f}, holes()) + medium_box("smoke", "", kBox);
   Agreement how;
-  if (!nightly()) how.d = 0.03;
+  how.d = nightly() ? 0.01 : 0.03;  // 0.3 % is a quarter of an hour, for the vertex method's sake
   check_all_agree("stand-off", look(4) + diffuse_plane(1.8f, 3, 0.5f) + lamps + smoke,
                   {{"pairs", {.distance = DistanceStrategy::profile}}, {"auto", {}},
-                   {"vertex", {.media = MediaStrategy::vertex, .joint = JointStrategy::points}}}, how);  // next to a lamp its variance is infinite
+                   {"vertex", {.media = MediaStrategy::vertex, .joint = JointStrategy::points}}}, how);
 }
 
 // Small surfaces of every kind, before, in and behind smoke, one half hidden by a board, one half off the frame, the camera in a fog
