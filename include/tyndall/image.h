@@ -48,8 +48,8 @@ struct Image {
 
   int width() const { return data.width(); }
   int height() const { return data.height(); }
-  Channel& add_channel(std::string name);                   ///< zero-filled; returns the new channel
-  const Channel* find(std::string_view channel) const;      ///< null when absent
+  Channel& add_channel(std::string name);               ///< zero-filled; returns the new channel
+  const Channel* find(std::string_view channel) const;  ///< null when absent
   Rgb rgb(int x, int y) const;  ///< R G B (or Y) at data-window-relative x, y; throws Error when the image has neither
 };
 

@@ -46,9 +46,7 @@ constexpr Vec3& operator*=(Vec3& a, float s) { return a = a * s; }
 
 constexpr float dot(Vec3 a, Vec3 b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 constexpr float abs_dot(Vec3 a, Vec3 b) { return std::max(dot(a, b), -dot(a, b)); }
-constexpr Vec3 cross(Vec3 a, Vec3 b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
+constexpr Vec3 cross(Vec3 a, Vec3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
 constexpr float length_squared(Vec3 a) { return dot(a, a); }
 inline float length(Vec3 a) { return std::sqrt(length_squared(a)); }
 /// Unit vector along `a`; a zero vector stays zero.
@@ -109,9 +107,7 @@ struct Bounds3 {
   constexpr bool contains(Vec3 p) const {
     return p.x >= min.x && p.x <= max.x && p.y >= min.y && p.y <= max.y && p.z >= min.z && p.z <= max.z;
   }
-  constexpr Vec3 corner(int i) const {
-    return {(i & 1) ? max.x : min.x, (i & 2) ? max.y : min.y, (i & 4) ? max.z : min.z};
-  }
+  constexpr Vec3 corner(int i) const { return {(i & 1) ? max.x : min.x, (i & 2) ? max.y : min.y, (i & 4) ? max.z : min.z}; }
 };
 
 /// A half-line o + t d, t > 0. `d` has unit length unless said otherwise.

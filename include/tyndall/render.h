@@ -38,7 +38,7 @@ struct BuildSummary {
   std::size_t geometry_bytes = 0, light_bytes = 0, volume_bytes = 0;
   double geometry_seconds = 0, light_seconds = 0, volume_seconds = 0;
   std::vector<LightStrategyBuild> light_strategies;  ///< their shares of light_seconds and light_bytes
-  std::vector<std::string> notes;  ///< grids chosen, voxels mended, and other things a user should see
+  std::vector<std::string> notes;                    ///< grids chosen, voxels mended, and other things a user should see
 };
 
 /// A scene ready to render: immutable, opaque, shareable between threads.
@@ -67,10 +67,10 @@ World build(Scene scene, const BuildSettings& settings = {});
 
 /// Where a render stands.
 struct Progress {
-  int samples_done = 0;      ///< per pixel
-  double fraction = 0;       ///< of the whole, [0, 1]; with what RenderControl::begin restored
-  double seconds = 0;        ///< since the start, of this process
-  double remaining = 0;      ///< estimated
+  int samples_done = 0;  ///< per pixel
+  double fraction = 0;   ///< of the whole, [0, 1]; with what RenderControl::begin restored
+  double seconds = 0;    ///< since the start, of this process
+  double remaining = 0;  ///< estimated
 };
 
 /// A sample that was not finite and was counted as black.
@@ -80,10 +80,10 @@ struct BadSample {
 
 /// Counts of a render. A correct render has 0 in the second group.
 struct RenderReport {
-  int samples = 0;  ///< per pixel, done
-  bool stopped = false;  ///< ended by RenderControl::stop
+  int samples = 0;               ///< per pixel, done
+  bool stopped = false;          ///< ended by RenderControl::stop
   std::uint64_t unrendered = 0;  ///< pixels without a sample: the first pass was given up
-  double seconds = 0;  ///< spent rendering
+  double seconds = 0;            ///< spent rendering
   std::uint64_t paths = 0, rays = 0, shadow_rays = 0, density_lookups = 0;
 
   std::uint64_t non_finite = 0, majorant_violations = 0, caps_hit = 0, parity_errors = 0;
@@ -121,8 +121,8 @@ class RenderJob {
   void restore(std::string_view bytes, const std::string& name);
 
   PixelBounds pixels() const;  ///< of the frame, that are rendered
-  int samples() const;     ///< a pixel, so far
-  double seconds() const;  ///< spent in looking at the film beforehand and in advance(); after restore(), as saved
+  int samples() const;         ///< a pixel, so far
+  double seconds() const;      ///< spent in looking at the film beforehand and in advance(); after restore(), as saved
   /// relMSE that the two replicates of each pixel predict: mean of variance / (mean^2 + 0.01) over pixels and
   /// channels. Infinity below 2 samples.
   double estimated_relmse() const;
@@ -157,8 +157,8 @@ struct Rendering {
 };
 
 /// Render `world`. What a scene file asks for is in its Scene::settings: pass these, changed as you like; the light
-/// strategy must be one that the World was built with. The image depends on the scene, the settings and nothing else: not on threads or time
-/// (but for the number of samples when `settings.time` is set). Throws Error (usage) as RenderJob does.
+/// strategy must be one that the World was built with. The image depends on the scene, the settings and nothing else: not on
+/// threads or time (but for the number of samples when `settings.time` is set). Throws Error (usage) as RenderJob does.
 Rendering render(const World& world, const RenderSettings& settings, const RenderControl& control = {});
 
 std::string_view version();  ///< "0.1.0"

@@ -191,9 +191,9 @@ struct PointLight {
   Rgb I;          ///< W/sr
 };
 struct SpotLight {
-  Transform to_world;  ///< light at the origin, shining along +z
-  Rgb I;               ///< on the axis
-  float cone_angle_degrees = 30;   ///< half angle where it reaches 0
+  Transform to_world;                ///< light at the origin, shining along +z
+  Rgb I;                             ///< on the axis
+  float cone_angle_degrees = 30;     ///< half angle where it reaches 0
   float falloff_start_degrees = 25;  ///< half angle where it begins to fall, pbrt's smoothstep
 };
 struct DistantLight {
@@ -213,8 +213,8 @@ struct Light {
 };
 /// Diffuse emission of a shape.
 struct AreaLight {
-  Rgb L;                   ///< radiance
-  std::string path;        ///< emission image over uv, multiplied by L; empty: constant
+  Rgb L;             ///< radiance
+  std::string path;  ///< emission image over uv, multiplied by L; empty: constant
   std::array<float, 9> to_rec709{1, 0, 0, 0, 1, 0, 0, 0, 1};
   std::optional<float> power;  ///< when set, L is scaled so that each triangle, patch or quadric emits this much (pbrt)
   bool two_sided = false;
@@ -266,8 +266,8 @@ struct Instance {
 
 struct Camera {
   enum class Kind { perspective, orthographic } kind = Kind::perspective;
-  Transform to_world;  ///< camera space: +z forward, +y up
-  float fov_degrees = 90;  ///< of the shorter screen axis
+  Transform to_world;                                 ///< camera space: +z forward, +y up
+  float fov_degrees = 90;                             ///< of the shorter screen axis
   std::optional<std::array<float, 4>> screen_window;  ///< x0 x1 y0 y1
   std::optional<float> frame_aspect_ratio;
   float lens_radius = 0, focal_distance = 1e6f;
@@ -287,9 +287,9 @@ struct Film {
 struct PixelFilter {
   enum class Kind { box, triangle, gaussian, mitchell, sinc } kind = Kind::gaussian;
   Vec2 radius{1.5f, 1.5f};
-  float sigma = 0.5f;          ///< gaussian
+  float sigma = 0.5f;              ///< gaussian
   float b = 1 / 3.f, c = 1 / 3.f;  ///< mitchell
-  float tau = 3;               ///< sinc
+  float tau = 3;                   ///< sinc
 };
 
 struct Scene {

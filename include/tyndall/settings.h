@@ -29,10 +29,10 @@ enum class EmissionStrategy { paths, lights };
 /// `automatic`: the latter with MediaStrategy::product, the former with what stands for other programs' methods. Homogeneous
 /// media draw no paths, and paths of one event need none.
 enum class GuidingStrategy { automatic, off, media };
-/// Whether rays are also drawn close to point and spot lights in media, with MIS: a collision aims the next one near lights that
-/// shine on it, and a pinhole's pixel takes film positions near the images of those that its filter sees. The pixel also aims at
-/// small shining surfaces that it sees, in media or not. `automatic`: they are
-/// with MediaStrategy::product, and not with what stands for other programs' methods. LightStrategy::exhaustive has no part in it.
+/// Whether rays are also drawn close to point and spot lights in media, with MIS: a collision aims the next one near lights
+/// that shine on it, and a pinhole's pixel takes film positions near the images of those that its filter sees. The pixel also
+/// aims at small shining surfaces that it sees, in media or not. `automatic`: they are with MediaStrategy::product, and not
+/// with what stands for other programs' methods. LightStrategy::exhaustive has no part in it.
 enum class JointStrategy { automatic, off, points };
 /// Estimator of transmittance along shadow rays.
 enum class TransmittanceStrategy { residual, ratio, delta, raymarch };
@@ -43,9 +43,9 @@ struct RenderSettings {
   /// relMSE (mean of variance / (mean^2 + 0.01), from the render's own replicates) to stop below; looked at when the
   /// samples are 64, 128, 256 ...
   std::optional<double> error{};
-  int max_depth = 5;             ///< scattering events a path, counted as pbrt's volpath; >= 0
+  int max_depth = 5;  ///< scattering events a path, counted as pbrt's volpath; >= 0
   std::uint64_t seed = 0;
-  int threads = 0;               ///< 0: all cores
+  int threads = 0;                             ///< 0: all cores
   LightStrategy lights = LightStrategy::tree;  ///< one that the World was built with
   /// Lights chosen at a vertex or along a stretch of medium, >= 0; 0: as many as splitting makes clusters, one without a
   /// tree. Exhaustive takes all lights and traces all. Unset: 2, where a surface favours directions 4, along stretches
@@ -66,7 +66,7 @@ struct RenderSettings {
   TransmittanceStrategy transmittance = TransmittanceStrategy::raymarch;
   std::vector<std::string> aovs{};  ///< names from aov_names()
   std::optional<PixelBounds> crop{};
-  bool reproducible = false;     ///< leave times and dates out of the image header
+  bool reproducible = false;  ///< leave times and dates out of the image header
 };
 
 /// A choice between methods that give the same picture: an option of the command line and of the Integrator line.

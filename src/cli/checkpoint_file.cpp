@@ -17,10 +17,12 @@ bool CheckpointFile::resume(RenderJob& job, const RenderSettings& limits) const 
   if (!std::filesystem::exists(path_, code)) return false;
   job.restore(read_file(path_), path_);
   const auto refuse = [&](const std::string& holds, const std::string& give) {
-    throw Error(Failure::scene, fmt::format("{}: holds {}; give {}, or remove it, or leave out --resume, to begin anew", path_, holds, give));
+    throw Error(Failure::scene,
+                fmt::format("{}: holds {}; give {}, or remove it, or leave out --resume, to begin anew", path_, holds, give));
   };
   if (job.samples() > limits.spp) {
-    refuse(fmt::format("{} samples a pixel, more than the {} asked for", job.samples(), limits.spp), fmt::format("--spp {} or more", job.samples()));
+    refuse(fmt::format("{} samples a pixel, more than the {} asked for", job.samples(), limits.spp),
+           fmt::format("--spp {} or more", job.samples()));
   }
   // The time counts from the beginning of the unbroken render. One that was cut off after its last pass holds a little more
   // than it was given, and is complete; more than that is another wish than the checkpoint's.

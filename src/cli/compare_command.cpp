@@ -24,7 +24,9 @@ namespace {
 constexpr std::uint64_t kReferenceSeed = 0x7265666572656e63;  ///< apart from any seed that a run is likely to have
 
 World build_for(Scene scene, const ComparePlan& plan, const RenderSettings& base, const CompareOptions& o) {
-  BuildSettings settings{.lights = {base.lights}, .sanitize = o.picture.sanitize, .threads = base.threads,
+  BuildSettings settings{.lights = {base.lights},
+                         .sanitize = o.picture.sanitize,
+                         .threads = base.threads,
                          .max_memory = memory_limit(o.max_memory)};
   settings.fire = base.emission == EmissionStrategy::lights;
   for (const CompareVariant& v : plan.variants) {
@@ -45,7 +47,8 @@ Reference make_reference(const World& world, RenderSettings settings, const Comp
     goal.seconds = 0.5 * *plan.budget.seconds * static_cast<double>(plan.variants.size() * plan.seeds.size());
   }
   display.begin("reference");
-  return render_reference(world, settings, goal, {.progress = [&](const Progress& p) { display.show(p); }, .stop = &stop_requested()});
+  return render_reference(world, settings, goal,
+                          {.progress = [&](const Progress& p) { display.show(p); }, .stop = &stop_requested()});
 }
 
 CompareResult run_plan(const World& world, const ComparePlan& plan, const Reference& reference, ProgressDisplay& display) {
@@ -53,7 +56,10 @@ CompareResult run_plan(const World& world, const ComparePlan& plan, const Refere
   const Stopwatch watch;
   const auto progress = [&](double fraction) {
     const double seconds = watch.seconds();
-    display.show({.samples_done = 0, .fraction = fraction, .seconds = seconds, .remaining = seconds * (1 - fraction) / std::max(fraction, 1e-9)});
+    display.show({.samples_done = 0,
+                  .fraction = fraction,
+                  .seconds = seconds,
+                  .remaining = seconds * (1 - fraction) / std::max(fraction, 1e-9)});
   };
   CompareResult result = compare(world, plan, reference, {.progress = progress, .stop = &stop_requested()});
   display.finish();
@@ -62,16 +68,20 @@ CompareResult run_plan(const World& world, const ComparePlan& plan, const Refere
 
 void warn_of_reference(const Reference& reference, const CompareOptions& o, CompareResult& result) {
   if (o.reference.empty() && reference.relmse > o.reference_error) {
-    result.warnings.insert(result.warnings.begin(),
-                           fmt::format("the reference reached relMSE {:.2g} and not {:.2g} in the time it had; its noise is taken "
-                                       "off the errors, but --reference-time gives it more", reference.relmse, o.reference_error));
+    result.warnings.insert(
+        result.warnings.begin(),
+        fmt::format("the reference reached relMSE {:.2g} and not {:.2g} in the time it had; its noise is taken "
+                    "off the errors, but --reference-time gives it more",
+                    reference.relmse, o.reference_error));
   }
   if (!reference.has_variance) {
-    result.warnings.insert(result.warnings.begin(), "the reference has no variance channels: its noise, if any, is in every error");
+    result.warnings.insert(result.warnings.begin(),
+                           "the reference has no variance channels: its noise, if any, is in every error");
   }
 }
 
-void write_report(const std::string& folder, const nlohmann::ordered_json& results, const Reference& reference, const CompareResult& result) {
+void write_report(const std::string& folder, const nlohmann::ordered_json& results, const Reference& reference,
+                  const CompareResult& result) {
   make_folder(folder);
   std::vector<PagePicture> pictures{{"", "reference", reference.image}};
   for (const VariantResult& v : result.variants) {
@@ -133,8 +143,12 @@ int run_compare(const CompareOptions& o, const std::string& command) {
   if (result.variants.empty()) return give_up(o.folder);
   warn_of_reference(*reference, o, result);
 
-  const CompareContext context{.scene = o.scene, .options = common_options(o), .command = command, .width = reference->image.width(),
-                               .height = reference->image.height(), .threads = base.threads};
+  const CompareContext context{.scene = o.scene,
+                               .options = common_options(o),
+                               .command = command,
+                               .width = reference->image.width(),
+                               .height = reference->image.height(),
+                               .threads = base.threads};
   const auto results = compare_json(context, plan, *reference, result);
   save_report(o.folder, [&](const std::string& folder) { write_report(folder, results, *reference, result); });
   print_result(o, result, results);

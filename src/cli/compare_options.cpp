@@ -17,29 +17,48 @@ RaceBudget budget_of(const CompareOptions& o) {
 
 void declare(CLI::App& command, CompareOptions& o) {
   declare_scene(command, o.scene);
-  command.add_option("--variants", o.variants,
-                     "what to compare: " + preset_names() + ", or \"name:--lights power\"; several separated by commas; the "
-                     "first is what the others are measured by [lights]; --variants \"a:--lights power, b:--lights tree-binary\"")
-      ->expected(1)->take_all();
-  auto* time = command.add_option("--time", o.time, "seconds that each variant renders for each seed [20]; --time 5")->check(positive());
+  command
+      .add_option(
+          "--variants", o.variants,
+          "what to compare: " + preset_names() +
+              ", or \"name:--lights power\"; several separated by commas; the "
+              "first is what the others are measured by [lights]; --variants \"a:--lights power, b:--lights tree-binary\"")
+      ->expected(1)
+      ->take_all();
+  auto* time =
+      command.add_option("--time", o.time, "seconds that each variant renders for each seed [20]; --time 5")->check(positive());
   command.add_option("--spp", o.spp, "samples a pixel for each variant and seed, instead of --time [none]; --spp 64")
-      ->check(CLI::Range(1, 1 << 30))->excludes(time);
-  command.add_option("--seeds", o.seeds, "runs of each variant; the intervals come from their spread [5]; --seeds 10")->check(CLI::Range(5, 1000));
+      ->check(CLI::Range(1, 1 << 30))
+      ->excludes(time);
+  command.add_option("--seeds", o.seeds, "runs of each variant; the intervals come from their spread [5]; --seeds 10")
+      ->check(CLI::Range(5, 1000));
   command.add_option("--seed", o.seed, "of the first run; the others count up [1]; --seed 100")->check(whole_number());
-  auto* reference = command.add_option("--reference", o.reference, "image that errors are measured against; with channels Variance.R .. its own noise is taken off [rendered]; --reference best.exr");
-  command.add_option("--reference-error", o.reference_error, "estimated relMSE at which the rendered reference is good enough [0.001]; --reference-error 1e-4")
-      ->check(positive())->excludes(reference);
-  command.add_option("--reference-time", o.reference_time, "seconds to render the reference for, at most [half as long as all runs together; with --spp no limit]; --reference-time 600")
-      ->check(positive())->excludes(reference);
-  command.add_option("-o,--output", o.folder, "folder for index.html, results.json, error.csv and the images [compare-report]; -o report");
-  command.add_option("--threads", o.threads, "threads [the Integrator's, else 0: one a core]; --threads 2")->check(CLI::Range(0, 4096));
+  auto* reference = command.add_option("--reference", o.reference,
+                                       "image that errors are measured against; with channels Variance.R .. its own noise is "
+                                       "taken off [rendered]; --reference best.exr");
+  command
+      .add_option("--reference-error", o.reference_error,
+                  "estimated relMSE at which the rendered reference is good enough [0.001]; --reference-error 1e-4")
+      ->check(positive())
+      ->excludes(reference);
+  command
+      .add_option("--reference-time", o.reference_time,
+                  "seconds to render the reference for, at most [half as long as all runs together; with --spp no limit]; "
+                  "--reference-time 600")
+      ->check(positive())
+      ->excludes(reference);
+  command.add_option("-o,--output", o.folder,
+                     "folder for index.html, results.json, error.csv and the images [compare-report]; -o report");
+  command.add_option("--threads", o.threads, "threads [the Integrator's, else 0: one a core]; --threads 2")
+      ->check(CLI::Range(0, 4096));
   declare(command, o.methods);
   declare(command, o.picture);
   declare_memory(command, o.max_memory);
   declare_progress(command, o.progress);
   command.add_flag("--quiet", o.quiet, "no progress, notes or table; errors only");
   command.add_flag("--json", o.json, "results.json on stdout too");
-  command.footer("Options of render hold for all variants and for the reference. What is written: see README, Comparing methods.");
+  command.footer(
+      "Options of render hold for all variants and for the reference. What is written: see README, Comparing methods.");
 }
 
 std::string common_options(const CompareOptions& o) {
@@ -58,7 +77,8 @@ std::string common_options(const CompareOptions& o) {
 }
 
 ComparePlan plan_of(const CompareOptions& o, const RenderSettings& base) {
-  ComparePlan plan{parse_variants(o.variants.empty() ? std::vector<std::string>{"lights"} : o.variants, base), budget_of(o), {}};
+  ComparePlan plan{
+      parse_variants(o.variants.empty() ? std::vector<std::string>{"lights"} : o.variants, base), budget_of(o), {}};
   for (int i = 0; i < o.seeds; ++i) plan.seeds.push_back(o.seed + static_cast<std::uint64_t>(i));
   return plan;
 }

@@ -57,7 +57,8 @@ void declare(CLI::App& command, DiffOptions& o) {
   command.add_option("image", o.image, "image to judge (.exr, .png, .hdr, .jpg, .tga, .bmp)")->required();
   command.add_option("reference", o.reference, "image it is held against")->required();
   command.add_option("-o,--output", o.picture,
-                     "error picture, a PNG: relative squared error, black up to 1e-4, pale yellow from 10; not made when the images have no pixels in common; -o error.png");
+                     "error picture, a PNG: relative squared error, black up to 1e-4, pale yellow from 10; not made when the "
+                     "images have no pixels in common; -o error.png");
   command.add_flag("--json", o.json, "as JSON on stdout");
   command
       .add_option("--channels", o.settings.channels, "look at these only: channels (Z) or groups (RGB, Albedo); example: RGB,Z")
@@ -67,7 +68,9 @@ void declare(CLI::App& command, DiffOptions& o) {
       "also errors of RGB without the reference's own noise, known from its Variance; --max-relmse then judges these");
   command.add_flag_callback(
       "--no-flip", [&o] { o.settings.flip = false; }, "leave out FLIP, the slowest of the metrics");
-  command.add_option("--ppd", o.settings.flip_settings.pixels_per_degree, "pixels a degree of the viewer's field, for FLIP; --ppd 40")
+  command
+      .add_option("--ppd", o.settings.flip_settings.pixels_per_degree,
+                  "pixels a degree of the viewer's field, for FLIP; --ppd 40")
       ->check(positive())
       ->capture_default_str();
 }

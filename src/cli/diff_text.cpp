@@ -144,7 +144,8 @@ std::string as_text(const ImageDiff& diff, const Judgement& judgement, const Dif
     for (const ChannelDiff& c : diff.channels) width = std::max(width, c.name.size());
     if (!diff.channels.empty()) text += channel_table(diff, width) + group_table(diff, width);
     if (diff.flip_hdr) text += flip_text(diff, width, options.settings.flip_settings.pixels_per_degree);
-    if (diff.test && !is_said(diff.test->verdict, judgement)) text += fmt::format("  {:{}}  {}\n", "test", width, diff.test->verdict);
+    if (diff.test && !is_said(diff.test->verdict, judgement))
+      text += fmt::format("  {:{}}  {}\n", "test", width, diff.test->verdict);
   }
   text += fmt::format("{} by {}\n", judgement.same ? "same" : "differs", judgement.criterion);
   for (const std::string& reason : judgement.reasons) text += fmt::format("  {}\n", reason);

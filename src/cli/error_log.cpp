@@ -10,8 +10,9 @@ namespace tyndall::cli {
 
 void ErrorLog::add(double seconds, int samples, const Image& image) {
   const ErrorMetrics e = reference_.error_of(image);
-  const nlohmann::ordered_json line{{"seconds", seconds}, {"samples", samples}, {"mse", e.mse}, {"relmse", e.relmse},
-                                    {"relmse_trimmed", e.relmse_trimmed}, {"mape", e.mape}, {"smape", e.smape}};
+  const nlohmann::ordered_json line{
+      {"seconds", seconds}, {"samples", samples}, {"mse", e.mse}, {"relmse", e.relmse}, {"relmse_trimmed", e.relmse_trimmed},
+      {"mape", e.mape},     {"smape", e.smape}};
   lines_ += line.dump() + "\n";
   last_samples_ = samples;
   failure_.clear();

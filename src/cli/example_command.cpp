@@ -68,8 +68,7 @@ void add_example(CLI::App& app, int& exit_code) {
       ->check(CLI::IsMember({"triangle", "point"}));
   command->add_option("--max-depth", a->options.max_depth, "scattering events a path, at most [see --list]; --max-depth 8");
   command->add_option("--resolution", a->resolution, "frame size in pixels [640x360]; --resolution 1280x720");
-  command->add_option("--seed", a->options.seed, "of everything random in the scene [0]; --seed 7")
-      ->check(whole_number());
+  command->add_option("--seed", a->options.seed, "of everything random in the scene [0]; --seed 7")->check(whole_number());
   command->footer("Examples and their defaults:\n" + list_text());
   command->callback([a, &exit_code] {
     if (!a->list && a->name.empty()) throw Error(Failure::usage, "example takes a name or --list:\n" + list_text());

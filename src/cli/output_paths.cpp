@@ -32,8 +32,8 @@ void make_folder(const std::string& path) {
   std::error_code error;
   fs::create_directories(path, error);
   if (!fs::is_directory(path)) {
-    throw Error(Failure::output, path + ": cannot be made a folder" + (error ? " (" + error.message() + ")" : "") +
-                                     "; choose another with -o");
+    throw Error(Failure::output,
+                path + ": cannot be made a folder" + (error ? " (" + error.message() + ")" : "") + "; choose another with -o");
   }
   if (access(path.c_str(), W_OK) != 0) {
     throw Error(Failure::output, path + ": folder is not writable; choose another with -o");

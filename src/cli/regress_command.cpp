@@ -165,7 +165,10 @@ void add_regress(CLI::App& app, int& exit_code) {
   command->add_flag("--update", s.update, "render the references anew, say what changed, and replace them");
   command->add_option("--jobs,--threads", s.jobs, "renders side by side, of one thread each [0: one a core]; --jobs 2")
       ->check(whole_number(0, 4096));
-  command->add_option("--max-memory", options->max_memory, "GB for all renders at a time: each gets its share, and a case that is estimated to need more is an error [what the machine, or a container's limit, allows]; --max-memory 8")
+  command
+      ->add_option("--max-memory", options->max_memory,
+                   "GB for all renders at a time: each gets its share, and a case that is estimated to need more is an error "
+                   "[what the machine, or a container's limit, allows]; --max-memory 8")
       ->check(positive());
   command->add_option("--level", s.family_level, "chance of a false alarm in a run of the whole suite [0.001]; --level 0.01")
       ->check(number_between(1e-12, 0.5));

@@ -53,7 +53,8 @@ struct Companions {
   }
 };
 
-Rendering render_with(Companions& companions, const World& world, const RenderSettings& settings, const RenderOptions& options) {
+Rendering render_with(Companions& companions, const World& world, const RenderSettings& settings,
+                      const RenderOptions& options) {
   catch_stop_signals("stopping soon; press again to quit at once and lose the image\n");
   ProgressDisplay display(options.quiet ? "none" : options.progress);
   RenderControl control{.progress = [&](const Progress& p) { display.show(p); }, .stop = &stop_requested()};
@@ -68,7 +69,8 @@ Rendering render_with(Companions& companions, const World& world, const RenderSe
 }
 
 /// A render that is complete needs its checkpoint no longer than until the image is safe, and the room it takes least of all.
-void save_rendering(const Rendering& rendering, const std::string& output, const CheckpointFile& checkpoint, bool keeps_checkpoints) {
+void save_rendering(const Rendering& rendering, const std::string& output, const CheckpointFile& checkpoint,
+                    bool keeps_checkpoints) {
   std::function<void()> remove_checkpoint;
   if (keeps_checkpoints && !rendering.report.stopped) remove_checkpoint = [&] { checkpoint.remove(); };
   save_image(rendering.image, output, remove_checkpoint);

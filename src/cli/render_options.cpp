@@ -83,29 +83,45 @@ void declare(CLI::App& command, MethodOptions& o) {
                        std::string(axis.about) + ": " + join(axis.names, ", ") + " [the Integrator's, else " +
                            std::string(axis.get({})) + "]; " + option + " " + std::string(axis.names.back()));
   }
-  command.add_option("--candidates", o.candidates, "lights chosen at a vertex or along a stretch of medium and looked at without visibility; 0: one for each cluster that --splitting makes [the Integrator's, else 3 along media, 4 on glossy surfaces and 2 on others, but not more than there are lights; more with --max-depth 1]; --candidates 8")
+  command
+      .add_option("--candidates", o.candidates,
+                  "lights chosen at a vertex or along a stretch of medium and looked at without visibility; 0: one for each "
+                  "cluster that --splitting makes [the Integrator's, else 3 along media, 4 on glossy surfaces and 2 on others, "
+                  "but not more than there are lights; more with --max-depth 1]; --candidates 8")
       ->check(CLI::Range(0, 4096));
-  command.add_option("--splitting", o.splitting, "clusters of the light tree predicted worse than this are split, up to 15 or as many as --candidates, 0..1; 0: none, 1: down to single lights [the Integrator's, else 0.5 for 8 candidates or more and for --candidates 0, 0 elsewhere]; --splitting 0.7")
+  command
+      .add_option("--splitting", o.splitting,
+                  "clusters of the light tree predicted worse than this are split, up to 15 or as many as --candidates, 0..1; "
+                  "0: none, 1: down to single lights [the Integrator's, else 0.5 for 8 candidates or more and for --candidates "
+                  "0, 0 elsewhere]; --splitting 0.7")
       ->check(fraction());
-  command.add_option("--shadow-rays", o.shadow_rays, "of these are traced, resampled by their contribution; 0: all [the Integrator's, else 2, but not more than half the lights; all or most with --max-depth 1]; --shadow-rays 0")
+  command
+      .add_option("--shadow-rays", o.shadow_rays,
+                  "of these are traced, resampled by their contribution; 0: all [the Integrator's, else 2, but not more than "
+                  "half the lights; all or most with --max-depth 1]; --shadow-rays 0")
       ->check(CLI::Range(0, 4096));
 }
 
 void declare(CLI::App& command, PictureOptions& o) {
   command.add_option("--crop", o.crop, "pixels x0,x1,y0,y1 to render, ends excluded [the Film's]; --crop 0,480,0,270");
   command.add_option("--resolution", o.resolution, "frame size in pixels [the Film's]; --resolution 960x540");
-  command.add_option("--max-depth", o.max_depth, "scattering events a path, at most [the Integrator's, else 5]; --max-depth 16")
+  command
+      .add_option("--max-depth", o.max_depth, "scattering events a path, at most [the Integrator's, else 5]; --max-depth 16")
       ->check(CLI::Range(0, 1 << 20));
   command.add_flag("--sanitize", o.sanitize, "NaN and infinite voxels become 0 instead of an error");
 }
 
 void declare_progress(CLI::App& command, std::string& progress) {
-  command.add_option("--progress", progress, "bar, line, json or none, on stderr [bar on a terminal, else line]; --progress json")
+  command
+      .add_option("--progress", progress, "bar, line, json or none, on stderr [bar on a terminal, else line]; --progress json")
       ->check(CLI::IsMember({"auto", "bar", "line", "json", "none"}));
 }
 
 void declare_memory(CLI::App& command, std::optional<double>& max_memory) {
-  command.add_option("--max-memory", max_memory, "GB: a scene that is estimated to need more is refused before it is built [what the machine, or a container's limit, allows]; --max-memory 8")
+  command
+      .add_option("--max-memory", max_memory,
+                  "GB: a scene that is estimated to need more is refused before it is built [what the machine, or a "
+                  "container's limit, allows]; --max-memory 8")
       ->check(positive());
 }
 
@@ -116,23 +132,38 @@ void declare_scene(CLI::App& command, std::string& scene) {
 void declare(CLI::App& command, RenderOptions& o) {
   declare_scene(command, o.scene);
   command.add_option("-o,--output", o.output, "image to write, .exr or .png [the Film's name, else SCENE.exr]; -o plume.exr");
-  command.add_option("--spp", o.spp, "samples a pixel, at most [the Sampler's, else 16]; --spp 256")->check(CLI::Range(1, 1 << 30));
-  command.add_option("--time", o.time, "seconds to render for, at most; without --spp the samples are as many as that gives [none]; --time 60")
+  command.add_option("--spp", o.spp, "samples a pixel, at most [the Sampler's, else 16]; --spp 256")
+      ->check(CLI::Range(1, 1 << 30));
+  command
+      .add_option("--time", o.time,
+                  "seconds to render for, at most; without --spp the samples are as many as that gives [none]; --time 60")
       ->check(positive());
-  command.add_option("--error", o.error, "stop when the estimated relMSE, mean of variance / (mean^2 + 0.01), is below this; looked at when the samples are 64, 128, 256 ... [none]; --error 0.001")
+  command
+      .add_option("--error", o.error,
+                  "stop when the estimated relMSE, mean of variance / (mean^2 + 0.01), is below this; looked at when the "
+                  "samples are 64, 128, 256 ... [none]; --error 0.001")
       ->check(positive());
   command.add_option("--threads", o.threads, "threads [0: one a core]; --threads 2")->check(CLI::Range(0, 4096));
   command.add_option("--seed", o.seed, "of the random numbers [0]; --seed 7")->check(whole_number());
   declare(command, o.picture);
   declare(command, o.methods);
-  command.add_option("--aov", o.aovs, "extra channels, comma-separated: " + join(aov_names(), ", ") + " [none]; --aov Albedo,N");
-  auto* reference = command.add_option("--reference", o.reference, "image that the error is measured against for --error-log; --reference best.exr");
-  auto* log = command.add_option("--error-log", o.error_log, "file that gets a line of JSON at 1, 2, 4, 8 ... samples and at the end: seconds, samples, errors; --error-log error.jsonl");
+  command.add_option("--aov", o.aovs,
+                     "extra channels, comma-separated: " + join(aov_names(), ", ") + " [none]; --aov Albedo,N");
+  auto* reference = command.add_option("--reference", o.reference,
+                                       "image that the error is measured against for --error-log; --reference best.exr");
+  auto* log = command.add_option("--error-log", o.error_log,
+                                 "file that gets a line of JSON at 1, 2, 4, 8 ... samples and at the end: seconds, samples, "
+                                 "errors; --error-log error.jsonl");
   reference->needs(log);
   log->needs(reference);
-  command.add_option("--checkpoint", o.checkpoint, "seconds between saves to OUTPUT.checkpoint, which --resume goes on from; removed when the render is complete [none]; --checkpoint 60")
+  command
+      .add_option("--checkpoint", o.checkpoint,
+                  "seconds between saves to OUTPUT.checkpoint, which --resume goes on from; removed when the render is "
+                  "complete [none]; --checkpoint 60")
       ->check(positive());
-  command.add_flag("--resume", o.resume, "go on from OUTPUT.checkpoint if there is one: the same bits as an unbroken render; an interrupt saves there again");
+  command.add_flag(
+      "--resume", o.resume,
+      "go on from OUTPUT.checkpoint if there is one: the same bits as an unbroken render; an interrupt saves there again");
   declare_memory(command, o.max_memory);
   command.add_flag("--reproducible", o.reproducible, "leave dates and times out of the image header");
   declare_progress(command, o.progress);

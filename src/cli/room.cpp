@@ -31,7 +31,9 @@ std::uint64_t largest_image(const Scene& scene, const std::string& path) {
 }
 
 /// The film's sums: of colour once for the even and once for the odd samples.
-std::uint64_t largest_checkpoint(const Scene& scene) { return sizeof(double) * (3 + channels_of(scene)) * pixels_of(scene) + kHeader; }
+std::uint64_t largest_checkpoint(const Scene& scene) {
+  return sizeof(double) * (3 + channels_of(scene)) * pixels_of(scene) + kHeader;
+}
 
 /// Free on the disk of `path`, and what stands there now and will be replaced.
 std::uint64_t disk_for(const std::string& path) {

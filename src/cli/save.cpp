@@ -81,7 +81,9 @@ void save(const std::string& what, const std::string& path, const Write& write, 
   }
   if (!failure) return;
   const auto other = save_elsewhere(path, write);
-  if (!other) throw Error(Failure::output, fmt::format("{}\nThe {} is lost: it could not be written anywhere else either", *failure, what));
+  if (!other)
+    throw Error(Failure::output,
+                fmt::format("{}\nThe {} is lost: it could not be written anywhere else either", *failure, what));
   if (make_room) {
     make_room();
     failure = failure_of(write, path);
@@ -93,7 +95,8 @@ void save(const std::string& what, const std::string& path, const Write& write, 
 }  // namespace
 
 void save_image(const Image& image, const std::string& path, const std::function<void()>& make_room) {
-  save("image", path, [&](const std::string& to) { write_image(image, to); }, make_room);
+  save(
+      "image", path, [&](const std::string& to) { write_image(image, to); }, make_room);
 }
 
 void save_report(const std::string& folder, const std::function<void(const std::string& folder)>& write) {

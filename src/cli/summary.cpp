@@ -29,9 +29,10 @@ std::string as_text(const Summary& s) {
   const double rays = static_cast<double>(r.rays + r.shadow_rays);
   std::string text;
   text += fmt::format("{}: {}x{}, {} spp{}\n", s.output, s.width, s.height, r.samples, r.stopped ? ", stopped early" : "");
-  text += fmt::format("  time    read {:.2f}s, build {:.2f}s (geometry {:.2f}, volumes {:.2f}, lights {:.2f}), render {:.2f}s, write {:.2f}s\n",
-                      s.read_seconds, s.build_seconds, s.build.geometry_seconds, s.build.volume_seconds,
-                      s.build.light_seconds, r.seconds, s.write_seconds);
+  text += fmt::format(
+      "  time    read {:.2f}s, build {:.2f}s (geometry {:.2f}, volumes {:.2f}, lights {:.2f}), render {:.2f}s, write {:.2f}s\n",
+      s.read_seconds, s.build_seconds, s.build.geometry_seconds, s.build.volume_seconds, s.build.light_seconds, r.seconds,
+      s.write_seconds);
   text += fmt::format("  scene   {} triangles, {} lights, {} media\n", s.build.triangles, s.build.lights, s.build.media);
   text += fmt::format("  work    {} paths, {} rays, {} shadow rays ({:.2f} M rays/s), {} density lookups\n", r.paths, r.rays,
                       r.shadow_rays, rays / std::max(r.seconds, 1e-9) * 1e-6, r.density_lookups);
@@ -56,9 +57,12 @@ std::string as_json(const Summary& s) {
   j["samples"] = r.samples;
   j["stopped"] = r.stopped;
   j["unrendered"] = r.unrendered;
-  j["seconds"] = {{"read", s.read_seconds},         {"build", s.build_seconds},
-                  {"geometry", s.build.geometry_seconds}, {"volumes", s.build.volume_seconds},
-                  {"lights", s.build.light_seconds}, {"render", r.seconds},
+  j["seconds"] = {{"read", s.read_seconds},
+                  {"build", s.build_seconds},
+                  {"geometry", s.build.geometry_seconds},
+                  {"volumes", s.build.volume_seconds},
+                  {"lights", s.build.light_seconds},
+                  {"render", r.seconds},
                   {"write", s.write_seconds}};
   j["scene"] = {{"triangles", s.build.triangles}, {"lights", s.build.lights}, {"media", s.build.media}};
   j["paths"] = r.paths;

@@ -94,11 +94,12 @@ std::string file_key(const std::string& name) {
 /// Two of one name are a mistake.
 void add_named(CompareVariant variant, std::vector<CompareVariant>& variants) {
   const std::string key = file_key(variant.name);
-  if (key == "reference.exr") throw Error(Failure::usage, "a variant is called \"" + variant.name + "\", as the reference is; choose another name");
+  if (key == "reference.exr")
+    throw Error(Failure::usage, "a variant is called \"" + variant.name + "\", as the reference is; choose another name");
   for (const CompareVariant& v : variants) {
     if (file_key(v.name) != key) continue;
-    throw Error(Failure::usage, "variants \"" + v.name + "\" and \"" + variant.name + "\" would share the file " + picture_file(v.name) +
-                                    "; give each a name of its own");
+    throw Error(Failure::usage, "variants \"" + v.name + "\" and \"" + variant.name + "\" would share the file " +
+                                    picture_file(v.name) + "; give each a name of its own");
   }
   variants.push_back(std::move(variant));
 }

@@ -52,9 +52,11 @@ TriangleMesh knot(std::size_t triangles, Rng& rng) {
 void shade_from(Vec3 eye, TriangleMesh& mesh) {
   std::vector<std::uint32_t> kept;
   for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
-    const Vec3 a = mesh.positions[mesh.indices[i]], b = mesh.positions[mesh.indices[i + 1]], c = mesh.positions[mesh.indices[i + 2]];
+    const Vec3 a = mesh.positions[mesh.indices[i]], b = mesh.positions[mesh.indices[i + 1]],
+               c = mesh.positions[mesh.indices[i + 2]];
     if (dot(cross(b - a, c - a), eye - a) > 0) continue;
-    kept.insert(kept.end(), mesh.indices.begin() + static_cast<std::ptrdiff_t>(i), mesh.indices.begin() + static_cast<std::ptrdiff_t>(i + 3));
+    kept.insert(kept.end(), mesh.indices.begin() + static_cast<std::ptrdiff_t>(i),
+                mesh.indices.begin() + static_cast<std::ptrdiff_t>(i + 3));
   }
   mesh.indices = std::move(kept);
 }

@@ -98,7 +98,9 @@ void add_camera_and_film(const Scene& scene, Description& result) {
 }
 
 void add_settings(const RenderSettings& settings, Description& result) {
-  const auto add = [&](const std::string& name, const std::string& value) { result.properties.push_back({"settings", name, value}); };
+  const auto add = [&](const std::string& name, const std::string& value) {
+    result.properties.push_back({"settings", name, value});
+  };
   add("spp", std::to_string(settings.spp));
   add("max-depth", std::to_string(settings.max_depth));
   for (const StrategyAxis& axis : strategy_axes()) add(std::string(axis.option), std::string(axis.get(settings)));

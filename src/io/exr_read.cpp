@@ -25,12 +25,12 @@
 namespace tyndall {
 namespace {
 
-constexpr int kMaxSide = 1 << 17;                 // pixels
-constexpr std::uint64_t kMaxBytes = 1ull << 34;   // decoded
+constexpr int kMaxSide = 1 << 17;                // pixels
+constexpr std::uint64_t kMaxBytes = 1ull << 34;  // decoded
 // What a byte of the file can unfold to: zlib cannot exceed 1032, nor PIZ's runs of at most 255 equal values; DWA keeps
 // one coefficient of an even 8 x 8 block before zlib sees it.
 constexpr std::uint64_t kMaxRatio = 1100, kMaxDwaRatio = 64 * kMaxRatio;
-constexpr std::size_t kMaxReason = 200;           // characters of the library's words that are passed on
+constexpr std::size_t kMaxReason = 200;  // characters of the library's words that are passed on
 
 [[noreturn]] void fail(const std::string& path, const std::string& reason) {
   throw Error(Failure::scene, path + ": " + reason);

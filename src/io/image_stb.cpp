@@ -43,7 +43,9 @@ class StbMemory {
 thread_local StbMemory* StbMemory::current = nullptr;
 
 void* stb_malloc(std::size_t size) { return StbMemory::current->resize(nullptr, std::max<std::size_t>(size, 1)); }
-[[maybe_unused]] void* stb_realloc(void* block, std::size_t size) { return StbMemory::current->resize(block, std::max<std::size_t>(size, 1)); }
+[[maybe_unused]] void* stb_realloc(void* block, std::size_t size) {
+  return StbMemory::current->resize(block, std::max<std::size_t>(size, 1));
+}
 void stb_free(void* block) { StbMemory::current->release(block); }
 
 }  // namespace

@@ -11,7 +11,8 @@ constexpr std::size_t kMostCodes = 256;
 /// 0 beyond the end.
 unsigned byte(std::string_view file, std::size_t at) { return at < file.size() ? static_cast<unsigned char>(file[at]) : 0; }
 
-/// `at` the contents of a segment of tables, `length` bytes long: the last table may be cut off by it, and is read all the same.
+/// `at` the contents of a segment of tables, `length` bytes long: the last table may be cut off by it, and is read all the
+/// same.
 bool holds_oversized(std::string_view file, std::size_t at, std::ptrdiff_t length) {
   while (length > 0) {
     std::size_t size = 17, codes = 0;  // class and number, how many codes there are of each of 16 lengths, their symbols

@@ -105,7 +105,8 @@ class BodyReader {
     double value = 0;
     if (!values_.value(property.is_list ? property.count_type : property.type, value)) throw truncated(e, i);
     if (!property.is_list) return static_cast<float>(value);
-    if (!(value >= 0 && value < kMaxListed) || !values_.skip(property.type, static_cast<std::size_t>(value))) throw truncated(e, i);
+    if (!(value >= 0 && value < kMaxListed) || !values_.skip(property.type, static_cast<std::size_t>(value)))
+      throw truncated(e, i);
     return 0;
   }
 
@@ -135,8 +136,8 @@ class BodyReader {
       double index = 0;
       if (!values_.value(property.type, index)) throw truncated(e, face);
       if (!(index >= 0 && index < static_cast<double>(vertex_count_)))
-        throw error("face " + std::to_string(face) + " has index " + shown(index) +
-                    " out of range; the file has " + std::to_string(vertex_count_) + " vertices");
+        throw error("face " + std::to_string(face) + " has index " + shown(index) + " out of range; the file has " +
+                    std::to_string(vertex_count_) + " vertices");
       corners[c] = static_cast<std::uint32_t>(index);
     }
     // A patch names its corners by rows, a quadrilateral goes around.

@@ -70,7 +70,8 @@ bool read_rows(png_structp png, Raster& raster) {
 
 ImageSize png_size(std::string_view bytes, const std::string& path) {
   constexpr std::size_t kAt = 16;  // after the signature, the length and the name of the first chunk
-  if (bytes.size() < kAt + 8 || bytes.substr(12, 4) != "IHDR") throw Error(Failure::scene, path + ": cannot be read as PNG: it has no header");
+  if (bytes.size() < kAt + 8 || bytes.substr(12, 4) != "IHDR")
+    throw Error(Failure::scene, path + ": cannot be read as PNG: it has no header");
   const auto number = [&](std::size_t at) {
     std::uint32_t value = 0;
     for (std::size_t i = 0; i < 4; ++i) value = value << 8 | static_cast<unsigned char>(bytes[at + i]);

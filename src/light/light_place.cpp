@@ -35,13 +35,14 @@ RayPart roots(double a, double b, double c) {
   return {std::min(x, y), std::max(x, y)};
 }
 
-/// The cone |v| cos(theta) <= v.axis, below a right angle. Its square, a t^2 + 2 b t + c >= 0, holds for its mirror image as well.
+/// The cone |v| cos(theta) <= v.axis, below a right angle. Its square, a t^2 + 2 b t + c >= 0, holds for its mirror image as
+/// well.
 RayPart in_cone(Vec3d axis, double theta, Vec3d from_apex, Vec3d d) {
   const double cosine = std::cos(theta), cos2 = cosine * cosine;
   const double along = dot(axis, d), height = dot(axis, from_apex);
   const double a = along * along - cos2, b = along * height - cos2 * dot(from_apex, d),
                c = height * height - cos2 * dot(from_apex, from_apex);
-  if (std::abs(a) < 1e-9) return kAll;  // along the cone: one end is nearly infinite, and lost in rounding
+  if (std::abs(a) < 1e-9) return kAll;             // along the cone: one end is nearly infinite, and lost in rounding
   if (b * b < a * c) return a < 0 ? kNone : kAll;  // of lines that end in both cones, one through the apex
   const auto [first, last] = roots(a, b, c);
   if (a > 0) return along > 0 ? RayPart{last, kEndless} : RayPart{-kEndless, first};

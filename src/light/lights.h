@@ -24,11 +24,11 @@ namespace tyndall {
 class Textures;
 
 struct LightSample {
-  Vec3 wi;         ///< unit, toward the light
-  float distance;  ///< infinity for distant and infinite lights
-  Rgb L;           ///< radiance that arrives when nothing is in between; delta lights: irradiance facing them
-  float pdf;       ///< 1/sr; 1 for delta lights
-  bool delta;      ///< no scattered ray can find it
+  Vec3 wi;              ///< unit, toward the light
+  float distance;       ///< infinity for distant and infinite lights
+  Rgb L;                ///< radiance that arrives when nothing is in between; delta lights: irradiance facing them
+  float pdf;            ///< 1/sr; 1 for delta lights
+  bool delta;           ///< no scattered ray can find it
   bool volume = false;  ///< a glowing medium: the light is all along wi, and L a guess at it
 };
 
@@ -49,8 +49,8 @@ struct EmitterShape {
 
 struct LightBuildOptions {
   std::vector<LightStrategy> strategies{LightStrategy::tree};  ///< a selector is built for each
-  const Textures* textures = nullptr;  ///< read for the alpha of emissive shapes; null: opaque. Must outlive the lights
-  int threads = 0;                     ///< to build with; 0: one a core
+  const Textures* textures = nullptr;        ///< read for the alpha of emissive shapes; null: opaque. Must outlive the lights
+  int threads = 0;                           ///< to build with; 0: one a core
   std::span<const VolumeEmitter> volumes{};  ///< pieces of glowing media; their ids are consecutive
 };
 
@@ -60,7 +60,7 @@ struct LightStats {
   std::size_t shared = 0;                              ///< of the primitives, those that instances of an object share
   std::size_t points = 0;                              ///< lights without extent, those at infinity included
   std::size_t dark = 0;                                ///< lights without power, which are never chosen
-  double power = 0;  ///< W, mean of the channels, all lights
+  double power = 0;                                    ///< W, mean of the channels, all lights
 };
 
 /// What a selector costs.

@@ -18,10 +18,10 @@ using LightId = std::uint32_t;
 struct QueryLobe {
   Vec3 tangent, bitangent;  ///< unit, with n a frame in which wo = (sin_o, 0, cos_o)
   float sin_o = 0, cos_o = 1;
-  float eta = 1;                       ///< 1: light from n's side; else the relative index of the other
-  float slope2_t = 0, slope2_b = 0;    ///< squared widths of the facets' slopes
-  float spread_t = 0, spread_b = 0;    ///< what they widen by where the light's direction varies, times its variance
-  float scale = 0;                     ///< of D(h) G into the unit of a cosine lobe of share 1
+  float eta = 1;                     ///< 1: light from n's side; else the relative index of the other
+  float slope2_t = 0, slope2_b = 0;  ///< squared widths of the facets' slopes
+  float spread_t = 0, spread_b = 0;  ///< what they widen by where the light's direction varies, times its variance
+  float scale = 0;                   ///< of D(h) G into the unit of a cosine lobe of share 1
 };
 
 /// Where light is gathered: what the choice of a light may depend on.

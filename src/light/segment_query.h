@@ -12,8 +12,8 @@ namespace tyndall {
 /// What media do along a segment and around it, in a few bins: nothing finer than a choice of lights can use. Only
 /// weights the choice; no estimate is made from it.
 struct SegmentProfile {
-  /// In smoke of depth 1 to 50 with 1 and 8 events, 8 of them have 0.98 to 1.11 of the relMSE without the worst 0.1 %, at 1.03 to
-  /// 1.07 times the instructions; 2 have 1.13 of it for small triangles, at 0.97.
+  /// In smoke of depth 1 to 50 with 1 and 8 events, 8 of them have 0.98 to 1.11 of the relMSE without the worst 0.1 %, at 1.03
+  /// to 1.07 times the instructions; 2 have 1.13 of it for small triangles, at 0.97.
   static constexpr int kBins = 4;
   std::array<float, kBins + 1> edge{};    ///< distances along the ray, increasing; the last may be infinite
   std::array<float, kBins> scattering{};  ///< mean of sigma_s x transmittance from the origin over the bin, >= 0

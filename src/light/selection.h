@@ -9,9 +9,9 @@
 #include "light/far_lights.h"
 #include "light/light_cut.h"
 #include "light/light_tree.h"
-#include "light/shared_lights.h"
 #include "light/query.h"
 #include "light/segment_query.h"
+#include "light/shared_lights.h"
 #include "tyndall/settings.h"
 
 namespace tyndall {
@@ -52,7 +52,7 @@ struct SelectionInput {
   std::vector<FarLight> far;
   std::vector<SharedLights> objects{};
   std::vector<LightInstance> instances{};  ///< in the order of their lights
-  int threads = 0;  ///< to build with; 0: one a core
+  int threads = 0;                         ///< to build with; 0: one a core
 };
 
 /// Whether a strategy looks at `near` and `far`.

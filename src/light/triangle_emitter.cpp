@@ -19,9 +19,7 @@ bool in_plane(const RoundedPoint& p, const Vec3d& a, const Vec3d& n, double n2) 
 
 /// Seen from so far that points uniform in area are nearly uniform in solid angle: the angle under which its longest
 /// edges are seen is below a fifth. Spherical geometry, ten times as dear, would gain nothing.
-bool far_off(const Vec3d& a, const Vec3d& e1, const Vec3d& e2) {
-  return std::max(dot(e1, e1), dot(e2, e2)) < 0.04 * dot(a, a);
-}
+bool far_off(const Vec3d& a, const Vec3d& e1, const Vec3d& e2) { return std::max(dot(e1, e1), dot(e2, e2)) < 0.04 * dot(a, a); }
 
 /// 1/sr, of the direction to a point `x` uniform over the triangle with n = e1 x e2, twice its area long.
 std::optional<float> area_density(const Vec3d& x, const Vec3d& n) {
@@ -76,9 +74,7 @@ Bounds3 TriangleEmitter::box(std::uint32_t i) const {
 
 EmitterExtent TriangleEmitter::extent(std::uint32_t i) const { return {box(i), DirectionCone::around(normal(i))}; }
 
-LightPlace TriangleEmitter::place(std::uint32_t i) const {
-  return flat_place({&positions_[3 * std::size_t(i)], 3}, normal(i));
-}
+LightPlace TriangleEmitter::place(std::uint32_t i) const { return flat_place({&positions_[3 * std::size_t(i)], 3}, normal(i)); }
 
 Vec2 TriangleEmitter::uv(std::uint32_t i, double b1, double b2) const {
   const auto x = static_cast<float>(b1), y = static_cast<float>(b2);
@@ -110,7 +106,8 @@ std::optional<EmitterSample> TriangleEmitter::sample(std::uint32_t i, const Roun
   return sample_area(i, a, e1, e2, u);
 }
 
-std::optional<EmitterSample> TriangleEmitter::sample_area(std::uint32_t i, const Vec3d& a, const Vec3d& e1, const Vec3d& e2, Vec2 u) const {
+std::optional<EmitterSample> TriangleEmitter::sample_area(std::uint32_t i, const Vec3d& a, const Vec3d& e1, const Vec3d& e2,
+                                                          Vec2 u) const {
   const double root = std::sqrt(static_cast<double>(u.x));
   const double b1 = root * (1 - u.y), b2 = root * u.y;
   const Vec3d x = a + e1 * b1 + e2 * b2, n = cross(e1, e2);

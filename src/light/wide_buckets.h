@@ -19,7 +19,9 @@ struct BucketGrid {
   static float place(const BuildLight& light, int axis) { return light.low[axis] - light.minus_high[axis]; }
 
   bool flat() const { return per_length == 0; }
-  int of(const BuildLight& light) const { return std::clamp(static_cast<int>((place(light, axis) - low) * per_length), 0, kBuckets - 1); }
+  int of(const BuildLight& light) const {
+    return std::clamp(static_cast<int>((place(light, axis) - low) * per_length), 0, kBuckets - 1);
+  }
 };
 
 struct BucketCut {

@@ -32,7 +32,8 @@ ChildSpread child_spread(const WideNode& node, const WideSegment& segment) {
   ChildSpread spread;
   for (int i = 0; i < WideNode::kWidth; ++i) {
     const bool plain = node.count[i] <= 1;
-    spread.cv2[static_cast<std::size_t>(i)] = plain ? 0.0f : static_cast<float>(std::min(split_measure(node.cluster(i), segment).cv2, 1e30));
+    spread.cv2[static_cast<std::size_t>(i)] =
+        plain ? 0.0f : static_cast<float>(std::min(split_measure(node.cluster(i), segment).cv2, 1e30));
   }
   return spread;
 }
@@ -45,7 +46,8 @@ class CutBuilder {
       : tree_(tree),
         local_(local),
         candidates_(settings.candidates),
-        most_(candidates_ > 0 ? static_cast<std::size_t>(std::max(candidates_, kClusters)) : std::numeric_limits<std::size_t>::max()),
+        most_(candidates_ > 0 ? static_cast<std::size_t>(std::max(candidates_, kClusters))
+                              : std::numeric_limits<std::size_t>::max()),
         split_above_(settings.splitting > 0 ? 1 / settings.splitting - 1 : kInfinity) {}
 
   LightCut build() {
@@ -108,9 +110,9 @@ class CutBuilder {
 
   const Tree& tree_;
   const Local& local_;
-  int candidates_;      ///< 0: as many as clusters
-  std::size_t most_;    ///< clusters
-  float split_above_;   ///< this cv2: the score 1 / (1 + cv2) is then below what was asked for
+  int candidates_;     ///< 0: as many as clusters
+  std::size_t most_;   ///< clusters
+  float split_above_;  ///< this cv2: the score 1 / (1 + cv2) is then below what was asked for
   Clusters cut_;
 };
 

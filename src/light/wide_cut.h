@@ -2,8 +2,8 @@
 /// [Conty Estevez and Kulla 2018, sec. 5.4; best first as in Walter et al. 2005].
 #pragma once
 
-#include "light/light_cut.h"
 #include "light/instanced_light_tree.h"
+#include "light/light_cut.h"
 
 namespace tyndall {
 

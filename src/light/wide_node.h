@@ -39,7 +39,9 @@ struct alignas(64) WideNode {
   float scale;                          ///< intensity of the strongest child, relative to that of all lights
 
   bool used(int i) const { return intensity[i] != 0; }
-  std::size_t size() const { return static_cast<std::size_t>(std::count_if(intensity, intensity + kWidth, [](auto i) { return i != 0; })); }
+  std::size_t size() const {
+    return static_cast<std::size_t>(std::count_if(intensity, intensity + kWidth, [](auto i) { return i != 0; }));
+  }
   bool leaf(int i) const { return flags[i] & kLeaf; }
   /// Tells the processor that the descent comes here.
   void prefetch() const {

@@ -200,8 +200,12 @@ std::optional<WideLightTree::Reached> WideLightTree::decide(NodeRef top, const W
 std::optional<WideLightTree::Reached> WideLightTree::decide(NodeRef top, const WideSegment& query, double u) const {
   return decide_all(top, query, u);
 }
-std::optional<double> WideLightTree::decided(NodeRef top, NodeRef leaf, const WideQuery& query) const { return climb(top, leaf, query); }
-std::optional<double> WideLightTree::decided(NodeRef top, NodeRef leaf, const WideSegment& query) const { return climb(top, leaf, query); }
+std::optional<double> WideLightTree::decided(NodeRef top, NodeRef leaf, const WideQuery& query) const {
+  return climb(top, leaf, query);
+}
+std::optional<double> WideLightTree::decided(NodeRef top, NodeRef leaf, const WideSegment& query) const {
+  return climb(top, leaf, query);
+}
 
 double WideLightTree::importance(const PointQuery& query) const {
   if (nodes_.empty()) return 0;

@@ -52,9 +52,19 @@ constexpr Table<TransmittanceStrategy, 4> kTransmittances{{
     {"delta", TransmittanceStrategy::delta},
     {"raymarch", TransmittanceStrategy::raymarch},
 }};
-constexpr std::array<std::string_view, 13> kAovs{
-    "Albedo",        "N",               "P",            "Z",              "Zvol",     "Variance", "SampleCount",
-    "Transmittance", "SurfaceDirect",   "SurfaceIndirect", "VolumeDirect", "VolumeIndirect", "Emission"};
+constexpr std::array<std::string_view, 13> kAovs{"Albedo",
+                                                 "N",
+                                                 "P",
+                                                 "Z",
+                                                 "Zvol",
+                                                 "Variance",
+                                                 "SampleCount",
+                                                 "Transmittance",
+                                                 "SurfaceDirect",
+                                                 "SurfaceIndirect",
+                                                 "VolumeDirect",
+                                                 "VolumeIndirect",
+                                                 "Emission"};
 
 template <typename Table, typename Strategy>
 std::string_view find_name(const Table& table, Strategy wanted) {
@@ -91,8 +101,11 @@ const std::vector<StrategyAxis>& strategy_axes() {
       axis<kMedia, &RenderSettings::media>("media", "what stands for a stretch of medium when its light is chosen"),
       axis<kDistances, &RenderSettings::distance>("distance", "how the distance of a scattering event is sampled"),
       axis<kEmissions, &RenderSettings::emission>("emission", "how the glow of hot media is found"),
-      axis<kGuidings, &RenderSettings::guiding>("guiding", "where the surface that a path meets first sends it besides as it scatters: grids and clouds that glow"),
-      axis<kJoints, &RenderSettings::joint>("joint", "whether collisions in media and pixels also draw rays close to point and spot lights, and pixels to small shining surfaces"),
+      axis<kGuidings, &RenderSettings::guiding>(
+          "guiding", "where the surface that a path meets first sends it besides as it scatters: grids and clouds that glow"),
+      axis<kJoints, &RenderSettings::joint>("joint",
+                                            "whether collisions in media and pixels also draw rays close to point and spot "
+                                            "lights, and pixels to small shining surfaces"),
       axis<kTransmittances, &RenderSettings::transmittance>("transmittance", "estimator along shadow rays"),
   };
   return axes;

@@ -16,7 +16,8 @@ inline constexpr bool kThreadsAreWatched = true;
 
 class ThreadPool {
  public:
-  explicit ThreadPool(int threads) : size_(threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()))) {}
+  explicit ThreadPool(int threads)
+      : size_(threads > 0 ? threads : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()))) {}
 
   int size() const { return size_; }
 

@@ -39,7 +39,8 @@ std::string identity_among(std::string_view notes) {
     const std::size_t at = sizeof head + padded(head.n_namesz), end = at + padded(head.n_descsz);
     if (end > notes.size()) break;
     const std::string_view name = notes.substr(sizeof head, head.n_namesz);
-    if (head.n_type == NT_GNU_BUILD_ID && name == std::string_view("GNU", 4)) return hexadecimal(notes.substr(at, head.n_descsz));
+    if (head.n_type == NT_GNU_BUILD_ID && name == std::string_view("GNU", 4))
+      return hexadecimal(notes.substr(at, head.n_descsz));
     notes.remove_prefix(end);
   }
   return "";
@@ -61,11 +62,11 @@ int add_library(dl_phdr_info* info, std::size_t, void* to) {
 
 std::uint64_t hash_of_program() {
   StreamHash hash;
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen("/proc/self/exe", "rb"), [](std::FILE* f) {
-    return f ? std::fclose(f) : 0;
-  });
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen("/proc/self/exe", "rb"),
+                                                             [](std::FILE* f) { return f ? std::fclose(f) : 0; });
   std::vector<char> buffer(std::size_t{1} << 18);
-  while (const std::size_t got = file ? std::fread(buffer.data(), 1, buffer.size(), file.get()) : 0) hash.add(buffer.data(), got);
+  while (const std::size_t got = file ? std::fread(buffer.data(), 1, buffer.size(), file.get()) : 0)
+    hash.add(buffer.data(), got);
   return hash.value();
 }
 

@@ -18,8 +18,7 @@ std::array<float, 16> to_floats(const Transform::Matrix& m) {
 /// x0 x1 y0 y1: the shorter side spans [-1, 1] unless the scene says otherwise.
 std::array<float, 4> screen_window(const Camera& camera, const Film& film) {
   if (camera.screen_window) return *camera.screen_window;
-  const float aspect =
-      camera.frame_aspect_ratio.value_or(static_cast<float>(film.width) / static_cast<float>(film.height));
+  const float aspect = camera.frame_aspect_ratio.value_or(static_cast<float>(film.width) / static_cast<float>(film.height));
   if (aspect > 1) return {-aspect, aspect, -1, 1};
   return {-1, 1, -1 / aspect, 1 / aspect};
 }

@@ -71,7 +71,8 @@ class Reader {
 template <typename C>
 auto numbers_of(C& c) {
   auto& t = c.tracking;
-  return std::tie(c.paths, c.rays, c.shadow_rays, c.non_finite, c.parity_errors, t.lookups, t.segments, t.majorant_violations, t.caps_hit);
+  return std::tie(c.paths, c.rays, c.shadow_rays, c.non_finite, c.parity_errors, t.lookups, t.segments, t.majorant_violations,
+                  t.caps_hit);
 }
 
 void put_state(Writer& out, const CheckpointState& state) {
@@ -103,7 +104,8 @@ void require_same(Reader& in, const CheckpointIdentity& identity) {
   const auto count = in.get<std::uint64_t>();
   for (std::uint64_t i = 0; i < count; ++i) {
     const std::string_view what = in.get_text(), value = in.get_text();
-    if (i >= identity.size() || identity[i].first != what) in.fail("is a checkpoint of another version; remove it to begin anew");
+    if (i >= identity.size() || identity[i].first != what)
+      in.fail("is a checkpoint of another version; remove it to begin anew");
     if (identity[i].second != value)
       in.fail("is of another " + identity[i].first + ": " + std::string(value) + " there, " + identity[i].second +
               " here; remove it, or leave out --resume, to begin anew");
@@ -135,7 +137,8 @@ CheckpointState decode_checkpoint(std::string_view bytes, const std::string& nam
   if (bytes.size() < kMagic.size() + kHashSize) in.fail("is a damaged checkpoint; remove it to begin anew");
   const std::string_view content = bytes.substr(0, bytes.size() - kHashSize);
   std::memcpy(&stored, bytes.data() + content.size(), kHashSize);
-  if (stored != hash_of(content)) in.fail("is a damaged checkpoint: its content does not fit its checksum; remove it to begin anew");
+  if (stored != hash_of(content))
+    in.fail("is a damaged checkpoint: its content does not fit its checksum; remove it to begin anew");
 
   Reader body(content.substr(kMagic.size()), name);
   require_same(body, identity);

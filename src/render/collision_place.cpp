@@ -34,7 +34,8 @@ bool holds(const Geometry& geometry, Vec3 p, Vec3 d, const MediaState& state) {
 
 float collision_margin(const Ray& ray, float t) { return kFar * (size_of(ray.o) + t); }
 
-float collision_place(const Geometry& geometry, const Ray& ray, const SpanPart& part, const std::optional<SurfaceHit>& hit, float t) {
+float collision_place(const Geometry& geometry, const Ray& ray, const SpanPart& part, const std::optional<SurfaceHit>& hit,
+                      float t) {
   const float size = size_of(ray.o) + t;
   const float far = std::min(collision_margin(ray, t), 0.5f * (part.t1 - part.t0));
   if (t - part.t0 >= far && part.t1 - t >= far) return t;

@@ -13,7 +13,7 @@ namespace tyndall {
 inline float mis_weight(float a, float b) {
   if (!(b > 0)) return 1;
   if (!(a > 0)) return 0;
-  if (a == b) return 0.5f;  // infinite both, perhaps
+  if (a == b) return 0.5f;    // infinite both, perhaps
   const float ratio = b / a;  // may round to 0 or infinity; both give the right limit
   return 1 / (1 + ratio * ratio);
 }

@@ -16,11 +16,15 @@ constexpr std::size_t kEven = 0, kOdd = 3, kAlpha = 6, kFirstAov = 7;
 std::size_t sums_of(Aov aov) {
   switch (aov) {
     case Aov::variance:
-    case Aov::sample_count: return 0;  // follow from what is there anyway
+    case Aov::sample_count:
+      return 0;  // follow from what is there anyway
     case Aov::z:
-    case Aov::z_volume: return 2;  // sum and count
-    case Aov::p: return 4;
-    default: return 3;
+    case Aov::z_volume:
+      return 2;  // sum and count
+    case Aov::p:
+      return 4;
+    default:
+      return 3;
   }
 }
 
@@ -96,14 +100,22 @@ void FilmBuffer::add(int x, int y, int sample, const PathRecord& record, float w
 
 void FilmBuffer::add_aov(Aov aov, double* sum, const PathRecord& r, float weight) const {
   switch (aov) {
-    case Aov::albedo: return add3(sum, r.albedo, weight);
-    case Aov::n: return add3(sum, r.n.x, r.n.y, r.n.z, weight);
-    case Aov::transmittance: return add3(sum, r.transmittance, weight);
-    case Aov::surface_direct: return add3(sum, r.surface_direct, weight);
-    case Aov::surface_indirect: return add3(sum, r.surface_indirect, weight);
-    case Aov::volume_direct: return add3(sum, r.volume_direct, weight);
-    case Aov::volume_indirect: return add3(sum, r.volume_indirect, weight);
-    case Aov::emission: return add3(sum, r.emission, weight);
+    case Aov::albedo:
+      return add3(sum, r.albedo, weight);
+    case Aov::n:
+      return add3(sum, r.n.x, r.n.y, r.n.z, weight);
+    case Aov::transmittance:
+      return add3(sum, r.transmittance, weight);
+    case Aov::surface_direct:
+      return add3(sum, r.surface_direct, weight);
+    case Aov::surface_indirect:
+      return add3(sum, r.surface_indirect, weight);
+    case Aov::volume_direct:
+      return add3(sum, r.volume_direct, weight);
+    case Aov::volume_indirect:
+      return add3(sum, r.volume_indirect, weight);
+    case Aov::emission:
+      return add3(sum, r.emission, weight);
     // Positions are means over the samples that have one, unweighted: a filter's negative lobe makes no sense here.
     case Aov::p:
       if (r.hit_surface) add3(sum, r.p.x, r.p.y, r.p.z, 1), sum[3] += 1;
@@ -115,14 +127,14 @@ void FilmBuffer::add_aov(Aov aov, double* sum, const PathRecord& r, float weight
       if (r.hit_volume) sum[0] += r.z_volume, sum[1] += 1;
       return;
     case Aov::variance:
-    case Aov::sample_count: return;
+    case Aov::sample_count:
+      return;
   }
 }
 
 Rgb FilmBuffer::to_film_space(Rgb c) const {
   const auto& m = film_.from_rec709;
-  return {m[0] * c.r + m[1] * c.g + m[2] * c.b, m[3] * c.r + m[4] * c.g + m[5] * c.b,
-          m[6] * c.r + m[7] * c.g + m[8] * c.b};
+  return {m[0] * c.r + m[1] * c.g + m[2] * c.b, m[3] * c.r + m[4] * c.g + m[5] * c.b, m[6] * c.r + m[7] * c.g + m[8] * c.b};
 }
 
 void FilmBuffer::store_color(Image& image, const std::string& prefix, std::size_t offset, int samples) const {

@@ -13,8 +13,19 @@
 namespace tyndall {
 
 enum class Aov {
-  albedo, n, p, z, z_volume, variance, sample_count, transmittance,
-  surface_direct, surface_indirect, volume_direct, volume_indirect, emission,
+  albedo,
+  n,
+  p,
+  z,
+  z_volume,
+  variance,
+  sample_count,
+  transmittance,
+  surface_direct,
+  surface_indirect,
+  volume_direct,
+  volume_indirect,
+  emission,
 };
 
 /// AOVs by name, once each, in the order of aov_names(). Throws Error (usage) that lists the names for an unknown one.

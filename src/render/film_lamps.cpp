@@ -9,8 +9,8 @@ namespace {
 
 /// Pixels. Whoever filters more widely has no use for a peak.
 constexpr float kWidestFilter = 32;
-/// Of the filter's radius. Farther from lamps its own samples do as well: in smoke of depth 5 and 10, one event and 16 samples a
-/// pixel, MSE is the same for 0.2 and 0.3, 1.0 to 1.1 times as much for 0.12, 1.2 to 1.4 for 0.07 and 1.9 to 2.4 for 1.
+/// Of the filter's radius. Farther from lamps its own samples do as well: in smoke of depth 5 and 10, one event and 16 samples
+/// a pixel, MSE is the same for 0.2 and 0.3, 1.0 to 1.1 times as much for 0.12, 1.2 to 1.4 for 0.07 and 1.9 to 2.4 for 1.
 constexpr float kReach = 0.3f;
 
 int pixel_of(float x) { return static_cast<int>(std::floor(x)); }

@@ -15,8 +15,8 @@ namespace tyndall {
 /// not have it: only rays from a pinhole are drawn.
 FilmLamps film_lamps(const World::Parts& world, const RenderSettings& settings, const PixelBounds& pixels, ThreadPool& pool);
 
-/// Unbiased estimate, for the pixel at `center`, of the share of lamps' light that FilmRay::own_share does not leave to the filter's
-/// samples. `lamps`, the pixel's, must not be empty.
+/// Unbiased estimate, for the pixel at `center`, of the share of lamps' light that FilmRay::own_share does not leave to the
+/// filter's samples. `lamps`, the pixel's, must not be empty.
 Rgb film_light(const LightContext& context, const PixelLamps& lamps, Vec2 center, Sampler sampler);
 
 /// The camera's ray that a pixel's filter has drawn.

@@ -27,7 +27,8 @@ float fire_density(const LightContext& context, const Search& search, const Fire
 /// Fire on the way from `p` toward a point of the light. Its density, times `tries` (of this light, on average), is that of
 /// the direction by all the lights; its radiance is a guess without media in between, for choosing.
 template <typename Search>
-std::optional<LightSample> sample_fire(const LightContext& context, const Search& search, LightCandidate tried, Vec3 p, Vec2 u) {
+std::optional<LightSample> sample_fire(const LightContext& context, const Search& search, LightCandidate tried, Vec3 p,
+                                       Vec2 u) {
   if (!seeks_fire(context) || is_last_event(context)) return std::nullopt;
   const Vec3 wi = context.world.fire.sample(tried.light, p, u);
   const FiresOnRay fires = context.world.fire.along({p, wi});
@@ -35,12 +36,14 @@ std::optional<LightSample> sample_fire(const LightContext& context, const Search
   for (const FireOnRay& f : fires) glow += f.glow;
   const float density = fire_density(context, search, fires);
   if (!(glow > 0) || !(density > 0)) return std::nullopt;
-  return LightSample{.wi = wi, .distance = kInfinity, .L = Rgb(glow), .pdf = density / tried.tries, .delta = false, .volume = true};
+  return LightSample{
+      .wi = wi, .distance = kInfinity, .L = Rgb(glow), .pdf = density / tried.tries, .delta = false, .volume = true};
 }
 
 /// As Lights::sample, for all kinds of light.
 template <typename Search>
-std::optional<LightSample> sample_light(const LightContext& context, const Search& search, LightCandidate tried, Vec3 p, Vec2 u) {
+std::optional<LightSample> sample_light(const LightContext& context, const Search& search, LightCandidate tried, Vec3 p,
+                                        Vec2 u) {
   if (context.world.fire.holds(tried.light)) return sample_fire(context, search, tried, p, u);
   return context.world.lights.sample(tried.light, p, u, true);
 }

@@ -30,7 +30,7 @@ class FireLights {
              std::optional<MediumId> unbounded);
 
   bool empty() const { return media_.empty(); }
-  std::vector<VolumeEmitter> emitters() const;  ///< in the order of their ids; bricks beyond their groups have no power
+  std::vector<VolumeEmitter> emitters() const;       ///< in the order of their ids; bricks beyond their groups have no power
   void set_first(LightId first) { first_ = first; }  ///< what the first of emitters() became
 
   bool holds(LightId light) const { return light - first_ < count_; }

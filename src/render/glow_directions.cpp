@@ -18,12 +18,15 @@ constexpr float kLeastSine = 0.01f;
 
 /// Cells seen from a point.
 struct Cells8 {
-  Float8 x, y, z;   ///< from there to the centers
+  Float8 x, y, z;  ///< from there to the centers
   Float8 distance2, radius;
 
   Cells8(const MediaGlow& glow, std::size_t first, Vec3 p)
-      : x(load8(&glow.x()[first]) - p.x), y(load8(&glow.y()[first]) - p.y), z(load8(&glow.z()[first]) - p.z),
-        distance2(x * x + y * y + z * z), radius(max(load8(&glow.radius()[first]), sqrt(distance2) * kLeastSine)) {}
+      : x(load8(&glow.x()[first]) - p.x),
+        y(load8(&glow.y()[first]) - p.y),
+        z(load8(&glow.z()[first]) - p.z),
+        distance2(x * x + y * y + z * z),
+        radius(max(load8(&glow.radius()[first]), sqrt(distance2) * kLeastSine)) {}
 
   Mask8 around() const { return distance2 <= radius * radius; }  ///< the point is inside
   /// 1 - cos of the cone's angle; 2 is the whole sphere.

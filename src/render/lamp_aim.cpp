@@ -8,13 +8,13 @@
 namespace tyndall {
 namespace {
 
-/// Half angle of the cone. In smoke of depth 5 and 10 among a thousand lamps, relMSE without the worst 0.1 % is within 2.5 % for
-/// 0.2 and 0.35; at depth 5, 0.1 has a third more MSE.
+/// Half angle of the cone. In smoke of depth 5 and 10 among a thousand lamps, relMSE without the worst 0.1 % is within 2.5 %
+/// for 0.2 and 0.35; at depth 5, 0.1 has a third more MSE.
 constexpr float kWidest = 0.25f;
 const float kLeastCosine = std::cos(kWidest);
 
-/// Over all angles the mean squared weight of Henyey and Greenstein's is 1.02 (g = 0.4) to 1.09 (0.95) times the least there is;
-/// with 1 it is 1.07 to 1.23, with 1.5 1.01 to 2.1.
+/// Over all angles the mean squared weight of Henyey and Greenstein's is 1.02 (g = 0.4) to 1.09 (0.95) times the least there
+/// is; with 1 it is 1.07 to 1.23, with 1.5 1.01 to 2.1.
 constexpr float kSharpen = 1.2f;
 constexpr float kSharpest = 0.98f;
 

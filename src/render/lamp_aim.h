@@ -31,8 +31,8 @@ struct LampAim {
   float spread;
 };
 
-/// `around` in [0, 1)^2 gives the direction, `along` in [0, 1) the distance, in a medium of mean cosine `g`. Nothing where either
-/// rounds away, as at the lamp.
+/// `around` in [0, 1)^2 gives the direction, `along` in [0, 1) the distance, in a medium of mean cosine `g`. Nothing where
+/// either rounds away, as at the lamp.
 std::optional<LampAim> aim_near(Vec3 p, Vec3 lamp, float g, Vec2 around, float along);
 
 /// LampAim::pdf of a unit direction; 0 outside the cone.

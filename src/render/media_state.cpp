@@ -36,8 +36,7 @@ bool MediaState::cross(std::uint32_t group, int sign) {
   return true;
 }
 
-ActiveMedia MediaState::active(const std::vector<BoundaryGroup>& groups,
-                               const std::vector<ParticipatingMedium>& media) const {
+ActiveMedia MediaState::active(const std::vector<BoundaryGroup>& groups, const std::vector<ParticipatingMedium>& media) const {
   ActiveMedia result;
   if (unbounded_) result.push_back(&media[*unbounded_]);
   for (const Membership& m : inside_) {

@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t kTriangle = 130;          // positions, and the ray tracing library's tree while it is built
 constexpr std::size_t kBoundaryTriangle = 300;  // kept in a tree of its own as well
 constexpr std::size_t kInstance = 300;
-constexpr std::size_t kLight = 200;  // with its share of the light tree while it is built
+constexpr std::size_t kLight = 200;           // with its share of the light tree while it is built
 constexpr std::size_t kLightInstance = 1000;  // all lights of an instance that shares them
 constexpr std::size_t kTexel = 16, kTexelWhileRead = 20, kTexelOfSky = 62;
 constexpr std::size_t kDenseVoxel = 12;  // values, and the bricks made of them
@@ -72,7 +72,7 @@ std::size_t plan_film(const Scene& scene) {
   const double channels = 4 + 4 * static_cast<double>(scene.settings.aovs.size());
   Sum sum;
   sum.add(pixels, 2 * sizeof(double) * (3 + channels));  // twice: a long pass keeps a way back
-  sum.add(pixels, 2 * sizeof(float) * channels);          // the image, and its encoding
+  sum.add(pixels, 2 * sizeof(float) * channels);         // the image, and its encoding
   return sum.bytes();
 }
 
@@ -206,8 +206,6 @@ void require_memory(const MemoryPlan& plan, const Scene& scene, std::size_t limi
                                   gigabytes(limit) + "; make it smaller, or set --max-memory");
 }
 
-std::size_t left_for_volumes(const MemoryPlan& plan, std::size_t limit) {
-  return limit - std::min(plan.total(), limit);
-}
+std::size_t left_for_volumes(const MemoryPlan& plan, std::size_t limit) { return limit - std::min(plan.total(), limit); }
 
 }  // namespace tyndall

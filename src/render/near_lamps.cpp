@@ -14,7 +14,8 @@ constexpr std::size_t kMostLamps = 1 << 20;
 /// Each cube's nearest lamp, by passing lamps on from cube to cube, forth and back: now and then the second nearest.
 class Nearest {
  public:
-  Nearest(const Cubes& cubes, const std::vector<NearLamps::Lamp>& lamps) : cubes_(cubes), lamps_(lamps), best_(cubes.size(), kNone), distances_(cubes.size(), kInfinity) {
+  Nearest(const Cubes& cubes, const std::vector<NearLamps::Lamp>& lamps)
+      : cubes_(cubes), lamps_(lamps), best_(cubes.size(), kNone), distances_(cubes.size(), kInfinity) {
     for (std::size_t i = 0; i < lamps.size(); ++i) offer_around(cubes.index(lamps[i].center), static_cast<std::uint32_t>(i));
     for (std::size_t i = 0; i < best_.size(); ++i) take_from(i, 1);
     for (std::size_t i = best_.size(); i-- > 0;) take_from(i, -1);
@@ -54,9 +55,11 @@ class Nearest {
 
   /// The k-th of the 27 around, in that order of cubes; nothing beyond the box.
   std::optional<std::size_t> neighbor(std::size_t cube, int k, int order) const {
-    const auto nx = static_cast<int>(cubes_.count(0)), ny = static_cast<int>(cubes_.count(1)), nz = static_cast<int>(cubes_.count(2));
+    const auto nx = static_cast<int>(cubes_.count(0)), ny = static_cast<int>(cubes_.count(1)),
+               nz = static_cast<int>(cubes_.count(2));
     const auto at = static_cast<int>(cube);
-    const int x = at % nx + order * (k % 3 - 1), y = at / nx % ny + order * (k / 3 % 3 - 1), z = at / (nx * ny) + order * (k / 9 - 1);
+    const int x = at % nx + order * (k % 3 - 1), y = at / nx % ny + order * (k / 3 % 3 - 1),
+              z = at / (nx * ny) + order * (k / 9 - 1);
     if (x < 0 || y < 0 || z < 0 || x >= nx || y >= ny || z >= nz) return std::nullopt;
     return static_cast<std::size_t>((z * ny + y) * nx + x);
   }

@@ -24,8 +24,8 @@ class NearLamps {
   NearLamps(const Bounds3& box, const std::vector<Lamp>& lamps);
 
   bool empty() const { return !cubes_; }  ///< it knows of no place
-  /// From `p` to the nearest lamp, about, less what may be the size of a cube; outside of the box also less the way there. 0 within
-  /// lamps.
+  /// From `p` to the nearest lamp, about, less what may be the size of a cube; outside of the box also less the way there. 0
+  /// within lamps.
   float distance(Vec3 p) const;
 
  private:
@@ -34,8 +34,8 @@ class NearLamps {
   std::vector<float> distances_;  ///< by cube
 };
 
-/// For places in media that fill some bounded space, which do not count as lamps where they glow. Of lamps by the million, some stand
-/// for all.
+/// For places in media that fill some bounded space, which do not count as lamps where they glow. Of lamps by the million, some
+/// stand for all.
 NearLamps near_lamps(const std::vector<ParticipatingMedium>& media, const std::vector<BoundaryGroup>& groups,
                      std::optional<MediumId> unbounded, const Lights& lights, const FireLights& fire);
 

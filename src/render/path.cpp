@@ -18,10 +18,12 @@ float hash_to_unit(Vec3 p, Vec3 w) {
 
 /// Russian roulette is for paths of less throughput than this. A dark wall's path into bright smoke is too rare to be made
 /// rarer: efficiency by instructions and relMSE without the worst 0.1 %, against roulette from 1 down, in smoke 1.09 to 1.29,
-/// a Cornell box 1.14, metal 1.03 (MSE 1.24), a mesh in fog 1.00, a street in fog 0.95; from 0.1 down it is less again but for smoke.
+/// a Cornell box 1.14, metal 1.03 (MSE 1.24), a mesh in fog 1.00, a street in fog 0.95; from 0.1 down it is less again but for
+/// smoke.
 constexpr float kRouletteBelow = 1 / 3.0f;
 /// Guided paths weigh little and bring much; roulette by weight alone would undo the guiding. With 1 here, as if they had not
-/// been guided, smoke takes 1.08 times the instructions for the same MSE; with 0.5 1.07 times for relMSE without the worst 0.1 %.
+/// been guided, smoke takes 1.08 times the instructions for the same MSE; with 0.5 1.07 times for relMSE without the worst 0.1
+/// %.
 constexpr float kGuidedLive = 0.75f;
 
 }  // namespace

@@ -13,7 +13,7 @@ class Path {
  public:
   /// What a path may do.
   struct Limits {
-    int max_depth;  ///< scattering events, counted as pbrt's volpath does
+    int max_depth;                    ///< scattering events, counted as pbrt's volpath does
     bool want_transmittance = false;  ///< record the camera ray's transmittance
     bool want_albedo = false;         ///< and the first event's albedo
   };
@@ -70,16 +70,16 @@ class Path {
   MediaState media_;
   Rgb beta_{1.0f};
   std::optional<Rgb> seen_;  ///< in place of beta_ for the light of what the camera's ray meets at its end
-  int depth_ = 0;         ///< scattering events so far
-  float eta_scale_ = 1;   ///< undoes the 1/eta^2 of transmissions in Russian roulette
-  float emphasis_ = 1;    ///< and what paths weigh less for having been guided
+  int depth_ = 0;            ///< scattering events so far
+  float eta_scale_ = 1;      ///< undoes the 1/eta^2 of transmissions in Russian roulette
+  float emphasis_ = 1;       ///< and what paths weigh less for having been guided
   PathRecord record_;
   bool first_event_in_medium_ = false;
 
   // The last scattering event, for the MIS weight of emitters that its ray hits.
-  bool light_sampled_ = false;  ///< next-event estimation could have found what this ray finds
-  Vec3 from_;       ///< where it took place
-  float pdf_ = 0;   ///< of the direction it took, 1/sr
+  bool light_sampled_ = false;         ///< next-event estimation could have found what this ray finds
+  Vec3 from_;                          ///< where it took place
+  float pdf_ = 0;                      ///< of the direction it took, 1/sr
   std::optional<CollisionRay> joint_;  ///< the ray from it, if it sought lamps jointly; context_ points to it
   LightSearch search_;
   std::optional<SpanEvent> span_event_;  ///< in place of search_ when the event's lights are chosen along its span

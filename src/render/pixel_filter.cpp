@@ -31,11 +31,16 @@ float sinc(float x) {
 float filter_axis(const PixelFilter& f, float x, float radius) {
   if (std::abs(x) > radius) return 0;
   switch (f.kind) {
-    case PixelFilter::Kind::box: return 1;
-    case PixelFilter::Kind::triangle: return radius - std::abs(x);
-    case PixelFilter::Kind::gaussian: return std::max(0.0f, gaussian(x, f.sigma) - gaussian(radius, f.sigma));
-    case PixelFilter::Kind::mitchell: return mitchell(2 * x / radius, f.b, f.c);
-    case PixelFilter::Kind::sinc: return sinc(x) * sinc(x / f.tau);
+    case PixelFilter::Kind::box:
+      return 1;
+    case PixelFilter::Kind::triangle:
+      return radius - std::abs(x);
+    case PixelFilter::Kind::gaussian:
+      return std::max(0.0f, gaussian(x, f.sigma) - gaussian(radius, f.sigma));
+    case PixelFilter::Kind::mitchell:
+      return mitchell(2 * x / radius, f.b, f.c);
+    case PixelFilter::Kind::sinc:
+      return sinc(x) * sinc(x / f.tau);
   }
   return 0;
 }
@@ -75,9 +80,7 @@ FilterSampler::Axis::Place FilterSampler::Axis::at(float x) const {
 
 FilterSampler::FilterSampler(const PixelFilter& filter) : x_(filter, 0), y_(filter, 1) {}
 
-FilterSampler::Offset FilterSampler::sample(Vec2 u) const {
-  return both(x_.sample(u.x), y_.sample(u.y));
-}
+FilterSampler::Offset FilterSampler::sample(Vec2 u) const { return both(x_.sample(u.x), y_.sample(u.y)); }
 
 FilterSampler::Offset FilterSampler::at(Vec2 p) const { return both(x_.at(p.x), y_.at(p.y)); }
 

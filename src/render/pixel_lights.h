@@ -17,11 +17,12 @@ bool brighter(const Item& a, const Item& b) {
   return a.brightness != b.brightness ? a.brightness > b.brightness : a.light < b.light;
 }
 
-/// How much of a light is seen at an offset from the pixel, in radii of its filter. Less at the rim, as the filter is there, but
-/// what reaches in from beyond has its share.
+/// How much of a light is seen at an offset from the pixel, in radii of its filter. Less at the rim, as the filter is there,
+/// but what reaches in from beyond has its share.
 inline float toward_rim(float dx, float dy) { return std::exp(-2.25f * std::min(dx * dx + dy * dy, 1.5f)); }
 
-/// The brightest of a pixel's lights, drawn in proportion to that. An `Item` has a `light` and a `brightness` >= 0, in any unit.
+/// The brightest of a pixel's lights, drawn in proportion to that. An `Item` has a `light` and a `brightness` >= 0, in any
+/// unit.
 template <typename Item>
 class PixelLights {
  public:

@@ -40,8 +40,8 @@ PixelBounds full_crop(const Scene& scene, const RenderSettings& settings) {
   const PixelBounds crop{std::max(wanted.x0, frame.x0), std::max(wanted.y0, frame.y0), std::min(wanted.x1, frame.x1),
                          std::min(wanted.y1, frame.y1)};
   if (crop.width() <= 0 || crop.height() <= 0) {
-    throw Error(Failure::usage, "the crop holds no pixel of the " + std::to_string(frame.x1) + "x" +
-                                    std::to_string(frame.y1) + " frame; give x0,x1,y0,y1 inside it");
+    throw Error(Failure::usage, "the crop holds no pixel of the " + std::to_string(frame.x1) + "x" + std::to_string(frame.y1) +
+                                    " frame; give x0,x1,y0,y1 inside it");
   }
   return crop;
 }
@@ -49,11 +49,13 @@ PixelBounds full_crop(const Scene& scene, const RenderSettings& settings) {
 void check(const RenderSettings& settings) {
   if (settings.spp < 1) throw Error(Failure::usage, "spp is " + std::to_string(settings.spp) + "; give 1 or more");
   if (settings.candidates && *settings.candidates < 0) throw Error(Failure::usage, "candidates is negative; give 0 or more");
-  if (settings.splitting && !(*settings.splitting >= 0 && *settings.splitting <= 1)) throw Error(Failure::usage, "splitting must be from 0 to 1");
+  if (settings.splitting && !(*settings.splitting >= 0 && *settings.splitting <= 1))
+    throw Error(Failure::usage, "splitting must be from 0 to 1");
   const bool along_spans = settings.distance != DistanceStrategy::automatic && settings.distance != DistanceStrategy::tracking;
   if (settings.media == MediaStrategy::vertex && along_spans) {
-    throw Error(Failure::usage, "media vertex chooses a light at a collision that has been tracked, so its distance is tracking; "
-                                "leave distance out, or choose media closest, integral or product");
+    throw Error(Failure::usage,
+                "media vertex chooses a light at a collision that has been tracked, so its distance is tracking; "
+                "leave distance out, or choose media closest, integral or product");
   }
   if (settings.shadow_rays && *settings.shadow_rays < 0) throw Error(Failure::usage, "shadow rays is negative; give 0 or more");
   if (settings.max_depth < 0) throw Error(Failure::usage, "max depth is negative; give 0 or more");
@@ -197,7 +199,8 @@ class RenderJob::Impl {
       for (const PixelBounds& tile : unrendered_) {
         for (int y = tile.y0; y < tile.y1; ++y) {
           const auto row = static_cast<std::size_t>(y - image.data.y0) * static_cast<std::size_t>(image.width());
-          std::fill_n(channel.values.begin() + static_cast<std::ptrdiff_t>(row) + (tile.x0 - image.data.x0), tile.width(), 0.0f);
+          std::fill_n(channel.values.begin() + static_cast<std::ptrdiff_t>(row) + (tile.x0 - image.data.x0), tile.width(),
+                      0.0f);
         }
       }
     }
@@ -208,7 +211,8 @@ class RenderJob::Impl {
     const PixelBounds& c = film_.crop();
     std::string pixels, aovs;
     for (const int v : {c.x0, c.x1, c.y0, c.y1}) pixels += (pixels.empty() ? "" : ",") + std::to_string(v);
-    for (const Aov aov : parse_aovs(settings_.aovs)) aovs += (aovs.empty() ? "" : ",") + std::string(aov_names()[static_cast<std::size_t>(aov)]);
+    for (const Aov aov : parse_aovs(settings_.aovs))
+      aovs += (aovs.empty() ? "" : ",") + std::string(aov_names()[static_cast<std::size_t>(aov)]);
     return {{"scene", scene_hash_text(world_.scene_hash, settings_)},
             {"options", options_text(settings_) + " --seed " + std::to_string(settings_.seed)},
             {"crop", pixels},

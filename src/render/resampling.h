@@ -35,8 +35,10 @@ Thinning thinning(const Candidates& candidates, int count) {
     double rest = 0;
     for (std::size_t i = 0; i < candidates.size(); ++i) {
       const double weight = candidates[i].weight;
-      if (weight >= found.threshold) ++kept;
-      else rest += weight;
+      if (weight >= found.threshold)
+        ++kept;
+      else
+        rest += weight;
     }
     found.drawn = count - kept;
     if (kept == kept_before || found.drawn == 0) return found;
@@ -64,7 +66,7 @@ Survivors resample(const Candidates& candidates, int count, float u) {
   }
   const auto [threshold, drawn] = thinning(candidates, count);
   const double middle = double{u} + 0x1p-25;  // of u's step: at 0 the first would be drawn, however light
-  double passed = 0;  // weight of those that were not kept, up to and with candidate i
+  double passed = 0;                          // weight of those that were not kept, up to and with candidate i
   int k = 0;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const double weight = candidates[i].weight;

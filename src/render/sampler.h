@@ -64,9 +64,7 @@ class Sampler {
  private:
   Sampler(std::uint64_t key, std::uint32_t index) : key_(key), index_(index) {}
   std::uint64_t next_block() { return hash(key_, ++block_); }
-  std::uint32_t shuffled_index(std::uint64_t block) const {
-    return owen_scramble(index_, static_cast<std::uint32_t>(block));
-  }
+  std::uint32_t shuffled_index(std::uint64_t block) const { return owen_scramble(index_, static_cast<std::uint32_t>(block)); }
   std::uint32_t point_0(std::uint64_t block) const {
     return owen_scramble(sobol_0(shuffled_index(block)), static_cast<std::uint32_t>(block >> 32));
   }

@@ -16,8 +16,8 @@ constexpr std::size_t kMostSpots = 1'000'000;
 /// A camera this near to a lamp, in its radii, may be inside it.
 constexpr float kNearest = 2;
 
-/// Film positions a sample where a surface begins or ends. In a hall with bulbs and a street with lamps 8 leave 1.3 to 1.5 times
-/// the MSE, 21 leave 0.78 of it for a tenth more work where half of the pixels are such.
+/// Film positions a sample where a surface begins or ends. In a hall with bulbs and a street with lamps 8 leave 1.3 to 1.5
+/// times the MSE, 21 leave 0.78 of it for a tenth more work where half of the pixels are such.
 constexpr int kPositions = 13;
 /// Of a Fibonacci lattice of so many points: spread evenly in the square and along both of its sides.
 constexpr int kLatticeStep = 8;
@@ -133,7 +133,8 @@ FilmShine film_shine(const World::Parts& world, const RenderSettings& settings, 
 
 FilmEdges film_edges(const World::Parts& world, const RenderSettings& settings, const PixelBounds& pixels, ThreadPool& pool) {
   const FilmEdges::View view{pixels, world.scene.filter.radius};
-  if (!is_wanted(world, settings) || !(std::max(view.filter_radius.x, view.filter_radius.y) <= FilmShine::kWidestFilter)) return {};
+  if (!is_wanted(world, settings) || !(std::max(view.filter_radius.x, view.filter_radius.y) <= FilmShine::kWidestFilter))
+    return {};
   const PixelBounds all = view.around();
   std::vector<float> brightness(all.size());
   pool.for_each(static_cast<std::size_t>(all.height()), 1, [&](std::size_t row) {

@@ -17,7 +17,8 @@ namespace tyndall {
 /// settings or the camera do not have it: only rays of a pinhole that is not distorted are aimed.
 FilmShine film_shine(const World::Parts& world, const RenderSettings& settings, const PixelBounds& pixels, ThreadPool& pool);
 
-/// Pixels of `pixels` that look through several film positions. None where settings or the camera do not have it: only pinholes do.
+/// Pixels of `pixels` that look through several film positions. None where settings or the camera do not have it: only pinholes
+/// do.
 FilmEdges film_edges(const World::Parts& world, const RenderSettings& settings, const PixelBounds& pixels, ThreadPool& pool);
 
 /// How a pixel's samples look at shining surfaces.

@@ -14,7 +14,7 @@ constexpr float kByAngle = 0.1f;
 constexpr float kLeastOffset = 1e-4f;
 
 struct Bins8 {
-  Float8 begin, end;      ///< distances from the ray's closest point to the light
+  Float8 begin, end;  ///< distances from the ray's closest point to the light
   Float8 scattering, sigma;
 };
 
@@ -89,7 +89,8 @@ DistanceSampler::DistanceSampler(const SpanProfile& profile, const Ray& ray, con
 void DistanceSampler::weigh(Weights weights, const Ray& ray, const LightPlace& light) {
   bins_ = profile_->bins();
   const RayPart part = lit_part(light, ray);
-  lit_ = {static_cast<float>(std::max(part.begin, double{lit_.begin})), static_cast<float>(std::min(part.end, double{lit_.end}))};
+  lit_ = {static_cast<float>(std::max(part.begin, double{lit_.begin})),
+          static_cast<float>(std::min(part.end, double{lit_.end}))};
   if (!(lit_.begin < lit_.end)) {
     mass_[0] = 0;
     return;

@@ -27,7 +27,7 @@ class DistanceSampler {
   DistanceSampler(const SpanProfile& profile, const Ray& ray, const LightPlace& light, std::optional<Weights> weights);
 
   DistanceSample sample(float u) const;  ///< pdf 0: the light shines on nothing of it
-  float pdf(float t) const;  ///< 0 outside the profile, and where the light does not shine
+  float pdf(float t) const;              ///< 0 outside the profile, and where the light does not shine
 
  private:
   void weigh(Weights weights, const Ray& ray, const LightPlace& light);

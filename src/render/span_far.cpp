@@ -21,12 +21,14 @@ constexpr float kDeep = 0.5f, kDeepUniform = 2;
 /// fireflies in thinner smoke.
 constexpr float kDeepLater = 8;
 constexpr int kReads = 4;
-/// Lamps that stay as far from all of a stretch as this many of its half lengths. MSE of smoke of depth 5 with lamps in it is 1.00
-/// times that of pairs everywhere, with half of it 1.5, with a quarter 2.1; in a hall with bulbs around smoke 0.99, 1.04, 1.06.
+/// Lamps that stay as far from all of a stretch as this many of its half lengths. MSE of smoke of depth 5 with lamps in it
+/// is 1.00 times that of pairs everywhere, with half of it 1.5, with a quarter 2.1; in a hall with bulbs around smoke
+/// 0.99, 1.04, 1.06.
 constexpr float kStandOff = 0.5f;
 /// After the first event, where less of the picture depends on it; and of the depth that is enough, so much is. Gain by
-/// instructions and relMSE with and without the worst 0.1 %: smoke of depth 1 0.99 and 0.99, of 5 1.08 and 1.07, of 10 1.09 and 1.09,
-/// with triangles 1.03 and 1.04, hall 1.11 and 1.10. With half of this stand-off 1.08 at depth 5, with a quarter 0.77.
+/// instructions and relMSE with and without the worst 0.1 %: smoke of depth 1 0.99 and 0.99, of 5 1.08 and 1.07, of 10 1.09
+/// and 1.09, with triangles 1.03 and 1.04, hall 1.11 and 1.10. With half of this stand-off 1.08 at depth 5, with a quarter
+/// 0.77.
 constexpr float kStandOffLater = 0.125f, kDeepShareLater = 0.5f;
 /// The stretch is where the optical depth passed is between these.
 constexpr float kClear = 0.01f, kOpaque = 2;

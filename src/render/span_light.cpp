@@ -134,7 +134,8 @@ class TransmittanceWalk {
 };
 
 Rgb evaluate(const LightContext& context, const Span& span, const Pairs& pairs, Survivors survivors, Sampler& sampler) {
-  std::sort(survivors.begin(), survivors.end(), [&](const Survivor& a, const Survivor& b) { return pairs[a.index].t < pairs[b.index].t; });
+  std::sort(survivors.begin(), survivors.end(),
+            [&](const Survivor& a, const Survivor& b) { return pairs[a.index].t < pairs[b.index].t; });
   TransmittanceWalk walk(context, span, sampler);
   Rgb sum;
   for (const Survivor& s : survivors) {
@@ -228,7 +229,8 @@ SpanDensities span_fire_densities(const LightContext& context, const SpanEvent& 
   const float found = fire_density(context, event.search, fires);
   const float pairs = event.search.chance * static_cast<float>(event.search.distances);  // for each candidate, on average
   const RenderSettings& settings = context.settings;
-  return {.pair = pairs_along_spans(settings) ? found * pairs * distances_to(context, event.search, fires[0].light).pdf(event.t) : 0.0f,
+  return {.pair = pairs_along_spans(settings) ? found * pairs * distances_to(context, event.search, fires[0].light).pdf(event.t)
+                                              : 0.0f,
           .tracked = tracks(settings) ? found * event.density : 0.0f};
 }
 

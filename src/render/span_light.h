@@ -15,7 +15,7 @@ struct SpanSearch {
   SegmentQuery query;
   LightCut cut;
   SpanProfile profile;
-  float g = 0;  ///< mean cosine of the phase functions, roughly
+  float g = 0;          ///< mean cosine of the phase functions, roughly
   int shadow_rays = 0;  ///< to trace, 0: to all candidates
   int distances = 1;    ///< tried with each candidate
   float chance = 1;     ///< of seeking any pair; roulette decides

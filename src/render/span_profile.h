@@ -32,7 +32,7 @@ class SpanProfile {
   /// Mean of sigma_s x transmittance over each bin, 1/length; of the channels' means.
   std::span<const float> scatterings() const { return {scattering_.data(), bins_}; }
   std::span<const float> sigmas() const { return {sigma_t_.data(), bins_}; }  ///< extinction, likewise
-  std::size_t bin_at(float t) const;  ///< that holds `t`, or is next to it
+  std::size_t bin_at(float t) const;                                          ///< that holds `t`, or is next to it
   /// From the origin to `t`.
   float transmittance(float t) const;
   float optical_depth() const { return depth_[bins_]; }  ///< of all of it
@@ -61,7 +61,7 @@ class SpanProfile {
   Edges edge_{}, depth_{};
   std::array<float, kMostBins> scattering_{}, sigma_t_{};
   float scattered_ = 0, reach_ = 0;
-  float settled_ = 0;  ///< end(), or where a last bin without end is taken to be over
+  float settled_ = 0;                     ///< end(), or where a last bin without end is taken to be over
   bool enters_ = false, leaves_ = false;  ///< the media begin, end, on the span
 };
 

@@ -127,7 +127,9 @@ class Units {
   void change_emission(Shape& shape) const {
     if (shape.emission && shape.emission->power) shape.emission->power = std::ldexp(*shape.emission->power, -2 * exponent_);
   }
-  static Rgb scaled(Rgb c, int exponent) { return {std::ldexp(c.r, exponent), std::ldexp(c.g, exponent), std::ldexp(c.b, exponent)}; }
+  static Rgb scaled(Rgb c, int exponent) {
+    return {std::ldexp(c.r, exponent), std::ldexp(c.g, exponent), std::ldexp(c.b, exponent)};
+  }
 
   int exponent_;
   Transform to_unit_;
@@ -146,8 +148,7 @@ UnitScene in_unit_size(Scene scene) {
   if (!(size > 0) || !std::isfinite(size) || !std::isfinite(farthest)) return result;
 
   const bool move = farthest > kFar * size;
-  const Transform to_origin =
-      move ? Transform::translate(-box.center(0), -box.center(1), -box.center(2)) : Transform();
+  const Transform to_origin = move ? Transform::translate(-box.center(0), -box.center(1), -box.center(2)) : Transform();
   int exponent = 0;
   std::frexp(size, &exponent);
   const double shrink = std::ldexp(1.0, -exponent);

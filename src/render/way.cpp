@@ -17,7 +17,8 @@ Rgb lamplight(const LightContext& context, const Way& way, LightId lamp, Sampler
   if (!crossings) return {};
 
   SpanWalk to_end(world.media_context(), way.start, *crossings, way.t);
-  while (to_end.next()) {}
+  while (to_end.next()) {
+  }
   context.counters.parity_errors += to_end.parity_errors();
   const MediaState there = to_end.state();
   const Scattering scattering = Scattering::at(there.active(world.geometry.groups(), world.media), p);
@@ -28,7 +29,8 @@ Rgb lamplight(const LightContext& context, const Way& way, LightId lamp, Sampler
   const Rgb T = transmittance_along(context, walk, way.ray, rng);
   if (is_black(T)) return {};
   const Rgb intensity = light->L * light->distance * light->distance;
-  return scattering.sigma_s * scattering.phase.eval(wo, light->wi) * intensity * T * arriving(context, there, p, *light, sampler);
+  return scattering.sigma_s * scattering.phase.eval(wo, light->wi) * intensity * T *
+         arriving(context, there, p, *light, sampler);
 }
 
 }  // namespace tyndall

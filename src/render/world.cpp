@@ -79,8 +79,9 @@ void require_camera_within_reach(const Camera& camera, const std::string& source
   const Vec3 eye = camera.to_world.point({0, 0, 0});
   for (int i = 0; i < 3; ++i) {
     if (std::abs(eye[i]) <= kFarthest) continue;
-    throw Error(Failure::scene, (source.empty() ? "the scene" : source) +
-                                    ": the camera is more than 1e17 times the size of the scene away from it; correct its transform");
+    throw Error(Failure::scene,
+                (source.empty() ? "the scene" : source) +
+                    ": the camera is more than 1e17 times the size of the scene away from it; correct its transform");
   }
 }
 
@@ -98,9 +99,7 @@ World::~World() = default;
 
 const BuildSummary& World::summary() const { return parts_->summary; }
 
-std::string World::scene_hash(const RenderSettings& settings) const {
-  return scene_hash_text(parts_->scene_hash, settings);
-}
+std::string World::scene_hash(const RenderSettings& settings) const { return scene_hash_text(parts_->scene_hash, settings); }
 
 World build(Scene scene, const BuildSettings& settings) {
   constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
@@ -143,8 +142,9 @@ World::Parts::Parts(UnitScene unit_scene, const BuildSettings& settings, std::si
   const Timer watch;
   const Emitters emitters = find_emitters(scene, geometry, summary);
   const std::vector<VolumeEmitter> volumes = fire.emitters();
-  lights = build_lights(scene, emitters.shapes, scene_bounds(geometry, media),
-                        {.strategies = settings.lights, .textures = &textures, .threads = settings.threads, .volumes = volumes});
+  lights =
+      build_lights(scene, emitters.shapes, scene_bounds(geometry, media),
+                   {.strategies = settings.lights, .textures = &textures, .threads = settings.threads, .volumes = volumes});
   fire.set_first(lights.first_volume());
   near_lamps = tyndall::near_lamps(media, geometry.groups(), scene.camera.medium, lights, fire);
   glow = MediaGlow(media, {geometry.groups(), scene.camera.medium, lights, fire, scene_bounds(geometry, media)});

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "light/lights.h"
-#include "render/fire_lights.h"
 #include "render/camera_ray.h"
+#include "render/fire_lights.h"
 #include "render/media_glow.h"
 #include "render/media_state.h"
 #include "render/near_lamps.h"
@@ -22,12 +22,12 @@ namespace tyndall {
 
 struct World::Parts {
   Parts(UnitScene unit_scene, const BuildSettings& settings, std::size_t volume_memory);  ///< bytes that volume files may take
-  Parts(const Parts&) = delete;  // its members refer to each other
+  Parts(const Parts&) = delete;                                                           // its members refer to each other
 
-  BuildSummary summary;  ///< first: the others fill it while they are built
-  Scene scene;         ///< in the renderer's own units, as everything here
-  Transform to_user;   ///< to the space of the scene as it was given
-  float unit;          ///< length there of 1 here
+  BuildSummary summary;    ///< first: the others fill it while they are built
+  Scene scene;             ///< in the renderer's own units, as everything here
+  Transform to_user;       ///< to the space of the scene as it was given
+  float unit;              ///< length there of 1 here
   CameraRays user_camera;  ///< the camera as it was given, for what images say of it
   Textures textures;
   Materials materials;
@@ -36,8 +36,8 @@ struct World::Parts {
   FireLights fire;  ///< empty unless asked for
   bool has_fire;    ///< it was
   Lights lights;
-  NearLamps near_lamps;  ///< where all media are unbounded, or all lamps far, of no place
-  MediaGlow glow;  ///< empty where all media are homogeneous
+  NearLamps near_lamps;              ///< where all media are unbounded, or all lamps far, of no place
+  MediaGlow glow;                    ///< empty where all media are homogeneous
   std::vector<LightId> first_light;  ///< by placed shape; kNone where it does not emit
   CameraRays camera;
   FilterSampler filter;

@@ -75,8 +75,8 @@ std::array<double, 3> mean_color(const Runs& runs) {
 
 ErrorMetrics mean_error(const Runs& runs) {
   ErrorMetrics mean;
-  for (double ErrorMetrics::*m : {&ErrorMetrics::mse, &ErrorMetrics::relmse, &ErrorMetrics::relmse_trimmed,
-                                  &ErrorMetrics::mape, &ErrorMetrics::smape}) {
+  for (double ErrorMetrics::*m :
+       {&ErrorMetrics::mse, &ErrorMetrics::relmse, &ErrorMetrics::relmse_trimmed, &ErrorMetrics::mape, &ErrorMetrics::smape}) {
     mean.*m = mean_of(runs, [m](const RaceRun& r) { return last(r).error.*m; });
   }
   return mean;
@@ -169,11 +169,14 @@ void add_warnings(const VariantResult& v, const ComparePlan& plan, std::vector<s
     warnings.push_back(v.name + ": took longer than the budget, since a sample a pixel is the least there is");
   }
   if (v.near_noise) {
-    warnings.push_back(v.name + ": its error is as small as the reference's own noise; --reference-error or --reference-time make a better one");
+    warnings.push_back(
+        v.name +
+        ": its error is as small as the reference's own noise; --reference-error or --reference-time make a better one");
   }
   if (!v.slope_note().empty()) warnings.push_back(v.name + ": its error falls " + v.slope_note());
   if (v.non_finite > 0) warnings.push_back(v.name + ": " + std::to_string(v.non_finite) + " samples were not finite");
-  if (v.majorant_violations > 0) warnings.push_back(v.name + ": " + std::to_string(v.majorant_violations) + " majorant violations");
+  if (v.majorant_violations > 0)
+    warnings.push_back(v.name + ": " + std::to_string(v.majorant_violations) + " majorant violations");
 }
 
 }  // namespace
@@ -208,8 +211,8 @@ CompareResult compare(const World& world, const ComparePlan& plan, const Referen
     result.warnings.push_back("no efficiencies, since the first variant, which they are relative to, was given up");
   }
   if (result.seeds_done < plan.seeds.size()) {
-    result.warnings.push_back("stopped after " + std::to_string(result.seeds_done) + " of " + std::to_string(plan.seeds.size()) +
-                              " seeds: the intervals are wider for it");
+    result.warnings.push_back("stopped after " + std::to_string(result.seeds_done) + " of " +
+                              std::to_string(plan.seeds.size()) + " seeds: the intervals are wider for it");
   }
   return result;
 }

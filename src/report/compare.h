@@ -22,7 +22,7 @@ struct CompareVariant {
 struct ComparePlan {
   std::vector<CompareVariant> variants;  ///< the first is what the others are measured by
   RaceBudget budget;
-  std::vector<std::uint64_t> seeds;      ///< a run of every variant for each
+  std::vector<std::uint64_t> seeds;  ///< a run of every variant for each
 };
 
 /// One point of a variant's curve: means over the seeds, at equal samples.
@@ -37,10 +37,10 @@ struct VariantResult {
   std::string name, options;
   double build_seconds = 0;  ///< of what only this strategy needs
   double samples = 0, seconds = 0;
-  ErrorMetrics error;                  ///< at the end, mean over the seeds
+  ErrorMetrics error;  ///< at the end, mean over the seeds
   std::vector<CurvePoint> curve;
-  std::optional<ConfidenceInterval> slope;          ///< of log relMSE against log seconds
-  std::optional<ConfidenceInterval> slope_samples;  ///< against log samples: without the machine's moods
+  std::optional<ConfidenceInterval> slope;                           ///< of log relMSE against log seconds
+  std::optional<ConfidenceInterval> slope_samples;                   ///< against log samples: without the machine's moods
   std::optional<ConfidenceInterval> efficiency, efficiency_trimmed;  ///< relative to the first variant
   std::array<double, 3> mean_rgb{};
   Image image;  ///< of the first seed

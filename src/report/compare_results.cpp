@@ -20,8 +20,13 @@ Json interval(const std::optional<ConfidenceInterval>& i) {
 }
 
 Json reference_json(const Reference& r) {
-  return {{"source", r.source},   {"file", "reference.exr"}, {"samples", r.samples}, {"seed", r.seed},
-          {"seconds", r.seconds}, {"relmse", r.has_variance ? number(r.relmse) : Json(nullptr)}, {"noise_subtracted", r.has_variance}};
+  return {{"source", r.source},
+          {"file", "reference.exr"},
+          {"samples", r.samples},
+          {"seed", r.seed},
+          {"seconds", r.seconds},
+          {"relmse", r.has_variance ? number(r.relmse) : Json(nullptr)},
+          {"noise_subtracted", r.has_variance}};
 }
 
 Json curve_json(const VariantResult& v) {
@@ -39,8 +44,14 @@ Json curve_json(const VariantResult& v) {
 
 Json variant_json(const VariantResult& v) {
   const auto known = [&](double value) { return v.given_up ? Json(nullptr) : number(value); };
-  const auto part = [](const std::optional<ConfidenceInterval>& i, double ConfidenceInterval::*member) { return i ? number((*i).*member) : Json(nullptr); };
-  Json j{{"name", v.name}, {"options", v.options}, {"build_seconds", v.build_seconds}, {"samples", v.samples}, {"seconds", v.seconds}};
+  const auto part = [](const std::optional<ConfidenceInterval>& i, double ConfidenceInterval::*member) {
+    return i ? number((*i).*member) : Json(nullptr);
+  };
+  Json j{{"name", v.name},
+         {"options", v.options},
+         {"build_seconds", v.build_seconds},
+         {"samples", v.samples},
+         {"seconds", v.seconds}};
   j["mse"] = known(v.error.mse);
   j["relmse"] = known(v.error.relmse);
   j["relmse_trimmed"] = known(v.error.relmse_trimmed);
@@ -91,10 +102,14 @@ std::string picture_file(const std::string& variant_name) {
   return file + ".exr";
 }
 
-Json compare_json(const CompareContext& context, const ComparePlan& plan, const Reference& reference, const CompareResult& result) {
-  Json j{{"version", version()}, {"scene", context.scene}, {"reference", reference_json(reference)}, {"machine", machine_description(context.threads)}};
-  j["settings"] = {{"budget", budget_text(plan.budget)}, {"seeds", plan.seeds},    {"width", context.width},
-                   {"height", context.height},           {"eps", kRelativeEps},    {"options", context.options},
+Json compare_json(const CompareContext& context, const ComparePlan& plan, const Reference& reference,
+                  const CompareResult& result) {
+  Json j{{"version", version()},
+         {"scene", context.scene},
+         {"reference", reference_json(reference)},
+         {"machine", machine_description(context.threads)}};
+  j["settings"] = {{"budget", budget_text(plan.budget)}, {"seeds", plan.seeds}, {"width", context.width},
+                   {"height", context.height},           {"eps", kRelativeEps}, {"options", context.options},
                    {"command", context.command}};
   j["warnings"] = result.warnings;
   j["variants"] = Json::array();
@@ -116,15 +131,15 @@ std::string error_csv(const CompareResult& result) {
 std::string compare_table(const CompareResult& result) {
   std::size_t width = 7;
   for (const VariantResult& v : result.variants) width = std::max(width, v.name.size());
-  std::string text = fmt::format("{:<{}}  {:>8} {:>8} {:>8} {:>10} {:>7}  {:<26} {}\n", "variant", width, "build s", "seconds", "samples",
-                                 "relMSE", "slope", "efficiency (95 %)", "without the worst 0.1 %");
+  std::string text = fmt::format("{:<{}}  {:>8} {:>8} {:>8} {:>10} {:>7}  {:<26} {}\n", "variant", width, "build s", "seconds",
+                                 "samples", "relMSE", "slope", "efficiency (95 %)", "without the worst 0.1 %");
   for (const VariantResult& v : result.variants) {
     if (v.given_up) {
       text += fmt::format("{:<{}}  {:>8.3f}  given up: one sample takes too long\n", v.name, width, v.build_seconds);
       continue;
     }
-    text += fmt::format("{:<{}}  {:>8.3f} {:>8.2f} {:>8.1f} {:>10.3e} {:>7}  {:<26} {}\n", v.name, width, v.build_seconds, v.seconds,
-                        v.samples, v.error.relmse, v.slope ? fmt::format("{:.2f}", v.slope->value) : "-",
+    text += fmt::format("{:<{}}  {:>8.3f} {:>8.2f} {:>8.1f} {:>10.3e} {:>7}  {:<26} {}\n", v.name, width, v.build_seconds,
+                        v.seconds, v.samples, v.error.relmse, v.slope ? fmt::format("{:.2f}", v.slope->value) : "-",
                         interval_text(v.efficiency), interval_text(v.efficiency_trimmed));
   }
   return text;

@@ -58,10 +58,12 @@ void find_bad_values(const Image& image, bool is_reference, const DiffSettings& 
   for (const Channel& c : image.channels) {
     const bool is_variance = c.name.starts_with(kVariance);
     if (wanted(c.name, settings)) {
-      find_values(image, c, is_reference, [](float v) { return !std::isfinite(v); }, diff.non_finite);
+      find_values(
+          image, c, is_reference, [](float v) { return !std::isfinite(v); }, diff.non_finite);
     }
     if (is_variance && (wanted(c.name, settings) || wanted(c.name.substr(kVariance.size()), settings))) {
-      find_values(image, c, is_reference, [](float v) { return v < 0; }, diff.negative_variances);
+      find_values(
+          image, c, is_reference, [](float v) { return v < 0; }, diff.negative_variances);
     }
   }
 }

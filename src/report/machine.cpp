@@ -22,9 +22,7 @@ std::string cpu_model() {
   return "unknown";
 }
 
-double memory_gib() {
-  return std::round(static_cast<double>(physical_memory()) / (1 << 30) * 10) / 10;
-}
+double memory_gib() { return std::round(static_cast<double>(physical_memory()) / (1 << 30) * 10) / 10; }
 
 std::string system_name() {
   utsname name{};

@@ -64,8 +64,8 @@ MeanImage block_means(const MeanImage& pixels, int size) {
   for (int k = 0; k < 3; ++k) {
     for (int y = 0; y < pixels.height; y += size) {
       for (int x = 0; x < pixels.width; x += size) {
-        result.channels[k].push_back(block_mean(
-            pixels, k, {x, y, std::min(x + size, pixels.width), std::min(y + size, pixels.height)}));
+        result.channels[k].push_back(
+            block_mean(pixels, k, {x, y, std::min(x + size, pixels.width), std::min(y + size, pixels.height)}));
       }
     }
   }

@@ -15,9 +15,7 @@ struct MeanImage {
   int width = 0, height = 0;
   std::array<std::vector<Estimate>, 3> channels;
 
-  const Estimate& at(int x, int y, int channel) const {
-    return channels[channel][static_cast<std::size_t>(y) * width + x];
-  }
+  const Estimate& at(int x, int y, int channel) const { return channels[channel][static_cast<std::size_t>(y) * width + x]; }
 };
 
 /// Gathers independent renders of one picture (equal samples, different seeds). The error of a pixel is the spread

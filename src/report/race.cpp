@@ -9,8 +9,9 @@
 namespace tyndall {
 namespace {
 
-constexpr double kTurnSeconds = 0.25;  ///< aim for one turn: short against the drift of a machine, long against a pass's overhead
-constexpr double kPatience = 4;        ///< budgets that a first sample may take
+constexpr double kTurnSeconds =
+    0.25;                        ///< aim for one turn: short against the drift of a machine, long against a pass's overhead
+constexpr double kPatience = 4;  ///< budgets that a first sample may take
 
 std::array<double, 3> mean_color(const Image& image) {
   std::array<double, 3> mean{};

@@ -44,7 +44,8 @@ struct RaceControl {
 };
 
 /// One run for each of `methods` on `world`, turn by turn in short passes, so that a machine that slows down slows all
-/// alike. Empty when stopped. Each method's clock runs while its own pass does. `spp`, `time` and `error` of the methods are not looked at.
+/// alike. Empty when stopped. Each method's clock runs while its own pass does. `spp`, `time` and `error` of the methods are
+/// not looked at.
 std::vector<RaceRun> race(const World& world, const std::vector<RenderSettings>& methods, const RaceBudget& budget,
                           const RaceControl& control);
 

@@ -13,13 +13,13 @@ namespace tyndall {
 
 struct Reference {
   Image image;
-  std::string source;        ///< its file, or "rendered"
-  bool has_variance = false; ///< its own noise is known and taken off every error
-  int samples = 0;           ///< a pixel; 0: the file does not say
-  std::string seed;          ///< several when merged, "1,2"; empty: the file does not say
-  double seconds = 0;        ///< it took to render here
-  double relmse = 0;         ///< estimated from its variance; 0 when that is absent
-  bool stopped = false;      ///< by RenderControl::stop, before it was good enough
+  std::string source;         ///< its file, or "rendered"
+  bool has_variance = false;  ///< its own noise is known and taken off every error
+  int samples = 0;            ///< a pixel; 0: the file does not say
+  std::string seed;           ///< several when merged, "1,2"; empty: the file does not say
+  double seconds = 0;         ///< it took to render here
+  double relmse = 0;          ///< estimated from its variance; 0 when that is absent
+  bool stopped = false;       ///< by RenderControl::stop, before it was good enough
 
   ErrorMetrics error_of(const Image& picture) const;
   /// It can be held against renders of `world` with `settings` and these seeds. Throws Error (scene) for other pixels,
@@ -36,9 +36,9 @@ Reference read_reference(const std::string& path);
 
 /// When a reference is good enough.
 struct ReferenceGoal {
-  double relmse = 1e-3;                                          ///< estimated, eps 0.01
-  double seconds = std::numeric_limits<double>::infinity();      ///< at most
-  int samples = std::numeric_limits<int>::max();                 ///< at most
+  double relmse = 1e-3;                                      ///< estimated, eps 0.01
+  double seconds = std::numeric_limits<double>::infinity();  ///< at most
+  int samples = std::numeric_limits<int>::max();             ///< at most
 };
 
 /// Render one with the settings given, but for spp, time and error; at least 16 samples, unless stopped.

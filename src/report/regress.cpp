@@ -115,15 +115,17 @@ class Verdict {
     const RegressCase& c = *bunch.about;
     const std::string path = suite_.reference_path(c);
     if (!fs::exists(path))
-      throw Error(Failure::scene, path + ": there is no reference yet; make one with --update --filter " + shell_quoted(c.name));
+      throw Error(Failure::scene,
+                  path + ": there is no reference yet; make one with --update --filter " + shell_quoted(c.name));
     result.reference = read_image(path);
     if (run_counts(*result.reference, path).spp != c.spp) {
-      throw Error(Failure::scene,
-                  path + ": was made with another \"spp\" than " + std::to_string(c.spp) + "; renew it with --update --filter " + shell_quoted(c.name));
+      throw Error(Failure::scene, path + ": was made with another \"spp\" than " + std::to_string(c.spp) +
+                                      "; renew it with --update --filter " + shell_quoted(c.name));
     }
     require_same_layers(*result.render, *result.reference, c);
     if (c.bytes && !fs::exists(suite_.bytes_path(c)))
-      throw Error(Failure::scene, suite_.bytes_path(c) + ": is missing; make it with --update --filter " + shell_quoted(c.name));
+      throw Error(Failure::scene,
+                  suite_.bytes_path(c) + ": is missing; make it with --update --filter " + shell_quoted(c.name));
     result.tests = judge(*result.render, *result.reference, layer_level_);
     result.tests.push_back(health(bunch));
     if (c.bytes) result.tests.push_back(bytes_test(bunch));

@@ -36,7 +36,7 @@ struct CaseResult {
   int samples = 0;        ///< a pixel, of all its runs
   std::string message{};  ///< one line
   std::vector<LayerTest> tests{};
-  bool unwritten = false;  ///< an error, for the new reference could not be written
+  bool unwritten = false;                      ///< an error, for the new reference could not be written
   std::optional<Image> render{}, reference{};  ///< with variances; reference: as it was before an update
 };
 

@@ -99,7 +99,9 @@ std::string junit_case(const CaseResult& c, const std::string& suite) {
 /// by many per cent and mean nothing.
 double telling_difference(const LayerTest& t) {
   std::size_t furthest = 0;
-  const auto significance = [&](std::size_t k) { return t.mean_error[k] > 0 ? std::abs(t.mean_difference[k]) / t.mean_error[k] : 0; };
+  const auto significance = [&](std::size_t k) {
+    return t.mean_error[k] > 0 ? std::abs(t.mean_difference[k]) / t.mean_error[k] : 0;
+  };
   for (std::size_t k = 1; k < 3; ++k) {
     if (significance(k) > significance(furthest)) furthest = k;
   }

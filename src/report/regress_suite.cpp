@@ -20,8 +20,8 @@ namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 /// Options of render that the suite itself sets, and those that end a render at no fixed number of samples.
-constexpr std::array kTaken{"-o",     "--output", "--seed", "--spp",      "--aov",          "--threads",
-                            "--json", "--quiet",  "--time", "--progress", "--reproducible", "--error",   "--max-memory"};
+constexpr std::array kTaken{"-o",      "--output", "--seed",     "--spp",          "--aov",   "--threads",   "--json",
+                            "--quiet", "--time",   "--progress", "--reproducible", "--error", "--max-memory"};
 
 [[noreturn]] void bad(const std::string& path, const std::string& what) { throw Error(Failure::scene, path + ": " + what); }
 

@@ -7,9 +7,18 @@ namespace {
 
 RTCRayHit embree_ray(const Ray& ray, float t_min, float t_max) {
   RTCRayHit r{};
-  r.ray = {.org_x = ray.o.x, .org_y = ray.o.y, .org_z = ray.o.z, .tnear = t_min,
-           .dir_x = ray.d.x, .dir_y = ray.d.y, .dir_z = ray.d.z, .time = 0,
-           .tfar = t_max, .mask = ~0u, .id = 0, .flags = 0};
+  r.ray = {.org_x = ray.o.x,
+           .org_y = ray.o.y,
+           .org_z = ray.o.z,
+           .tnear = t_min,
+           .dir_x = ray.d.x,
+           .dir_y = ray.d.y,
+           .dir_z = ray.d.z,
+           .time = 0,
+           .tfar = t_max,
+           .mask = ~0u,
+           .id = 0,
+           .flags = 0};
   r.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   r.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   return r;

@@ -1,5 +1,5 @@
-#include <algorithm>
 #include <xmmintrin.h>
+#include <algorithm>
 
 #include <map>
 #include <string>
@@ -14,12 +14,18 @@ namespace {
 
 const char* describe(RTCError code) {
   switch (code) {
-    case RTC_ERROR_OUT_OF_MEMORY: return "out of memory; the scene needs more than this computer has";
-    case RTC_ERROR_UNSUPPORTED_CPU: return "this processor is not supported; SSE2 is needed";
-    case RTC_ERROR_INVALID_ARGUMENT: return "invalid argument";
-    case RTC_ERROR_INVALID_OPERATION: return "invalid operation";
-    case RTC_ERROR_CANCELLED: return "the build was cancelled";
-    default: return "unknown error";
+    case RTC_ERROR_OUT_OF_MEMORY:
+      return "out of memory; the scene needs more than this computer has";
+    case RTC_ERROR_UNSUPPORTED_CPU:
+      return "this processor is not supported; SSE2 is needed";
+    case RTC_ERROR_INVALID_ARGUMENT:
+      return "invalid argument";
+    case RTC_ERROR_INVALID_OPERATION:
+      return "invalid operation";
+    case RTC_ERROR_CANCELLED:
+      return "the build was cancelled";
+    default:
+      return "unknown error";
   }
 }
 
@@ -82,7 +88,8 @@ bool within_reach(const Bounds3& bounds) {
 
 void require_within_reach(const Bounds3& bounds, const Shape& shape) {
   if (within_reach(bounds)) return;
-  throw Error(shape.where, "the shape is not within finite reach (1e17 times the size of the scene); correct its size or transform");
+  throw Error(shape.where,
+              "the shape is not within finite reach (1e17 times the size of the scene); correct its size or transform");
 }
 
 }  // namespace
@@ -108,9 +115,10 @@ GeometryImpl::GeometryImpl(const Scene& scene, const Textures* textures, int thr
     if (objects[i].set->bounds.empty()) continue;
     bounds.expand(scene.instances[i].to_world.bounds(objects[i].set->bounds));
     if (!within_reach(bounds)) {
-      throw Error(Failure::scene, (scene.source.empty() ? "the scene" : scene.source) + ": instance " + std::to_string(i) + " of object \"" +
-                                      scene.objects[scene.instances[i].object].name +
-                                      "\" is not within finite reach (1e17 times the size of the scene); correct its transform");
+      throw Error(Failure::scene,
+                  (scene.source.empty() ? "the scene" : scene.source) + ": instance " + std::to_string(i) + " of object \"" +
+                      scene.objects[scene.instances[i].object].name +
+                      "\" is not within finite reach (1e17 times the size of the scene); correct its transform");
     }
   }
   bound_groups();
@@ -140,7 +148,8 @@ void GeometryImpl::create_device(int threads) {
   const std::string count = fewer ? "threads=" + std::to_string(threads) + "," : "";
   device.reset(rtcNewDevice((count + "set_affinity=0").c_str()));
   if (!device) {
-    throw Error(Failure::run_time, std::string("the ray tracing library cannot start: ") + describe(rtcGetDeviceError(nullptr)));
+    throw Error(Failure::run_time,
+                std::string("the ray tracing library cannot start: ") + describe(rtcGetDeviceError(nullptr)));
   }
   rtcSetDeviceErrorFunction(device.get(), on_error, this);
   rtcSetDeviceMemoryMonitorFunction(device.get(), on_memory, this);
@@ -172,7 +181,8 @@ void GeometryImpl::place_shapes(const Scene& scene) {
   }
 }
 
-std::unique_ptr<PartSet> GeometryImpl::make_set(const Scene& scene, const std::vector<Shape>& shapes, const Textures* textures) {
+std::unique_ptr<PartSet> GeometryImpl::make_set(const Scene& scene, const std::vector<Shape>& shapes,
+                                                const Textures* textures) {
   auto set = std::make_unique<PartSet>();
   set->parts.reserve(shapes.size());
   for (const Shape& shape : shapes) {

@@ -37,7 +37,8 @@ bool stops(const Part& part, const GeometryQuery& query, std::uint32_t primitive
   return alpha > 0 && alpha_threshold(query.ray, shape, primitive, which) <= alpha;
 }
 
-std::optional<ShapeRoot> nearest_stop(const Part& part, const GeometryQuery& query, std::uint32_t primitive, const RTCRay& ray) {
+std::optional<ShapeRoot> nearest_stop(const Part& part, const GeometryQuery& query, std::uint32_t primitive,
+                                      const RTCRay& ray) {
   std::optional<ShapeRoot> best;
   int which = 0;
   for (const ShapeRoot& root : part.intersect(primitive, shape_ray(ray))) {

@@ -31,7 +31,7 @@ struct Part {
   bool is_patch = false;  ///< the mesh is one of bilinear patches
   bool real = true;       ///< not of interface material
   std::uint32_t index = 0;
-  Bounds3 box{};  ///< of all primitives
+  Bounds3 box{};                             ///< of all primitives
   const Textures* alpha_textures = nullptr;  ///< null: opaque
 
   std::uint32_t primitive_count() const;
@@ -112,8 +112,8 @@ struct GeometryQuery {
 
   RTCIntersectContext context;
   const GeometryImpl* impl = nullptr;
-  Ray ray;                           ///< in the world: the seed of alpha's decisions
-  std::uint32_t first_placed = 0;    ///< of the object being visited
+  Ray ray;                         ///< in the world: the seed of alpha's decisions
+  std::uint32_t first_placed = 0;  ///< of the object being visited
   Boundaries boundaries = Boundaries::of_interfaces;
   BoundaryRecords* records = nullptr;
 };

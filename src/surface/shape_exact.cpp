@@ -53,8 +53,8 @@ EdgeSide edge_side(const ShapeRay& ray, Vec3d a, Vec3d b) {
   const Vec3d oa = a - ray.o, ob = b - ray.o;
   double value = dot(cross(oa, ob), ray.d);
   const Vec3d aa = abs(oa), bb = abs(ob), dd = abs(ray.d);
-  const double permanent = (aa.y * bb.z + aa.z * bb.y) * dd.x + (aa.z * bb.x + aa.x * bb.z) * dd.y +
-                           (aa.x * bb.y + aa.y * bb.x) * dd.z;
+  const double permanent =
+      (aa.y * bb.z + aa.z * bb.y) * dd.x + (aa.z * bb.x + aa.x * bb.z) * dd.y + (aa.x * bb.y + aa.y * bb.x) * dd.z;
   if (std::abs(value) <= 1e-15 * permanent) value = precise_determinant(oa, ob, ray.d);
   if (value != 0) return {sign_of(value), std::abs(value)};
 

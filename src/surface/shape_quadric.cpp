@@ -51,9 +51,12 @@ PlacedQuadric::PlacedQuadric(const Shape& shape) : map_(shape.to_world), to_spac
 bool PlacedQuadric::keeps(double phi, double z, double radius) const {
   if (phi > phi_max_) return false;
   switch (kind_) {
-    case Kind::sphere: return (z >= z_min_ || z_min_ <= -radius_) && (z <= z_max_ || z_max_ >= radius_);
-    case Kind::cylinder: return z >= z_min_ && z <= z_max_;
-    case Kind::disk: return radius <= radius_ && radius >= inner_radius_;
+    case Kind::sphere:
+      return (z >= z_min_ || z_min_ <= -radius_) && (z <= z_max_ || z_max_ >= radius_);
+    case Kind::cylinder:
+      return z >= z_min_ && z <= z_max_;
+    case Kind::disk:
+      return radius <= radius_ && radius >= inner_radius_;
   }
   return false;
 }

@@ -1,6 +1,6 @@
+#include "math/frame.h"
 #include "surface/shape_exact.h"
 #include "surface/shape_mesh.h"
-#include "math/frame.h"
 
 namespace tyndall {
 
@@ -21,11 +21,8 @@ std::optional<ShapeRoot> intersect_triangle(const ShapeRay& ray, const std::arra
   const Vec3d point = (a - ray.o) * w0 + (b - ray.o) * w1 + (c - ray.o) * w2;
   const double d2 = dot(ray.d, ray.d);
   const double area = length(cross(b - a, c - a));
-  return ShapeRoot{.t = dot(point, ray.d) / d2,
-                   .facing = ab.sign,
-                   .cosine = std::min(1.0, sum / (area * std::sqrt(d2))),
-                   .u = w1,
-                   .v = w2};
+  return ShapeRoot{
+      .t = dot(point, ray.d) / d2, .facing = ab.sign, .cosine = std::min(1.0, sum / (area * std::sqrt(d2))), .u = w1, .v = w2};
 }
 
 namespace {
@@ -89,8 +86,7 @@ ShapeSurface triangle_surface(const PlacedMesh& mesh, std::uint32_t primitive, d
   if (dot(ns, ns) > 0) surface.ns = normalize(ns);
   if (dot(surface.ng, surface.ns) < 0) surface.ng = -surface.ng;
   const Vec3d bitangent = cross(surface.ns, surface.dpdu);
-  surface.dpdu = dot(bitangent, bitangent) > 0 ? cross(bitangent, surface.ns)
-                                               : Vec3d(Frame::around(to_vec3(surface.ns)).x);
+  surface.dpdu = dot(bitangent, bitangent) > 0 ? cross(bitangent, surface.ns) : Vec3d(Frame::around(to_vec3(surface.ns)).x);
   return surface;
 }
 

@@ -113,7 +113,8 @@ class BrickGridBuilder {
         end[i] = static_cast<std::uint32_t>(std::min<std::int64_t>(corner[i] + side, grid_.directory_.size(i)));
       for (auto z = static_cast<std::uint32_t>(corner[2]); z < end[2]; ++z)
         for (auto y = static_cast<std::uint32_t>(corner[1]); y < end[1]; ++y)
-          for (auto x = static_cast<std::uint32_t>(corner[0]); x < end[0]; ++x) grid_.directory_.set(x, y, z, entry(node.first));
+          for (auto x = static_cast<std::uint32_t>(corner[0]); x < end[0]; ++x)
+            grid_.directory_.set(x, y, z, entry(node.first));
       return;
     }
     std::uint32_t child = node.first;

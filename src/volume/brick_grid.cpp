@@ -25,7 +25,9 @@ void BrickGrid::lookup(const GridVec& p, float* out) const {
   std::fill_n(out, channels(), 0.0f);
   if (!support_.contains(p)) return;
   const Index3 cell = cell_of(p);
-  const auto offset = [&](std::size_t i) { return static_cast<float>(p.v[i] - static_cast<double>(cell[i] & ~std::int64_t{7})); };
+  const auto offset = [&](std::size_t i) {
+    return static_cast<float>(p.v[i] - static_cast<double>(cell[i] & ~std::int64_t{7}));
+  };
   bricks_.lookup_all(brick_at(cell), offset(0), offset(1), offset(2), out);
 }
 

@@ -89,9 +89,8 @@ std::optional<std::pair<float, float>> coarse_extent(MediaView media, const Ray&
   double lo = kInfinity, hi = -kInfinity;
   for (const ParticipatingMedium* medium : media) {
     const MediumData& m = medium->data();
-    const auto [begin, end] = m.kind == MediumData::Kind::homogeneous
-                                  ? std::pair{double{t0}, double{t1}}
-                                  : GridRay(m.density.to_local, ray).clip(m.clip, t0, t1);
+    const auto [begin, end] = m.kind == MediumData::Kind::homogeneous ? std::pair{double{t0}, double{t1}}
+                                                                      : GridRay(m.density.to_local, ray).clip(m.clip, t0, t1);
     lo = std::min(lo, begin);
     hi = std::max(hi, end);
   }

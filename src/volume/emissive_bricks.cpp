@@ -55,9 +55,11 @@ Vec3 EmissiveBricks::sample(std::uint32_t brick, Vec3 u) const {
   const float rest = std::clamp((u.x - below) / (*found - below), 0.0f, kOneMinusEpsilon);
   const auto block = static_cast<int>(found - begin);
   const Cell& c = data_->places[brick];
-  const auto along = [&](std::size_t axis, int offset, float part) { return static_cast<float>(c[axis] * kBlocks + offset) + part; };
-  return data_->to_world.point({along(0, block % kBlocks, rest), along(1, block / kBlocks % kBlocks, u.y),
-                                along(2, block / (kBlocks * kBlocks), u.z)});
+  const auto along = [&](std::size_t axis, int offset, float part) {
+    return static_cast<float>(c[axis] * kBlocks + offset) + part;
+  };
+  return data_->to_world.point(
+      {along(0, block % kBlocks, rest), along(1, block / kBlocks % kBlocks, u.y), along(2, block / (kBlocks * kBlocks), u.z)});
 }
 
 double EmissiveBricks::pdf(std::uint32_t brick, Vec3 p) const {

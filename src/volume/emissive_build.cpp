@@ -44,10 +44,10 @@ class BrickFinder {
   const ParticipatingMedium& medium_;
   const MediumData& data_;
   std::size_t most_;
-  Transform to_world_;                       // from the grid's local coordinates
-  Box3d glow_;                               // local coordinates beyond which nothing is emitted
-  std::int64_t cells_ = BrickStore::kSide;   // a side of a brick: a power of 2
-  std::map<Cell, Blocks> found_;             // by corner / cells_
+  Transform to_world_;                      // from the grid's local coordinates
+  Box3d glow_;                              // local coordinates beyond which nothing is emitted
+  std::int64_t cells_ = BrickStore::kSide;  // a side of a brick: a power of 2
+  std::map<Cell, Blocks> found_;            // by corner / cells_
 };
 
 Transform transform_of(const Affine& map) {
@@ -197,7 +197,8 @@ void BrickFinder::merge() {
     Blocks& into = merged.try_emplace({place[0] >> 1, place[1] >> 1, place[2] >> 1}, Blocks{}).first->second;
     const int half[3] = {(place[0] & 1) * 2, (place[1] & 1) * 2, (place[2] & 1) * 2};
     for (int i = 0; i < 64; ++i)
-      into[static_cast<std::size_t>(((half[2] + i / 32) * 4 + half[1] + i / 8 % 2) * 4 + half[0] + i % 4 / 2)] += blocks[static_cast<std::size_t>(i)];
+      into[static_cast<std::size_t>(((half[2] + i / 32) * 4 + half[1] + i / 8 % 2) * 4 + half[0] + i % 4 / 2)] +=
+          blocks[static_cast<std::size_t>(i)];
   }
   found_ = std::move(merged);
   cells_ *= 2;
@@ -230,13 +231,14 @@ void BrickFinder::append(EmissiveBrickData& bricks, const Cell& place, const Blo
 
 void BrickFinder::place(EmissiveBrickData& bricks, const Extent& box) const {
   const auto cells = double(cells_), side = cells / EmissiveBrickData::kBlocks;
-  const Transform local_of_block = Transform::translate(box.lo[0] * cells, box.lo[1] * cells, box.lo[2] * cells) *
-                                   Transform::scale(side, side, side);
+  const Transform local_of_block =
+      Transform::translate(box.lo[0] * cells, box.lo[1] * cells, box.lo[2] * cells) * Transform::scale(side, side, side);
   bricks.to_world = to_world_ * local_of_block;
   bricks.to_local = Affine::of(bricks.to_world.inverse());
   const auto& m = bricks.to_world.matrix();
-  bricks.block_volume = std::abs(m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
-                                  m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]));
+  bricks.block_volume =
+      std::abs(m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+               m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]));
   bricks.size = box.size;
   bricks.index.assign(static_cast<std::size_t>(box.places()), EmissiveBrickData::kNone);
   for (const auto& [corner, blocks] : found_) {

@@ -123,7 +123,7 @@ class GridRay {
 
   GridVec o_, d_;
   GridVec inverse_, never_;  // 1 / d and 0, or 0 and infinity where d is 0
-  Index3 forward_{};       // all bits set where d > 0
+  Index3 forward_{};         // all bits set where d > 0
   Index3 cell_{}, first_{}, last_{};
   std::size_t exit_axis_ = 0;
   int level_ = 0;

@@ -21,7 +21,7 @@ struct Coefficients {
 };
 
 struct MediumBuildOptions {
-  bool sanitize = false;      ///< voxels that are NaN or infinite become 0 instead of an error
+  bool sanitize = false;  ///< voxels that are NaN or infinite become 0 instead of an error
   /// Bytes that a volume file may take while it is read and after; one that would take more is refused.
   std::size_t most_memory = std::numeric_limits<std::size_t>::max();
   bool float_bricks = false;  ///< keep voxels as 32-bit floats instead of 16-bit steps of each brick's range

@@ -41,7 +41,9 @@ Box3d intersect(const Box3d& a, const Box3d& b) {
   return r;
 }
 
-GridVec to_vec3d(const Index3& i) { return {{static_cast<double>(i[0]), static_cast<double>(i[1]), static_cast<double>(i[2])}}; }
+GridVec to_vec3d(const Index3& i) {
+  return {{static_cast<double>(i[0]), static_cast<double>(i[1]), static_cast<double>(i[2])}};
+}
 
 /// World box of the box [lo, hi] + offset of index space, rounded outward.
 Bounds3 world_bounds(const Transform& index_to_world, const Box3d& box, const GridVec& offset) {

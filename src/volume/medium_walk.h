@@ -22,7 +22,9 @@ inline constexpr float kOversampling = 1.7f;
 /// costs more than the look-ups it would save. Finer pieces lower the variance where a control is subtracted; a march gets
 /// that for less by more look-ups.
 template <WalkMode Mode>
-inline constexpr float kRefineDepth = Mode == WalkMode::majorant ? 1.0f : Mode == WalkMode::march ? 0.5f : 0.125f;
+inline constexpr float kRefineDepth = Mode == WalkMode::majorant ? 1.0f
+                                      : Mode == WalkMode::march  ? 0.5f
+                                                                 : 0.125f;
 
 /// A brick is walked by octants where its rate * length exceeds this; residual only.
 inline constexpr float kSplitDepth = 0.1f;

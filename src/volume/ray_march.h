@@ -44,9 +44,9 @@ class RayMarch {
   Rgb transmittance() const { return {transmittance(0), transmittance(1), transmittance(2)}; }
 
  private:
-  static constexpr float kMore = 0.05f;      // P(N >= 1)
-  static constexpr float kEvenMore = 0.5f;   // P(N >= k + 1 | N >= k)
-  static constexpr int kMostOrders = 63;     // 2^-62 of the corrections would need more
+  static constexpr float kMore = 0.05f;     // P(N >= 1)
+  static constexpr float kEvenMore = 0.5f;  // P(N >= k + 1 | N >= k)
+  static constexpr int kMostOrders = 63;    // 2^-62 of the corrections would need more
 
   struct Comb {
     double tooth;  // next, as marched_
@@ -126,7 +126,7 @@ class RayMarch {
   float spacing_ = 0;   // in the current piece, in depth of the rate
   double marched_ = 0;  // before the current piece, in teeth
   Rgb control_;
-  float relief_ = 0;    // log of the weight that roulette gave
+  float relief_ = 0;            // log of the weight that roulette gave
   SmallVector<Comb, 4> combs_;  // orders_ + 1
 };
 

@@ -21,8 +21,8 @@ struct Line {
 
 /// Where whole grids of less than 2^31 cells an axis, none negative, can be read.
 struct CellBounds {
-  double lo[4] = {}, hi[4] = {};    // coordinates, included; the last number is [0, 0]
-  std::int32_t last[4] = {};  // cells; the upper face belongs to them
+  double lo[4] = {}, hi[4] = {};  // coordinates, included; the last number is [0, 0]
+  std::int32_t last[4] = {};      // cells; the upper face belongs to them
 };
 
 #ifdef TYNDALL_TRILINEAR_AVX2
@@ -61,7 +61,9 @@ class BrickPoint {
     return interpolate(_mm256_castps256_ps128(all), _mm256_extractf128_ps(all, 1));
   }
   float interpolate(const float* voxels) const {
-    const auto row = [v = voxels + corner_](int at) { return _mm_loadl_pi(_mm_setzero_ps(), reinterpret_cast<const __m64*>(v + at)); };
+    const auto row = [v = voxels + corner_](int at) {
+      return _mm_loadl_pi(_mm_setzero_ps(), reinterpret_cast<const __m64*>(v + at));
+    };
     return interpolate(_mm_movelh_ps(row(0), row(kY)), _mm_movelh_ps(row(kZ), row(kZ + kY)));
   }
 

@@ -22,7 +22,8 @@ std::unique_ptr<VolumeFile> open_volume(const std::string& path, std::size_t mos
   std::error_code code;
   if (!std::filesystem::exists(path, code)) throw Error(Failure::scene, path + ": no such file; check the path");
   if (std::filesystem::is_directory(path, code)) throw Error(Failure::scene, path + ": is a folder, not a volume file");
-  if (!std::filesystem::is_regular_file(path, code)) throw Error(Failure::scene, path + ": is no regular file; copy it into one");
+  if (!std::filesystem::is_regular_file(path, code))
+    throw Error(Failure::scene, path + ": is no regular file; copy it into one");
   std::ifstream in(path, std::ios::binary);
   if (!in) throw Error(Failure::scene, path + ": cannot be opened; check its permissions");
   std::array<char, 8> head{};

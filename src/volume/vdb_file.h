@@ -20,8 +20,8 @@ struct VolumeGridEntry {
   std::string type;        ///< "float", "vec3s", "PointDataGrid" ...
   std::string grid_class;  ///< "fog volume", "level set", "unknown" ...
   bool level_set = false;
-  bool linear = true;  ///< its map is affine
-  std::uint64_t leaves = 0;  ///< of 8^3 voxels
+  bool linear = true;                      ///< its map is affine
+  std::uint64_t leaves = 0;                ///< of 8^3 voxels
   std::size_t read_bytes = sizeof(float);  ///< that each number of a voxel takes while the grid is loaded, about
 };
 

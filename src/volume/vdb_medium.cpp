@@ -155,7 +155,8 @@ class GridLoader {
   }
   static std::string gigabytes(double bytes) { return std::to_string(bytes * 1e-9) + " GB"; }
   [[noreturn]] void fail_large(const std::string& what) const {
-    fail(what + " where only " + gigabytes(static_cast<double>(left())) + " are left; raise --max-memory or use a coarser volume");
+    fail(what + " where only " + gigabytes(static_cast<double>(left())) +
+         " are left; raise --max-memory or use a coarser volume");
   }
 
   void report(const VolumeGridEntry& grid, const VoxelReport& found, const VoxelRules& rules) {

@@ -123,8 +123,7 @@ WorkerProcess::WorkerProcess(const ProcessLimits& limits, const std::function<vo
   }
   close(ends[1]);
   descriptor_ = ends[0];
-  if (child_ < 0)
-    throw Error(Failure::run_time, std::string("no process can be started: ") + std::strerror(errno));
+  if (child_ < 0) throw Error(Failure::run_time, std::string("no process can be started: ") + std::strerror(errno));
 }
 
 WorkerProcess::~WorkerProcess() {

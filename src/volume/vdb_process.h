@@ -14,9 +14,9 @@
 namespace tyndall {
 
 struct ProcessLimits {
-  std::size_t memory = 0;   ///< bytes beyond what this process has
-  double cpu_seconds = 0;   ///< of computing
-  double patience = 8;      ///< seconds that are waited for a byte, beside four times the limit of computing
+  std::size_t memory = 0;  ///< bytes beyond what this process has
+  double cpu_seconds = 0;  ///< of computing
+  double patience = 8;     ///< seconds that are waited for a byte, beside four times the limit of computing
 };
 
 /// The other side is gone, or said something that cannot be. what(): how it ended, to follow "the file ".

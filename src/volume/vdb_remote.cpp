@@ -283,7 +283,8 @@ std::unique_ptr<VolumeFile> open_remotely(const std::string& path, std::size_t m
   return receive_volume(path, std::move(worker), limits.memory);
 }
 
-std::unique_ptr<VolumeFile> receive_volume(const std::string& path, std::unique_ptr<ProcessChannel> channel, std::size_t most_memory) {
+std::unique_ptr<VolumeFile> receive_volume(const std::string& path, std::unique_ptr<ProcessChannel> channel,
+                                           std::size_t most_memory) {
   return std::make_unique<RemoteVolumeFile>(path, std::move(channel), most_memory);
 }
 

@@ -14,6 +14,7 @@ std::unique_ptr<VolumeFile> open_remotely(const std::string& path, std::size_t m
 
 /// The receiving half: a file that speaks through `channel`. Nothing that comes from there is trusted; what is received takes
 /// at most `most_memory` bytes.
-std::unique_ptr<VolumeFile> receive_volume(const std::string& path, std::unique_ptr<ProcessChannel> channel, std::size_t most_memory);
+std::unique_ptr<VolumeFile> receive_volume(const std::string& path, std::unique_ptr<ProcessChannel> channel,
+                                           std::size_t most_memory);
 
 }  // namespace tyndall

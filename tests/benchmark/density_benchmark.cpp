@@ -56,7 +56,8 @@ std::vector<TrackedRay> track(const ParticipatingMedium& cloud, const Affine& wo
   while (rays.size() < static_cast<std::size_t>(count)) {
     const Vec3 from = point();
     const Ray ray{from, normalize(point() - from)};
-    TrackedRay tracked{GridRay(cloud.data().density.to_local, ray).line(), {}, {}, tentative_collisions(cloud.data(), ray, rng)};
+    TrackedRay tracked{
+        GridRay(cloud.data().density.to_local, ray).line(), {}, {}, tentative_collisions(cloud.data(), ray, rng)};
     const GridVec o = world_to_index.point(ray.o), d = world_to_index.vector(ray.d);
     for (int i = 0; i < 3; ++i) {
       tracked.o[i] = o[i];

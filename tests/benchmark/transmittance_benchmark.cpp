@@ -102,9 +102,8 @@ const Plume& plume() {
 }
 
 void global(benchmark::State& state) {
-  measure(state, plume(), [](const KnownRay& known, Rng& rng, TrackingStats& stats) {
-    return global_majorant(plume(), known, rng, stats);
-  });
+  measure(state, plume(),
+          [](const KnownRay& known, Rng& rng, TrackingStats& stats) { return global_majorant(plume(), known, rng, stats); });
 }
 void estimator(benchmark::State& state, TransmittanceStrategy strategy) {
   measure(state, plume(), [&](const KnownRay& known, Rng& rng, TrackingStats& stats) {

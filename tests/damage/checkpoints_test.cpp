@@ -10,7 +10,8 @@ using namespace tyndall;
 using namespace tyndall::test;
 
 TEST_CASE("damaged checkpoints") {
-  const std::string text = "Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 6 WorldBegin LightSource \"infinite\"";
+  const std::string text =
+      "Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 6 WorldBegin LightSource \"infinite\"";
   const World world = build(read_scene_text(text, "test.pbrt").scene, {.threads = 1});
   RenderJob job(world, {.threads = 1});
   job.advance(2);

@@ -49,13 +49,17 @@ TEST_CASE("damaged .exr files") {
 TEST_CASE("damaged .png files") {
   const Scratch folder;
   write_png(ramp(37, 23), folder / "rgb.png");
-  check({folder / "rgb.png", kUnitData + "palette2.png", kUnitData + "rgb16.png", kUnitData + "grey_interlaced.png", kParts + "sky.png"}, true);
+  check({folder / "rgb.png", kUnitData + "palette2.png", kUnitData + "rgb16.png", kUnitData + "grey_interlaced.png",
+         kParts + "sky.png"},
+        true);
 }
 
 TEST_CASE("damaged .jpg, .hdr, .tga and .bmp files") {
   const Scratch folder;
   std::string hdr = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 8 +X 16\n", tga("\0\0\2\0\0\0\0\0\0\0\0\0\10\0\10\0\30\0", 18);
-  std::string bmp("BM\366\0\0\0\0\0\0\0\66\0\0\0\50\0\0\0\10\0\0\0\10\0\0\0\1\0\30\0\0\0\0\0\300\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0", 54);
+  std::string bmp(
+      "BM\366\0\0\0\0\0\0\0\66\0\0\0\50\0\0\0\10\0\0\0\10\0\0\0\1\0\30\0\0\0\0\0\300\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0",
+      54);
   for (int i = 0; i < 8; ++i) {
     hdr += std::string("\2\2\0\20", 4);
     for (int c = 0; c < 4; ++c) {

@@ -31,7 +31,8 @@ std::string ascii(const TriangleMesh& mesh) {
   std::string text = "ply\nformat ascii 1.0\nelement vertex " + std::to_string(mesh.positions.size()) +
                      "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
                      std::to_string(mesh.indices.size() / 3) + "\nproperty list uchar int vertex_indices\nend_header\n";
-  for (const Vec3& p : mesh.positions) text += std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z) + "\n";
+  for (const Vec3& p : mesh.positions)
+    text += std::to_string(p.x) + " " + std::to_string(p.y) + " " + std::to_string(p.z) + "\n";
   for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
     text += "3 " + std::to_string(mesh.indices[i]) + " " + std::to_string(mesh.indices[i + 1]) + " " +
             std::to_string(mesh.indices[i + 2]) + "\n";

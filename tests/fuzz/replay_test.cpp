@@ -24,7 +24,8 @@ TEST_CASE("damaged copies of the fuzzing corpora") {
     for (const auto& entry : std::filesystem::directory_iterator(corpus + target.name)) {
       INFO(entry.path().string());
       const std::string whole = test::read_bytes(entry.path().string());
-      for (const auto damage : {test::Damage::truncation, test::Damage::bit_flips, test::Damage::overwrite, test::Damage::number}) {
+      for (const auto damage :
+           {test::Damage::truncation, test::Damage::bit_flips, test::Damage::overwrite, test::Damage::number}) {
         for (std::uint64_t seed = 0; seed < copies; ++seed) {
           const test::Mutant mutant = test::mutant_of(whole, damage, seed);
           INFO(mutant.how);

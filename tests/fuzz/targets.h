@@ -21,7 +21,12 @@ struct Target {
   bool slow = false;  ///< with sanitizers: reads in a process of its own, or a corpus has what asks for hundreds of MB
 };
 /// What forks comes first: the more memory a process has used, the longer that takes.
-inline constexpr Target kTargets[] = {{"vdb", vdb, true}, {"scene", scene}, {"ply", ply}, {"nvdb", nvdb}, {"exr", exr, true},
-                                      {"checkpoint", checkpoint}, {"volume_message", volume_message}};
+inline constexpr Target kTargets[] = {{"vdb", vdb, true},
+                                      {"scene", scene},
+                                      {"ply", ply},
+                                      {"nvdb", nvdb},
+                                      {"exr", exr, true},
+                                      {"checkpoint", checkpoint},
+                                      {"volume_message", volume_message}};
 
 }  // namespace tyndall::fuzz

@@ -23,10 +23,11 @@ constexpr double kFamily = 1e-3;
 const std::string kFolder = std::string(TYNDALL_SOURCE_DIR) + "/tests/regression/pbrt";
 
 /// Coloured scenes: pbrt is spectral, Tyndall RGB; image means within 4 %.
-constexpr std::array kColoured{
-    "light_infinite_const", "light_infinite_map", "light_area_sphere", "light_area_disk_blackbody", "light_mesh_textured_rgb",
-    "material_diffuse_rgb", "material_conductor_copper", "material_coatedconductor", "medium_emission", "medium_chromatic",
-    "medium_rgbgrid", "medium_vdb_temperature", "texture_imagemap"};
+constexpr std::array kColoured{"light_infinite_const",      "light_infinite_map",       "light_area_sphere",
+                               "light_area_disk_blackbody", "light_mesh_textured_rgb",  "material_diffuse_rgb",
+                               "material_conductor_copper", "material_coatedconductor", "medium_emission",
+                               "medium_chromatic",          "medium_rgbgrid",           "medium_vdb_temperature",
+                               "texture_imagemap"};
 /// Noise with tails too long for 64 pixels to be normal; judged by the image mean alone.
 constexpr std::array kLongTailed{"medium_light_inside", "medium_camera_inside", "medium_homog_forward",
                                  "medium_vdb_temperature"};
@@ -79,22 +80,21 @@ struct Verdict {
   std::string scene;
   Measured tyndall{};
   std::array<WelchResult, 3> means{};
-  double mean_ratio = 0;      ///< of the channel that is farthest off
-  double largest_z = 0;       ///< of an image mean, in combined standard errors
+  double mean_ratio = 0;  ///< of the channel that is farthest off
+  double largest_z = 0;   ///< of an image mean, in combined standard errors
   BlockDifference worst_block{};
-  std::size_t rejected = 0;   ///< blocks
-  std::string failure{};      ///< empty: agrees
+  std::size_t rejected = 0;  ///< blocks
+  std::string failure{};     ///< empty: agrees
 };
 
 Verdict compare_with_pbrt(const std::string& name, double block_level) {
   const MeanImage pbrt = mean_image(read_image(kFolder + "/" + name + ".exr"), 192);
   Subject subject(read_scene(kFolder + "/" + name + ".pbrt").scene, {});
   Verdict v{.scene = name};
-  v.tyndall = measure(subject, {.excess = [&](const MeanImage& image) {
-                                  return relative_variance(block_means(image, kBlock), pbrt);
-                                },
-                                .seconds = nightly() ? 1200.0 : 120.0,
-                                .stream = stream_of(name)});
+  v.tyndall =
+      measure(subject, {.excess = [&](const MeanImage& image) { return relative_variance(block_means(image, kBlock), pbrt); },
+                        .seconds = nightly() ? 1200.0 : 120.0,
+                        .stream = stream_of(name)});
 
   const MeanImage blocks = block_means(v.tyndall.image, kBlock);
   for (int k = 0; k < 3; ++k) {

@@ -25,9 +25,10 @@ namespace {
 constexpr Bounds3 kBox{{-1, -1, -1}, {1, 1, 1}};
 
 std::string scene(int lights, const std::string& volume) {
-  std::string text = view({.eye = {1.6f, 1.2f, -3.2f}, .look = {0, 0, 0}, .fov_degrees = 42, .resolution = 24, .max_depth = 4}) +
-                     environment(0.1f) + vdb("m", {.sigma_a = Rgb(0.3f), .sigma_s = {1, 2, 0.5f}, .g = 0.5f}, volume) + medium_box("m", "", kBox) +
-                     diffuse_plane(1.8f, 3, 0.6f);
+  std::string text =
+      view({.eye = {1.6f, 1.2f, -3.2f}, .look = {0, 0, 0}, .fov_degrees = 42, .resolution = 24, .max_depth = 4}) +
+      environment(0.1f) + vdb("m", {.sigma_a = Rgb(0.3f), .sigma_s = {1, 2, 0.5f}, .g = 0.5f}, volume) +
+      medium_box("m", "", kBox) + diffuse_plane(1.8f, 3, 0.6f);
   for (int i = 0; i < lights; ++i)
     text += i % 2 ? point_light({std::cos(0.7f * float(i)) * 2, std::sin(1.3f * float(i)), 1}, 1.0f / float(lights))
                   : emitting_square({std::cos(0.3f * float(i)), 1.2f, std::sin(0.3f * float(i))}, 0.01f, 1);
@@ -67,8 +68,9 @@ std::size_t entries(const char* folder) {
 
 Held held() {
   malloc_trim(0);
-  return {static_cast<double>(process_memory().resident) * 1e-6, static_cast<double>(mallinfo2().uordblks + mallinfo2().hblkhd) * 1e-6,
-          entries("/proc/self/fd"), entries("/proc/self/task"), waitpid(-1, nullptr, WNOHANG) >= 0};
+  return {static_cast<double>(process_memory().resident) * 1e-6,
+          static_cast<double>(mallinfo2().uordblks + mallinfo2().hblkhd) * 1e-6, entries("/proc/self/fd"),
+          entries("/proc/self/task"), waitpid(-1, nullptr, WNOHANG) >= 0};
 }
 
 }  // namespace
@@ -89,8 +91,9 @@ TEST_CASE("many builds and renders in one process do not grow it") {
   }
   REQUIRE(round > warm_up);
   const Held after = held();
-  std::printf("  %d rounds: resident %.1f -> %.1f MB, allocated %.2f -> %.2f MB, files %zu -> %zu, threads %zu -> %zu\n", round - warm_up,
-              before.megabytes, after.megabytes, before.allocated, after.allocated, before.files, after.files, before.threads, after.threads);
+  std::printf("  %d rounds: resident %.1f -> %.1f MB, allocated %.2f -> %.2f MB, files %zu -> %zu, threads %zu -> %zu\n",
+              round - warm_up, before.megabytes, after.megabytes, before.allocated, after.allocated, before.files, after.files,
+              before.threads, after.threads);
   CHECK(after.megabytes < 1.01 * before.megabytes + 2);
   CHECK(after.allocated < 1.01 * before.allocated + 0.1);
   CHECK(after.files == before.files);

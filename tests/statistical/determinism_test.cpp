@@ -18,15 +18,19 @@ namespace {
 
 constexpr Bounds3 kBox{{-1, -1, -1}, {1, 1, 1}};
 
-View camera(int resolution) { return {.eye = {1.6f, 1.2f, -3.2f}, .look = {0, -0.1f, 0}, .fov_degrees = 42, .resolution = resolution, .max_depth = 8}; }
+View camera(int resolution) {
+  return {.eye = {1.6f, 1.2f, -3.2f}, .look = {0, -0.1f, 0}, .fov_degrees = 42, .resolution = resolution, .max_depth = 8};
+}
 
 std::vector<std::string> scenes(int resolution = 40) {
   Grid grid{kBox, 4, 4, 4, {}};
   for (int i = 0; i < 64; ++i) grid.density.push_back(0.1f * float(i % 11));
   const Coefficients smoke{.sigma_a = {0.2f, 0.1f, 0.4f}, .sigma_s = {2, 1, 0.6f}, .g = 0.5f, .Le = {0.1f, 0, 0}};
-  const std::string lights = point_light({1.5f, 2, -1.5f}, 6) + emitting_square({-1.2f, 0.8f, 1.4f}, 0.5f, 4) + environment(0.15f);
+  const std::string lights =
+      point_light({1.5f, 2, -1.5f}, 6) + emitting_square({-1.2f, 0.8f, 1.4f}, 0.5f, 4) + environment(0.15f);
   const std::string ball = block("Material \"coateddiffuse\"\nShape \"sphere\" \"float radius\" 0.6\n");
-  return {view(camera(resolution)) + lights + diffuse_plane(1.8f, 4, 0.6f) + uniform_grid("m", smoke, grid) + medium_box("m", "", kBox),
+  return {view(camera(resolution)) + lights + diffuse_plane(1.8f, 4, 0.6f) + uniform_grid("m", smoke, grid) +
+              medium_box("m", "", kBox),
           view(camera(resolution)) + lights + diffuse_plane(1.8f, 4, 0.6f) + ball,
           view(camera(resolution)) + lights + ball + homogeneous("m", smoke) + medium_box("m", "", kBox)};
 }
@@ -49,12 +53,15 @@ TEST_CASE("the same bits for 1, 2 and 4 threads, and for every repetition") {
   for (const std::string_view name : aov_names()) aovs.emplace_back(name);
   for (const std::string& scene : scenes()) {
     for (const LightStrategy lights : {LightStrategy::tree, LightStrategy::tree_binary, LightStrategy::power}) {
-      const Image one = Subject(scene, {.lights = lights, .threads = 1, .emission = EmissionStrategy::lights}).render(kSpp, 5, aovs);
+      const Image one =
+          Subject(scene, {.lights = lights, .threads = 1, .emission = EmissionStrategy::lights}).render(kSpp, 5, aovs);
       for (const int threads : {1, 2, 4}) {
         CAPTURE(threads);
-        CHECK(same_bits(one, Subject(scene, {.lights = lights, .threads = threads, .emission = EmissionStrategy::lights}).render(kSpp, 5, aovs)));
+        CHECK(same_bits(one, Subject(scene, {.lights = lights, .threads = threads, .emission = EmissionStrategy::lights})
+                                 .render(kSpp, 5, aovs)));
       }
-      CHECK_FALSE(same_bits(one, Subject(scene, {.lights = lights, .threads = 1, .emission = EmissionStrategy::lights}).render(kSpp, 6, aovs)));
+      CHECK_FALSE(same_bits(
+          one, Subject(scene, {.lights = lights, .threads = 1, .emission = EmissionStrategy::lights}).render(kSpp, 6, aovs)));
     }
   }
 }
@@ -79,8 +86,9 @@ TEST_CASE("rays that end at their collision make the picture that rays traced to
     const Coefficients thin{.sigma_a = {0.2f, 0, 0.1f}, .sigma_s = {2, 1, 0.6f}, .g = 0.5f, .Le = Rgb(Le)};
     const Coefficients dense{.sigma_a = {0.1f, 0, 1}, .sigma_s = {20, 12, 30}, .g = -0.3f, .Le = Rgb(Le)};
     return view(camera(40)) + environment(0.3f) + distant_light({1, 2, -1}, 3) + diffuse_plane(1.8f, 4, 0.6f) +
-           block("Material \"dielectric\"\nShape \"sphere\" \"float radius\" 0.4\n") + homogeneous("thin", thin) + homogeneous("dense", dense) +
-           medium_box("thin", "", kBox) + medium_box("dense", "thin", {{-0.9f, -0.9f, -0.9f}, {0.3f, 0.5f, 0.9f}}) +
+           block("Material \"dielectric\"\nShape \"sphere\" \"float radius\" 0.4\n") + homogeneous("thin", thin) +
+           homogeneous("dense", dense) + medium_box("thin", "", kBox) +
+           medium_box("dense", "thin", {{-0.9f, -0.9f, -0.9f}, {0.3f, 0.5f, 0.9f}}) +
            medium_box("dense", "", {{0.2f, -1.4f, -0.5f}, {1.4f, 0.4f, 0.5f}});
   };
   constexpr int kSpp = kSanitized ? 2 : 16;

@@ -15,10 +15,13 @@ constexpr Coefficients kSmoke{.sigma_a = {0.2f, 0.1f, 0.3f}, .sigma_s = {1.5f, 1
 
 /// Long paths cost much and show little that short ones do not.
 View camera() {
-  return {.eye = {1.6f, 1.2f, -3.2f}, .look = {0, -0.1f, 0}, .fov_degrees = 42, .resolution = 32, .max_depth = nightly() ? 12 : 4};
+  return {
+      .eye = {1.6f, 1.2f, -3.2f}, .look = {0, -0.1f, 0}, .fov_degrees = 42, .resolution = 32, .max_depth = nightly() ? 12 : 4};
 }
 
-std::string lights() { return point_light({1.5f, 2, -1.5f}, 6) + emitting_square({-1.2f, 0.8f, 1.4f}, 0.5f, 4) + environment(0.15f); }
+std::string lights() {
+  return point_light({1.5f, 2, -1.5f}, 6) + emitting_square({-1.2f, 0.8f, 1.4f}, 0.5f, 4) + environment(0.15f);
+}
 
 std::string room() { return view(camera()) + lights() + diffuse_plane(1.8f, 4, 0.6f); }
 
@@ -43,7 +46,8 @@ std::string many_lights() {
   }
   for (int i = 0; i < 6; i += step) text += emitting_square({-1.5f + 0.6f * i, 1.3f, 1.2f}, 0.03f * (1 + i), 3.0f + i);
   text += "LightSource \"spot\" \"point3 from\" [0 2.5 -2] \"point3 to\" [0 0 0] \"float coneangle\" 25 \"rgb I\" [8 6 4]\n";
-  text += block("Translate 0.5 -0.9 0.9\nAreaLightSource \"diffuse\" \"rgb L\" [2.5 2 1.5]\nShape \"sphere\" \"float radius\" 0.1\n");
+  text += block(
+      "Translate 0.5 -0.9 0.9\nAreaLightSource \"diffuse\" \"rgb L\" [2.5 2 1.5]\nShape \"sphere\" \"float radius\" 0.1\n");
   return text + uniform_grid("m", kSmoke, wispy_grid()) + medium_box("m", "", kBox);
 }
 
@@ -57,12 +61,12 @@ TEST_CASE("constant density: homogeneous, grid of samples, grid of voxels, and t
   const ConstantVdb file({{-1.3f, -1.3f, -1.3f}, {1.3f, 1.3f, 1.3f}}, 0.1f);
   const std::string box = medium_box("m", "", kBox);
   check_all_agree("constant",
-             {{"homogeneous", room() + homogeneous("m", kSmoke) + box},
-              {"uniformgrid", room() + uniform_grid("m", kSmoke, constant) + box},
-              {"vdb", room() + vdb("m", kSmoke, file.path()) + box},
-              {"two halves", room() + homogeneous("a", half) + uniform_grid("b", half, constant) +
-                                 medium_box("a", "", kBox) + medium_box("b", "", kBox)}},
-             {.d = pairwise_precision(4)});
+                  {{"homogeneous", room() + homogeneous("m", kSmoke) + box},
+                   {"uniformgrid", room() + uniform_grid("m", kSmoke, constant) + box},
+                   {"vdb", room() + vdb("m", kSmoke, file.path()) + box},
+                   {"two halves", room() + homogeneous("a", half) + uniform_grid("b", half, constant) +
+                                      medium_box("a", "", kBox) + medium_box("b", "", kBox)}},
+                  {.d = pairwise_precision(4)});
 }
 
 TEST_CASE("a wispy grid in one piece and as two overlapping halves with different phase functions") {
@@ -70,18 +74,19 @@ TEST_CASE("a wispy grid in one piece and as two overlapping halves with differen
   half.sigma_a = kSmoke.sigma_a * 0.5f;
   half.sigma_s = kSmoke.sigma_s * 0.5f;
   check_all_agree("wispy halves",
-             {{"one", room() + uniform_grid("m", kSmoke, wispy_grid()) + medium_box("m", "", kBox)},
-              {"two", room() + uniform_grid("a", half, wispy_grid()) + uniform_grid("b", half, wispy_grid()) +
-                          medium_box("a", "", kBox) + medium_box("b", "", kBox)}});
+                  {{"one", room() + uniform_grid("m", kSmoke, wispy_grid()) + medium_box("m", "", kBox)},
+                   {"two", room() + uniform_grid("a", half, wispy_grid()) + uniform_grid("b", half, wispy_grid()) +
+                               medium_box("a", "", kBox) + medium_box("b", "", kBox)}});
 }
 
 TEST_CASE("light strategies") {
   const std::string scene = many_lights();
-  check_all_agree("lights", scene, {{"tree", {.lights = LightStrategy::tree}},
-                                    {"uniform", {.lights = LightStrategy::uniform, .candidates = 8}},
-                                    {"power", {.lights = LightStrategy::power, .candidates = 8}},
-                                    {"tree-binary", {.lights = LightStrategy::tree_binary}},
-                                    {"exhaustive", {.lights = LightStrategy::exhaustive}}},
+  check_all_agree("lights", scene,
+                  {{"tree", {.lights = LightStrategy::tree}},
+                   {"uniform", {.lights = LightStrategy::uniform, .candidates = 8}},
+                   {"power", {.lights = LightStrategy::power, .candidates = 8}},
+                   {"tree-binary", {.lights = LightStrategy::tree_binary}},
+                   {"exhaustive", {.lights = LightStrategy::exhaustive}}},
                   {.d = pairwise_precision(5)});
 }
 
@@ -91,7 +96,8 @@ std::string glossy_lights() {
     return block(material + "\nTranslate " + place + "\nShape \"sphere\" \"float radius\" 0.3\n");
   };
   return many_lights() +
-         ball("Material \"conductor\" \"rgb reflectance\" [0.8 0.7 0.6] \"bool remaproughness\" false \"float roughness\" 0.15", "-1 -1.1 -1") +
+         ball("Material \"conductor\" \"rgb reflectance\" [0.8 0.7 0.6] \"bool remaproughness\" false \"float roughness\" 0.15",
+              "-1 -1.1 -1") +
          ball("Material \"dielectric\" \"bool remaproughness\" false \"float roughness\" 0.3", "0 -1.3 -1.3") +
          ball("Material \"coateddiffuse\" \"bool remaproughness\" false \"float roughness\" 0.2", "1 -1.1 -1.2");
 }
@@ -101,13 +107,14 @@ TEST_CASE("splitting, candidates and shadow rays: every pair of settings, and ni
   constexpr std::array<float, 3> splitting{0, 0.6f, 1};
   constexpr std::array<int, 3> candidates{1, 4, 0}, shadow_rays{1, 0, 2};
   std::vector<std::pair<std::string, Variant>> variants{
-      {"default", {}}, {"plain", {.lights = LightStrategy::tree_binary, .candidates = 1}},
+      {"default", {}},
+      {"plain", {.lights = LightStrategy::tree_binary, .candidates = 1}},
       {"5 by power", {.lights = LightStrategy::power, .candidates = 5, .shadow_rays = 2}}};
   for (std::size_t i = 0; i < 27; ++i) {
     const std::size_t s = i / 9, c = i / 3 % 3, r = i % 3;
     if (!nightly() && (s + c) % 3 != r) continue;  // a Latin square holds every pair once
-    const std::string name = "tree, splitting " + std::to_string(splitting[s]).substr(0, 3) + ", " + std::to_string(candidates[c]) +
-                             " candidates, " + std::to_string(shadow_rays[r]) + " rays";
+    const std::string name = "tree, splitting " + std::to_string(splitting[s]).substr(0, 3) + ", " +
+                             std::to_string(candidates[c]) + " candidates, " + std::to_string(shadow_rays[r]) + " rays";
     variants.emplace_back(name, Variant{.candidates = candidates[c], .shadow_rays = shadow_rays[r], .splitting = splitting[s]});
   }
   check_all_agree("resampling", scene, variants);
@@ -118,8 +125,9 @@ TEST_CASE("transmittance estimators") {
   dense.sigma_a = kSmoke.sigma_a * 3;
   dense.sigma_s = kSmoke.sigma_s * 3;
   const std::string scene = room() + uniform_grid("m", dense, wispy_grid()) + medium_box("m", "", kBox);
-  check_all_agree("transmittance", scene, {{"residual", {.transmittance = TransmittanceStrategy::residual}},
-                                           {"ratio", {.transmittance = TransmittanceStrategy::ratio}},
-                                           {"delta", {.transmittance = TransmittanceStrategy::delta}}},
+  check_all_agree("transmittance", scene,
+                  {{"residual", {.transmittance = TransmittanceStrategy::residual}},
+                   {"ratio", {.transmittance = TransmittanceStrategy::ratio}},
+                   {"delta", {.transmittance = TransmittanceStrategy::delta}}},
                   {.d = pairwise_precision(3)});
 }

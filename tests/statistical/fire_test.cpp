@@ -24,16 +24,21 @@ Grid flames(const Bounds3& box) {
   return grid;
 }
 
-std::string fire(const Bounds3& box = kHearth) { return uniform_grid("fire", kFire, flames(box)) + medium_box("fire", "", box); }
+std::string fire(const Bounds3& box = kHearth) {
+  return uniform_grid("fire", kFire, flames(box)) + medium_box("fire", "", box);
+}
 
 std::string smoke(const Coefficients& c) { return homogeneous("smoke", c) + medium_box("smoke", "", kRoom); }
 
-View camera(int depth = 6) { return {.eye = {0.9f, 0.7f, -2.6f}, .look = {0, -0.1f, 0.2f}, .fov_degrees = 45, .resolution = 32, .max_depth = depth}; }
+View camera(int depth = 6) {
+  return {.eye = {0.9f, 0.7f, -2.6f}, .look = {0, -0.1f, 0.2f}, .fov_degrees = 45, .resolution = 32, .max_depth = depth};
+}
 
 std::string walls() {
   const std::string grey = "Material \"diffuse\" \"rgb reflectance\" [0.6 0.5 0.4]\n";
-  return diffuse_plane(0.8f, 2, 0.6f) +
-         block(grey + "Shape \"trianglemesh\" \"point3 P\" [-2 -1.02 -2 2 -1.02 -2 2 -1.02 2 -2 -1.02 2] \"integer indices\" [0 1 2 0 2 3]\n");
+  return diffuse_plane(0.8f, 2, 0.6f) + block(grey +
+                                              "Shape \"trianglemesh\" \"point3 P\" [-2 -1.02 -2 2 -1.02 -2 2 -1.02 2 -2 -1.02 "
+                                              "2] \"integer indices\" [0 1 2 0 2 3]\n");
 }
 
 constexpr Variant kPaths{.emission = EmissionStrategy::paths};
@@ -56,34 +61,40 @@ Agreement at(double per_commit) {
 
 TEST_CASE("fire lights a diffuse room, however a brick is chosen") {
   const std::string scene = view(camera()) + walls() + fire() + point_light({-0.8f, 0.9f, -0.9f}, 0.3f);
-  check_all_agree("fire in a room", scene, {{"paths", kPaths},
-                                            {"tree", sought()},
-                                            {"tree-binary", sought({.lights = LightStrategy::tree_binary})},
-                                            {"power, 3 to 1", sought({.lights = LightStrategy::power, .candidates = 3})},
-                                            {"uniform", sought({.lights = LightStrategy::uniform})},
-                                            {"4 split, all traced", sought({.candidates = 4, .shadow_rays = 0, .splitting = 0.8f})}},
+  check_all_agree("fire in a room", scene,
+                  {{"paths", kPaths},
+                   {"tree", sought()},
+                   {"tree-binary", sought({.lights = LightStrategy::tree_binary})},
+                   {"power, 3 to 1", sought({.lights = LightStrategy::power, .candidates = 3})},
+                   {"uniform", sought({.lights = LightStrategy::uniform})},
+                   {"4 split, all traced", sought({.candidates = 4, .shadow_rays = 0, .splitting = 0.8f})}},
                   at(0.03));
   if (!nightly()) return;  // every brick at every vertex
-  check_same("every brick of a fire in a room", {{"exhaustive", scene, sought({.lights = LightStrategy::exhaustive})},
-                                                 {"exhaustive paths", scene, {.lights = LightStrategy::exhaustive, .emission = EmissionStrategy::paths}},
-                                                 {"paths", scene, kPaths}});
+  check_same("every brick of a fire in a room",
+             {{"exhaustive", scene, sought({.lights = LightStrategy::exhaustive})},
+              {"exhaustive paths", scene, {.lights = LightStrategy::exhaustive, .emission = EmissionStrategy::paths}},
+              {"paths", scene, kPaths}});
 }
 
 TEST_CASE("fire inside smoke that scatters, by every way of gathering along spans") {
-  const std::string scene = view(camera(4)) + walls() + fire() + smoke({.sigma_a = {0.1f, 0.1f, 0.1f}, .sigma_s = {0.5f, 0.6f, 0.7f}, .g = 0.2f});
-  check_all_agree("fire in smoke", scene, {{"paths", kPaths},
-                                           {"vertex", sought({.media = MediaStrategy::vertex})},
-                                           {"product", sought()},
-                                           {"product, 4 to 2", sought({.candidates = 4, .shadow_rays = 2})},
-                                           {"integral, both", sought({.media = MediaStrategy::integral, .distance = DistanceStrategy::both})},
-                                           {"closest, tracking", sought({.media = MediaStrategy::closest, .distance = DistanceStrategy::tracking})},
-                                           {"equiangular, by power", sought({.lights = LightStrategy::power, .distance = DistanceStrategy::equiangular})}},
-                  at(0.03));
+  const std::string scene =
+      view(camera(4)) + walls() + fire() + smoke({.sigma_a = {0.1f, 0.1f, 0.1f}, .sigma_s = {0.5f, 0.6f, 0.7f}, .g = 0.2f});
+  check_all_agree(
+      "fire in smoke", scene,
+      {{"paths", kPaths},
+       {"vertex", sought({.media = MediaStrategy::vertex})},
+       {"product", sought()},
+       {"product, 4 to 2", sought({.candidates = 4, .shadow_rays = 2})},
+       {"integral, both", sought({.media = MediaStrategy::integral, .distance = DistanceStrategy::both})},
+       {"closest, tracking", sought({.media = MediaStrategy::closest, .distance = DistanceStrategy::tracking})},
+       {"equiangular, by power", sought({.lights = LightStrategy::power, .distance = DistanceStrategy::equiangular})}},
+      at(0.03));
 }
 
 TEST_CASE("fire in smoke that scatters forward, g = 0.9") {
   const std::string scene = view(camera(5)) + fire() + smoke({.sigma_s = {1.2f, 1, 1.4f}, .g = 0.9f});
-  check_all_agree("fire in forward smoke", scene, {{"paths", kPaths}, {"vertex", sought({.media = MediaStrategy::vertex})}, {"product", sought()}}, at(0.03));
+  check_all_agree("fire in forward smoke", scene,
+                  {{"paths", kPaths}, {"vertex", sought({.media = MediaStrategy::vertex})}, {"product", sought()}}, at(0.03));
 }
 
 TEST_CASE("the camera in the fire, and a wall in it") {
@@ -91,16 +102,20 @@ TEST_CASE("the camera in the fire, and a wall in it") {
   inside.eye = {0, -0.4f, 0};
   inside.look = {0.3f, -0.5f, 1};
   inside.fov_degrees = 80;
-  const std::string wall = block("Material \"diffuse\" \"rgb reflectance\" [0.7 0.7 0.7]\nShape \"disk\" \"float radius\" 0.3\n");
+  const std::string wall =
+      block("Material \"diffuse\" \"rgb reflectance\" [0.7 0.7 0.7]\nShape \"disk\" \"float radius\" 0.3\n");
   const std::string scene = view(inside) + walls() + fire() + block("Translate 0.1 -0.4 0.2\nRotate 40 1 1 0\n" + wall);
-  check_all_agree("within fire", scene, {{"paths", kPaths}, {"product", sought()}, {"vertex", sought({.media = MediaStrategy::vertex})}}, at(0.03));
+  check_all_agree("within fire", scene,
+                  {{"paths", kPaths}, {"product", sought()}, {"vertex", sought({.media = MediaStrategy::vertex})}}, at(0.03));
 }
 
 TEST_CASE("bricks beyond the boundary that brings the fire, a group for each half, fire in an unbounded fog") {
   const Grid grid = flames(kHearth);
   const Bounds3 left{kHearth.min, {-0.1f, 0.05f, 0.3f}}, right{{0.1f, -0.9f, -0.4f}, kHearth.max};
-  const std::string scene = view(camera()) + walls() + uniform_grid("fire", kFire, grid) + medium_box("fire", "", left) + medium_box("fire", "", right);
-  check_all_agree("halves of fire", scene, {{"paths", kPaths}, {"product", sought()}, {"vertex", sought({.media = MediaStrategy::vertex})}}, at(0.03));
+  const std::string scene = view(camera()) + walls() + uniform_grid("fire", kFire, grid) + medium_box("fire", "", left) +
+                            medium_box("fire", "", right);
+  check_all_agree("halves of fire", scene,
+                  {{"paths", kPaths}, {"product", sought()}, {"vertex", sought({.media = MediaStrategy::vertex})}}, at(0.03));
 
   View foggy = camera(4);
   foggy.before_camera = homogeneous("fog", {.sigma_s = {0.1f, 0.1f, 0.1f}, .Le = {}});
@@ -111,8 +126,8 @@ TEST_CASE("bricks beyond the boundary that brings the fire, a group for each hal
 
 TEST_CASE("thermal equilibrium with a white wall, the medium's glow sought as a light") {
   const Coefficients warm{.sigma_a = {1, 2, 0.5f}, .sigma_s = {3, 2, 4}, .g = 0.5f, .Le = Rgb(1.0f)};
-  const std::string scene = view(camera(1000)) + environment(1) + uniform_grid("m", warm, flames(kHearth)) + medium_box("m", "", kHearth) +
-                            diffuse_plane(0.6f, 0.7f, 1);
+  const std::string scene = view(camera(1000)) + environment(1) + uniform_grid("m", warm, flames(kHearth)) +
+                            medium_box("m", "", kHearth) + diffuse_plane(0.6f, 0.7f, 1);
   const Agreement furnace{.d = nightly() ? 0.004 : 0.012, .variant = sought()};
   check_agrees("equilibrium by spans", scene, {1.0, 1.0, 1.0}, furnace);
   Agreement vertex = furnace;

@@ -53,8 +53,8 @@ TEST_CASE("F1: scattering without absorption inside uniform radiance changes no 
   }
   const auto pixels = block_test(m.image, white);
   const BlockDifference& w = worst(pixels);
-  CHECK_MESSAGE(w.welch.p > sidak(1e-3, double(pixels.size())), "pixel ", w.x, ",", w.y, " is off by ",
-                w.welch.difference, ", ", w.welch.t, " standard errors");
+  CHECK_MESSAGE(w.welch.p > sidak(1e-3, double(pixels.size())), "pixel ", w.x, ",", w.y, " is off by ", w.welch.difference,
+                ", ", w.welch.t, " standard errors");
 }
 
 TEST_CASE("F1: a homogeneous medium, backward scattering, a diffuse white plane inside") {
@@ -80,12 +80,14 @@ TEST_CASE("F1: a white plane in a box of twelve lights, however a light is chose
 
 // A uniform sky is found by scattered rays alone; walls that glow are sampled as lights as well, with shared weights.
 TEST_CASE("F1: inside a glowing box, and a glowing ball") {
-  const std::string smoke = uniform_grid("m", {.sigma_s = {6, 5.5f, 6.5f}, .g = 0.5f}, lumpy_grid()) + medium_box("m", "", kBox);
+  const std::string smoke =
+      uniform_grid("m", {.sigma_s = {6, 5.5f, 6.5f}, .g = 0.5f}, lumpy_grid()) + medium_box("m", "", kBox);
   const std::string ball = block(kGlow + "Shape \"sphere\" \"float radius\" 6\n");
   const std::string walls = glowing_box();
   const Agreement glowing{.d = nightly() ? 0.002 : 0.01};
   check_agrees("F1 in a glowing box", view(perspective()) + walls + smoke, {1.0, 1.0, 1.0}, glowing);
-  check_agrees("F1 in a glowing ball", view(perspective()) + ball + smoke + diffuse_plane(0.1f, 0.5f, 1), {1.0, 1.0, 1.0}, glowing);
+  check_agrees("F1 in a glowing ball", view(perspective()) + ball + smoke + diffuse_plane(0.1f, 0.5f, 1), {1.0, 1.0, 1.0},
+               glowing);
 }
 
 TEST_CASE("F2: an absorbing and emitting slab adds 1 - exp(-tau) and lets T through") {
@@ -101,8 +103,10 @@ TEST_CASE("F2: an absorbing and emitting slab adds 1 - exp(-tau) and lets T thro
       const double T = std::exp(-depth * sigma_a[k]);
       expected[k] = 1 - T + T * kBackground;
     }
-    check_agrees("F2 tau=" + number(depth), looking_along(ray) + environment(kBackground) +
-                 uniform_grid("m", {.sigma_a = sigma_a, .Le = Rgb(1.0f)}, grid) + medium_box("m", "", kBox), expected, kFurnace);
+    check_agrees("F2 tau=" + number(depth),
+                 looking_along(ray) + environment(kBackground) +
+                     uniform_grid("m", {.sigma_a = sigma_a, .Le = Rgb(1.0f)}, grid) + medium_box("m", "", kBox),
+                 expected, kFurnace);
   }
 }
 
@@ -120,10 +124,13 @@ TEST_CASE("transmittance of empty, thin and opaque grids") {
   const Grid grid = lumpy_grid();
   const double depth = optical_depth(grid, kRays[0], 0, 6);
   for (const float scale : {0.0f, 1e-3f, 1.0f, 5.0f}) {
-    check_agrees("T at sigma_t=" + number(scale), looking_along(kRays[0]) + environment(1) +
-                 uniform_grid("m", {.sigma_a = Rgb(scale)}, grid) + medium_box("m", "", kBox),
-                 grey(std::exp(-scale * depth)));
+    check_agrees(
+        "T at sigma_t=" + number(scale),
+        looking_along(kRays[0]) + environment(1) + uniform_grid("m", {.sigma_a = Rgb(scale)}, grid) + medium_box("m", "", kBox),
+        grey(std::exp(-scale * depth)));
   }
-  check_vanishes("T at sigma_t=1e4", looking_along(kRays[0]) + environment(1) +
-                 uniform_grid("m", {.sigma_a = Rgb(1e4f)}, grid) + medium_box("m", "", kBox), 1e-6);
+  check_vanishes(
+      "T at sigma_t=1e4",
+      looking_along(kRays[0]) + environment(1) + uniform_grid("m", {.sigma_a = Rgb(1e4f)}, grid) + medium_box("m", "", kBox),
+      1e-6);
 }

@@ -30,7 +30,8 @@ Vec3 middle_of(Vec3 from) {
 }
 
 void check_depth(const std::string& name, const std::string& scene, double tau) {
-  check_agrees(name, scene, grey(std::exp(-tau)), {.d = nightly() ? 0.003 : 0.02, .variant = {.emission = EmissionStrategy::lights}});
+  check_agrees(name, scene, grey(std::exp(-tau)),
+               {.d = nightly() ? 0.003 : 0.02, .variant = {.emission = EmissionStrategy::lights}});
 }
 
 Grid lumps() {
@@ -106,16 +107,21 @@ TEST_CASE("densities from subnormal to the largest: what counts is their product
     check_depth(name, along(ray.o, ray.at(1)) + uniform_grid("m", smoke, grid) + medium_box("m", "", kBox),
                 double{sigma} * density * optical_depth(unit, ray, 0, 6));
     write_vdb(path, {block_of_voxels(0, density)});
-    check_depth(name + ", of a file", along(ray.o, ray.at(1)) + vdb("m", smoke, path) + medium_box("m", "", kBox), double{sigma} * density);
+    check_depth(name + ", of a file", along(ray.o, ray.at(1)) + vdb("m", smoke, path) + medium_box("m", "", kBox),
+                double{sigma} * density);
   }
   // Beyond, the two numbers are refused: they would come to nothing.
   for (const float density : {6e-39f, 1e-34f, 3.4e38f}) {
     const Coefficients smoke{.sigma_a = Rgb(float(1.5 / double{density}))};
-    const std::string scene = along({0, 0, -3}, {0, 0, 0}) + uniform_grid("m", smoke, {kBox, 1, 1, 1, {density}}) + medium_box("m", "", kBox);
+    const std::string scene =
+        along({0, 0, -3}, {0, 0, 0}) + uniform_grid("m", smoke, {kBox, 1, 1, 1, {density}}) + medium_box("m", "", kBox);
     CHECK_THROWS_WITH_AS(Subject{scene}, doctest::Contains("bring both nearer to 1"), Error);
   }
-  check_depth("density 1e-42, sigma 1", along({0.13f, 0.07f, -3}, {0.13f, 0.07f, 0}) +
-              uniform_grid("m", {.sigma_a = Rgb(1.0f)}, {kBox, 2, 2, 2, std::vector<float>(8, 1e-42f)}) + medium_box("m", "", kBox), 0);
+  check_depth("density 1e-42, sigma 1",
+              along({0.13f, 0.07f, -3}, {0.13f, 0.07f, 0}) +
+                  uniform_grid("m", {.sigma_a = Rgb(1.0f)}, {kBox, 2, 2, 2, std::vector<float>(8, 1e-42f)}) +
+                  medium_box("m", "", kBox),
+              0);
 }
 
 // Voxels are held in 65,535 steps of their brick's largest: 1 is one of them here.
@@ -126,8 +132,8 @@ TEST_CASE("one voxel 4,096 times as dense as the others, and nightly 65,535 time
   const std::string smoke = uniform_grid("m", {.sigma_a = Rgb(1.0f)}, grid) + medium_box("m", "", kBox);
   for (const Vec3 from : {Vec3{0.4f, 0.13f, -3}, Vec3{-3, -0.2f, 0.13f}, Vec3{0.13f, 3, 0.45f}}) {
     const Vec3 to = middle_of(from);
-    check_agrees("beside the dense voxel", along(from, to) + smoke, grey(std::exp(-optical_depth(grid, {from, normalize(to - from)}, 0, 6))),
-                 {.d = 0.05});
+    check_agrees("beside the dense voxel", along(from, to) + smoke,
+                 grey(std::exp(-optical_depth(grid, {from, normalize(to - from)}, 0, 6))), {.d = 0.05});
   }
   check_vanishes("through the dense voxel", along({0.13f, 0.13f, -3}, {0.13f, 0.13f, 0}) + smoke, 1e-6);
 }
@@ -135,12 +141,14 @@ TEST_CASE("one voxel 4,096 times as dense as the others, and nightly 65,535 time
 TEST_CASE("rays in the planes between cells, along their edges and through their corners") {
   const Grid grid = lumps();
   const std::string scene = uniform_grid("m", {.sigma_a = Rgb(0.7f)}, grid) + medium_box("m", "", kBox);
-  constexpr std::array<Vec3, 9> kDirections{{{0, 0, 1}, {0, 0, -1}, {0, 1, 0}, {-1, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, -1, 1}, {1, 1, 1}, {-1, 1, -1}}};
-  for (const Vec3 through : {Vec3{0, 0, 0}, Vec3{0.5f, 0, 0}, Vec3{0.5f, -0.5f, 0.5f}, Vec3{0.25f, 0.25f, 0.25f}, Vec3{0, 0.25f, -0.5f}}) {
+  constexpr std::array<Vec3, 9> kDirections{
+      {{0, 0, 1}, {0, 0, -1}, {0, 1, 0}, {-1, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, -1, 1}, {1, 1, 1}, {-1, 1, -1}}};
+  for (const Vec3 through :
+       {Vec3{0, 0, 0}, Vec3{0.5f, 0, 0}, Vec3{0.5f, -0.5f, 0.5f}, Vec3{0.25f, 0.25f, 0.25f}, Vec3{0, 0.25f, -0.5f}}) {
     for (const Vec3 d : kDirections) {
       const Vec3 eye = through - d * 4;
-      check_depth("through " + number(through.x) + " " + number(through.y) + " " + number(through.z) + " along " + number(d.x) + " " +
-                      number(d.y) + " " + number(d.z),
+      check_depth("through " + number(through.x) + " " + number(through.y) + " " + number(through.z) + " along " + number(d.x) +
+                      " " + number(d.y) + " " + number(d.z),
                   along(eye, through) + scene, 0.7 * optical_depth(grid, {eye, normalize(d)}, 0, 12));
     }
   }
@@ -152,7 +160,8 @@ TEST_CASE("rays in the faces and along the edges of a box of smoke") {
   for (const Vec3 eye : {Vec3{1, 0.3f, -3}, Vec3{1, 1, -3}, Vec3{-1, -1, -3}, Vec3{0.3f, -1, -3}}) {
     for (const bool grid : {false, true}) {
       const Coefficients smoke{.sigma_a = Rgb(float(kTau) / 2)};
-      const std::string medium = grid ? uniform_grid("m", smoke, {kBox, 2, 2, 2, std::vector<float>(8, 1)}) : homogeneous("m", smoke);
+      const std::string medium =
+          grid ? uniform_grid("m", smoke, {kBox, 2, 2, 2, std::vector<float>(8, 1)}) : homogeneous("m", smoke);
       Subject subject(along(eye, eye + Vec3{0, 0, 1}) + medium + medium_box("m", "", kBox));
       const Image image = subject.render(16, 1);
       CHECK_MESSAGE(subject.faults().empty(), subject.faults());

@@ -49,14 +49,14 @@ std::string scene(bool instances, const std::string& light) {
 TEST_CASE("lamps as instances and each by itself") {
   const std::string bright = "\"rgb L\" [6 5 3]";
   check_all_agree("instances",
-             {{"shared", scene(true, bright)},
-              {"shared, split", scene(true, bright), {.candidates = 8, .splitting = 1}},
-              {"alone", scene(false, bright)}},
-             {.d = 2 * required_precision()});
+                  {{"shared", scene(true, bright)},
+                   {"shared, split", scene(true, bright), {.candidates = 8, .splitting = 1}},
+                   {"alone", scene(false, bright)}},
+                  {.d = 2 * required_precision()});
 }
 
 TEST_CASE("lamps of given power as instances and each by itself") {
   const std::string watts = "\"rgb L\" [1 0.9 0.6] \"float power\" 0.5";
   check_all_agree("instances of given power", {{"shared", scene(true, watts)}, {"alone", scene(false, watts)}},
-             {.d = 2 * required_precision()});
+                  {.d = 2 * required_precision()});
 }

@@ -20,7 +20,12 @@ Bounds3 cube(float half) { return {{-half, -half, -half}, {half, half, half}}; }
 
 /// Along +z, a little off the axis, before a sky of radiance L.
 std::string along_z(float z, float L = 1, const std::string& media = "", const std::string& medium = "") {
-  return view({.eye = {0.13f, 0.07f, z}, .look = {0.13f, 0.07f, z + 1}, .resolution = 8, .max_depth = 100'000, .before_camera = media, .medium = medium}) +
+  return view({.eye = {0.13f, 0.07f, z},
+               .look = {0.13f, 0.07f, z + 1},
+               .resolution = 8,
+               .max_depth = 100'000,
+               .before_camera = media,
+               .medium = medium}) +
          environment(L);
 }
 
@@ -49,9 +54,11 @@ TEST_CASE("optical depths from 0 to 10^6: what comes through, and what a glowing
     }
     const Rgb sigma_a = tau * 0.5f;
     check_agrees(name + ", through", along_z(-3) + homogeneous("m", {.sigma_a = sigma_a}) + medium_box("m", "", kBox), through);
-    check_agrees(name + ", glow", along_z(-3, 0) + homogeneous("m", {.sigma_a = sigma_a, .Le = Rgb(1.0f)}) + medium_box("m", "", kBox), glow);
+    check_agrees(name + ", glow",
+                 along_z(-3, 0) + homogeneous("m", {.sigma_a = sigma_a, .Le = Rgb(1.0f)}) + medium_box("m", "", kBox), glow);
   }
-  check_vanishes("tau 10^6, through", along_z(-3) + homogeneous("m", {.sigma_a = Rgb(5e5f)}) + medium_box("m", "", kBox), 1e-30);
+  check_vanishes("tau 10^6, through", along_z(-3) + homogeneous("m", {.sigma_a = Rgb(5e5f)}) + medium_box("m", "", kBox),
+                 1e-30);
 }
 
 /// The face z = 1 of a box of optical depth `tau`, seen at cosine mu.
@@ -75,7 +82,8 @@ TEST_CASE("optical depths to 10^6: half-spaces under a sky, and under a sun") {
       const double rounded = tau > 1e5 ? 0.015 : 0;
       const double d = nightly() ? 0.003 : 0.02;
       const std::string name = "half-space, tau=" + number(tau) + " mu=" + number(mu);
-      check_agrees(name + ", sky", dense_box(tau, mu, Rgb(albedo), environment(1)), grey(sky), {.d = d, .rounding = rounded * sky});
+      check_agrees(name + ", sky", dense_box(tau, mu, Rgb(albedo), environment(1)), grey(sky),
+                   {.d = d, .rounding = rounded * sky});
       check_agrees(name + ", sun", dense_box(tau, mu, Rgb(albedo), distant_light({0, 0, -1}, 1)), grey(sun),
                    {.d = d, .rounding = rounded * sun, .variant = at_collisions});
     }
@@ -83,12 +91,14 @@ TEST_CASE("optical depths to 10^6: half-spaces under a sky, and under a sun") {
 }
 
 TEST_CASE("albedo 1 in uniform light: nothing is lost, however often it is scattered and wherever to") {
-  const View outside{.eye = {2.2f, 1.8f, -2.6f}, .look = {0, 0, 0}, .fov_degrees = 35, .resolution = 16, .max_depth = 1'000'000};
+  const View outside{
+      .eye = {2.2f, 1.8f, -2.6f}, .look = {0, 0, 0}, .fov_degrees = 35, .resolution = 16, .max_depth = 1'000'000};
   for (const float g : {-0.999f, 0.0f, 0.999f}) {
     for (const float depth : {1e-3f, 10.0f, 100.0f}) {
-      check_agrees("albedo 1, tau=" + number(depth) + " g=" + number(g),
-                   view(outside) + environment(1) + homogeneous("m", {.sigma_s = Rgb(depth / 2), .g = g}) + medium_box("m", "", kBox),
-                   grey(1));
+      check_agrees(
+          "albedo 1, tau=" + number(depth) + " g=" + number(g),
+          view(outside) + environment(1) + homogeneous("m", {.sigma_s = Rgb(depth / 2), .g = g}) + medium_box("m", "", kBox),
+          grey(1));
     }
   }
 }
@@ -156,8 +166,9 @@ TEST_CASE("64 nested media, each in the place of the one around it") {
 }
 
 TEST_CASE("64 scattering media in one place make one medium's picture") {
-  const std::string front = view({.eye = {2.2f, 1.8f, -2.6f}, .look = {0, 0, 0}, .fov_degrees = 40, .resolution = 16, .max_depth = 4}) +
-                            point_light({0.5f, 2, -1}, 5) + environment(0.2f);
+  const std::string front =
+      view({.eye = {2.2f, 1.8f, -2.6f}, .look = {0, 0, 0}, .fov_degrees = 40, .resolution = 16, .max_depth = 4}) +
+      point_light({0.5f, 2, -1}, 5) + environment(0.2f);
   const Coefficients whole{.sigma_a = Rgb(0.1f), .sigma_s = {1, 0.5f, 2}, .g = 0.4f};
   std::string parts;
   for (int i = 0; i < kMany; ++i) {
@@ -165,6 +176,7 @@ TEST_CASE("64 scattering media in one place make one medium's picture") {
     parts += homogeneous(name, {.sigma_a = whole.sigma_a / kMany, .sigma_s = whole.sigma_s / kMany, .g = whole.g}) +
              medium_box(name, "", kBox);
   }
-  check_same("64 scattering media", {{"one", front + homogeneous("m", whole) + medium_box("m", "", kBox)}, {"64", front + parts}},
+  check_same("64 scattering media",
+             {{"one", front + homogeneous("m", whole) + medium_box("m", "", kBox)}, {"64", front + parts}},
              {.d = nightly() ? 0.003 : 0.04});
 }

@@ -33,7 +33,9 @@ std::string lights() {
   }
   for (int i = 0; i < 4; ++i) text += emitting_square({-0.9f + 0.6f * i, 0.3f * i - 0.4f, 0.5f}, 0.06f, 3.0f + i);
   text += emitting_square({0, 1.4f, 1.6f}, 0.4f, 1.5f);
-  return text + block("Translate 0.5 -0.5 -0.6\nAreaLightSource \"diffuse\" \"rgb L\" [4 2 1]\nShape \"sphere\" \"float radius\" 0.12\n");
+  return text + block(
+                    "Translate 0.5 -0.5 -0.6\nAreaLightSource \"diffuse\" \"rgb L\" [4 2 1]\nShape \"sphere\" \"float radius\" "
+                    "0.12\n");
 }
 
 Grid holes() {
@@ -47,7 +49,8 @@ Grid holes() {
 }
 
 struct Factors {
-  std::vector<MediaStrategy> media{MediaStrategy::vertex, MediaStrategy::closest, MediaStrategy::integral, MediaStrategy::product};
+  std::vector<MediaStrategy> media{MediaStrategy::vertex, MediaStrategy::closest, MediaStrategy::integral,
+                                   MediaStrategy::product};
   std::vector<DistanceStrategy> distance{DistanceStrategy::tracking, DistanceStrategy::equiangular, DistanceStrategy::both,
                                          DistanceStrategy::profile};
   std::vector<float> splitting{0, 0.6f};
@@ -81,7 +84,8 @@ bool allowed(const Combination& c) { return c[0] != 0 || c[1] == 0; }  // a coll
 void check_media(const std::string& name, const std::string& scene, double per_commit) {
   const Factors factors;
   std::vector<std::pair<std::string, Variant>> variants;
-  for (const Combination& c : nightly() ? all_combinations(factors.sizes(), allowed) : covering_combinations(factors.sizes(), allowed)) {
+  for (const Combination& c :
+       nightly() ? all_combinations(factors.sizes(), allowed) : covering_combinations(factors.sizes(), allowed)) {
     std::string title;
     for (const std::size_t i : c) title += std::to_string(i);
     variants.emplace_back(title, factors.variant(c));
@@ -107,52 +111,70 @@ TEST_CASE("covering combinations hold every allowed pair") {
 }
 
 TEST_CASE("thin medium") {
-  check_media("thin", look(2) + lights() + homogeneous("m", {.sigma_a = {0.02f, 0.05f, 0.1f}, .sigma_s = {0.3f, 0.2f, 0.1f}, .g = 0.2f}) +
-                          medium_box("m", "", kBox),
+  check_media("thin",
+              look(2) + lights() +
+                  homogeneous("m", {.sigma_a = {0.02f, 0.05f, 0.1f}, .sigma_s = {0.3f, 0.2f, 0.1f}, .g = 0.2f}) +
+                  medium_box("m", "", kBox),
               0.01);
 }
 
 TEST_CASE("dense medium") {
-  check_media("dense", look(3) + lights() + homogeneous("m", {.sigma_a = {0.5f, 0.2f, 1}, .sigma_s = {5, 6, 3}}) + medium_box("m", "", kBox),
-              0.02);
+  check_media(
+      "dense",
+      look(3) + lights() + homogeneous("m", {.sigma_a = {0.5f, 0.2f, 1}, .sigma_s = {5, 6, 3}}) + medium_box("m", "", kBox),
+      0.02);
 }
 
 TEST_CASE("forward scattering, g = 0.9") {
-  check_media("forward", look(3) + lights() + homogeneous("m", {.sigma_a = {0.1f, 0.1f, 0.2f}, .sigma_s = {1.2f, 1, 0.8f}, .g = 0.9f}) +
-                             medium_box("m", "", kBox),
+  check_media("forward",
+              look(3) + lights() + homogeneous("m", {.sigma_a = {0.1f, 0.1f, 0.2f}, .sigma_s = {1.2f, 1, 0.8f}, .g = 0.9f}) +
+                  medium_box("m", "", kBox),
               0.02);
 }
 
 TEST_CASE("a grid with holes and a homogeneous medium that overlap, camera in unbounded fog") {
-  const View fog{.eye = {1.4f, 0.9f, -3.4f}, .look = {0, -0.1f, 0}, .fov_degrees = 38, .resolution = 32, .max_depth = 3,
-                 .before_camera = homogeneous("fog", {.sigma_a = Rgb(0.02f), .sigma_s = Rgb(0.08f)}), .medium = "fog"};
-  check_media("overlapping", view(fog) + lights() + diffuse_plane(1.8f, 3, 0.5f) +
-                                 uniform_grid("smoke", {.sigma_a = {0.3f, 0.2f, 0.2f}, .sigma_s = {2, 3, 2.5f}, .g = 0.5f}, holes()) +
-                                 homogeneous("haze", {.sigma_a = Rgb(0.1f), .sigma_s = {0.5f, 0.4f, 0.3f}, .g = -0.3f}) +
-                                 medium_box("smoke", "", kBox) + medium_box("haze", "", {{-0.5f, -1.2f, -0.6f}, {1.3f, 0.4f, 0.7f}}),
+  const View fog{.eye = {1.4f, 0.9f, -3.4f},
+                 .look = {0, -0.1f, 0},
+                 .fov_degrees = 38,
+                 .resolution = 32,
+                 .max_depth = 3,
+                 .before_camera = homogeneous("fog", {.sigma_a = Rgb(0.02f), .sigma_s = Rgb(0.08f)}),
+                 .medium = "fog"};
+  check_media("overlapping",
+              view(fog) + lights() + diffuse_plane(1.8f, 3, 0.5f) +
+                  uniform_grid("smoke", {.sigma_a = {0.3f, 0.2f, 0.2f}, .sigma_s = {2, 3, 2.5f}, .g = 0.5f}, holes()) +
+                  homogeneous("haze", {.sigma_a = Rgb(0.1f), .sigma_s = {0.5f, 0.4f, 0.3f}, .g = -0.3f}) +
+                  medium_box("smoke", "", kBox) + medium_box("haze", "", {{-0.5f, -1.2f, -0.6f}, {1.3f, 0.4f, 0.7f}}),
               0.04);
 }
 
 // With pairs along spans, what stands behind the camera's fog is dimmed instead of seen by the rays that pass.
 TEST_CASE("a metal floor and wide lamps behind fog") {
-  const std::string floor = block("Material \"conductor\" \"float roughness\" 0.2\nTranslate 0 -1 0\nRotate -90 1 0 0\n"
-                                  "Shape \"disk\" \"float radius\" 4\n");
+  const std::string floor = block(
+      "Material \"conductor\" \"float roughness\" 0.2\nTranslate 0 -1 0\nRotate -90 1 0 0\n"
+      "Shape \"disk\" \"float radius\" 4\n");
   const std::string lamps = emitting_square({-0.8f, 0.6f, 1.2f}, 0.7f, 1) + emitting_square({0.8f, 1.5f, 0.3f}, 0.7f, 1.5f);
   const std::string fog = homogeneous("fog", {.sigma_a = {0.7f, 0.6f, 0.8f}, .sigma_s = {0.03f, 0.02f, 0.04f}}) +
                           medium_box("fog", "", {{-5, -1.5f, -2}, {5, 2.5f, 5}});
   Agreement how;
   if (!nightly()) how.d = 0.04;  // blocks see more than the mean does
-  check_all_agree("behind fog", look(2) + floor + lamps + fog, {{"passing", {.media = MediaStrategy::vertex}}, {"dimmed", {}}}, how);
+  check_all_agree("behind fog", look(2) + floor + lamps + fog, {{"passing", {.media = MediaStrategy::vertex}}, {"dimmed", {}}},
+                  how);
 }
 
-// Coats, rough and smooth, and a diffuse surface beside smoke, of which they see more or less; lamps that scattered rays find as well. Without
-// the guide's share in the weights of what is scattered the means are 1 to 2.4 % apart, each 13 to 16 standard errors from the pooled one.
+// Coats, rough and smooth, and a diffuse surface beside smoke, of which they see more or less; lamps that scattered rays find
+// as well. Without the guide's share in the weights of what is scattered the means are 1 to 2.4 % apart, each 13 to 16 standard
+// errors from the pooled one.
 TEST_CASE("paths sent toward smoke make the picture of those that are not") {
-  const std::string floor = block("Material \"coateddiffuse\" \"float roughness\" 0.3 \"rgb reflectance\" [0.5 0.4 0.3]\nTranslate 0 -1.2 0\n"
-                                  "Rotate -90 1 0 0\nShape \"disk\" \"float radius\" 4\n") +
-                            block("Material \"coateddiffuse\" \"float roughness\" 0\nTranslate 1.6 0 0.4\nShape \"sphere\" \"float radius\" 0.5\n");
-  const std::string lamps = emitting_square({-1.5f, 1.5f, 0.3f}, 0.7f, 0.2f) + point_light({0.2f, 0.1f, 0}, 0.2f) + environment(0.02f);
-  const std::string smoke = uniform_grid("smoke", {.sigma_a = {0.3f, 0.2f, 0.2f}, .sigma_s = {4, 5, 6}, .g = 0.5f}, holes()) + medium_box("smoke", "", kBox);
+  const std::string floor =
+      block(
+          "Material \"coateddiffuse\" \"float roughness\" 0.3 \"rgb reflectance\" [0.5 0.4 0.3]\nTranslate 0 -1.2 0\n"
+          "Rotate -90 1 0 0\nShape \"disk\" \"float radius\" 4\n") +
+      block("Material \"coateddiffuse\" \"float roughness\" 0\nTranslate 1.6 0 0.4\nShape \"sphere\" \"float radius\" 0.5\n");
+  const std::string lamps =
+      emitting_square({-1.5f, 1.5f, 0.3f}, 0.7f, 0.2f) + point_light({0.2f, 0.1f, 0}, 0.2f) + environment(0.02f);
+  const std::string smoke = uniform_grid("smoke", {.sigma_a = {0.3f, 0.2f, 0.2f}, .sigma_s = {4, 5, 6}, .g = 0.5f}, holes()) +
+                            medium_box("smoke", "", kBox);
   Agreement how;
   if (!nightly()) how.d = 0.005;
   check_all_agree("guided", look(3) + floor + diffuse_plane(1.8f, 3, 0.5f) + lamps + smoke,
@@ -163,14 +185,16 @@ TEST_CASE("paths sent toward smoke make the picture of those that are not") {
 std::string medium_octahedron(const std::string& inside, float r) {
   const std::string x = number(r), y = "-" + x;
   return block("Material \"interface\"\nMediumInterface \"" + inside + "\" \"\"\nShape \"trianglemesh\" \"point3 P\" [" + x +
-               " 0 0 " + y + " 0 0 0 " + x + " 0 0 " + y + " 0 0 0 " + x + " 0 0 " + y + "]\n  \"integer indices\" [0 2 4 2 1 4 1 3 4 3 0 4 2 0 5 1 2 5 3 1 5 0 3 5]\n");
+               " 0 0 " + y + " 0 0 0 " + x + " 0 0 " + y + " 0 0 0 " + x + " 0 0 " + y +
+               "]\n  \"integer indices\" [0 2 4 2 1 4 1 3 4 3 0 4 2 0 5 1 2 5 3 1 5 0 3 5]\n");
 }
 
 // Lamps in the box of the smoke, but where it is not: what chooses lights at collisions has no variance where these come near.
 // Without the weight of the path's own share "off" is 2.9 to 4.0 % below the mean of all, 28 to 32 standard errors.
 TEST_CASE("collisions drawn near lamps make the picture of those that are not, whatever else chooses lights") {
-  const std::string spot = "LightSource \"spot\" \"point3 from\" [0.9 0.9 -0.3] \"point3 to\" [-0.3 -1 0.2] \"float coneangle\" 50 "
-                           "\"float conedeltaangle\" 20 \"rgb I\" [0.1 0.2 0.3]\n";
+  const std::string spot =
+      "LightSource \"spot\" \"point3 from\" [0.9 0.9 -0.3] \"point3 to\" [-0.3 -1 0.2] \"float coneangle\" 50 "
+      "\"float conedeltaangle\" 20 \"rgb I\" [0.1 0.2 0.3]\n";
   const std::string lamps = point_light({0.2f, 0.9f, 0.9f}, 0.1f) + point_light({-0.9f, -0.3f, -0.9f}, 0.1f) + spot +
                             emitting_square({-1.5f, 1.5f, 0.3f}, 0.3f, 0.3f);
   const std::string smoke = uniform_grid("smoke", {.sigma_a = {0.3f, 0.2f, 0.2f}, .sigma_s = {4, 5, 6}, .g = 0.5f}, holes()) +
@@ -188,15 +212,18 @@ TEST_CASE("collisions drawn near lamps make the picture of those that are not, w
 }
 
 // Few pixels, so that lamps' images and what is around them are much of the picture. The lamps stand again where the smoke is
-// not, before it and behind, with a board among them and the camera in a fog that dims them. Without the weight of the camera ray's
-// own share "off" is 2.5 to 2.9 % below the mean of all with the Gaussian and 4.2 to 4.5 % with Mitchell's, 9 to 14 standard errors.
+// not, before it and behind, with a board among them and the camera in a fog that dims them. Without the weight of the camera
+// ray's own share "off" is 2.5 to 2.9 % below the mean of all with the Gaussian and 4.2 to 4.5 % with Mitchell's, 9 to 14
+// standard errors.
 TEST_CASE("rays drawn near lamps on the film make the picture of those that are not, with negative filters too") {
-  const std::string spot = "LightSource \"spot\" \"point3 from\" [-0.9 0.9 0.3] \"point3 to\" [0.3 -1 -0.2] \"float coneangle\" 50 "
-                           "\"float conedeltaangle\" 20 \"rgb I\" [0.1 0.2 0.3]\n";
+  const std::string spot =
+      "LightSource \"spot\" \"point3 from\" [-0.9 0.9 0.3] \"point3 to\" [0.3 -1 -0.2] \"float coneangle\" 50 "
+      "\"float conedeltaangle\" 20 \"rgb I\" [0.1 0.2 0.3]\n";
   const std::string lamps = point_light({0.8f, 0.6f, -1}, 0.2f) + point_light({-0.5f, -0.7f, 1.2f}, 0.3f) + spot;
-  const std::string smoke = uniform_grid("smoke", {.sigma_a = {0.3f, 0.2f, 0.2f}, .sigma_s = {2, 1.5f, 1}, .g = 0.5f}, holes()) +
-                            homogeneous("haze", {.sigma_a = Rgb(0.1f), .sigma_s = {0.5f, 0.4f, 0.3f}, .g = -0.3f}) +
-                            medium_octahedron("smoke", 1.5f) + medium_octahedron("haze", 1.6f);
+  const std::string smoke =
+      uniform_grid("smoke", {.sigma_a = {0.3f, 0.2f, 0.2f}, .sigma_s = {2, 1.5f, 1}, .g = 0.5f}, holes()) +
+      homogeneous("haze", {.sigma_a = Rgb(0.1f), .sigma_s = {0.5f, 0.4f, 0.3f}, .g = -0.3f}) +
+      medium_octahedron("smoke", 1.5f) + medium_octahedron("haze", 1.6f);
   const std::string board = block("Translate -0.6 -0.9 0\n" + diffuse_plane(0.9f, 0.3f, 0.5f));
   Agreement how;
   if (!nightly()) how.d = 0.03;
@@ -214,43 +241,51 @@ TEST_CASE("rays drawn near lamps on the film make the picture of those that are 
   }
 }
 
-// Lamps around dense smoke, one of them close to it: rays that pass far from that one choose lights at collisions, others along the span.
+// Lamps around dense smoke, one of them close to it: rays that pass far from that one choose lights at collisions, others along
+// the span.
 TEST_CASE("spans that no lamp comes close to, lit at their collisions, make the picture of pairs everywhere") {
-  const std::string lamps = point_light({1.6f, 1.2f, 0.3f}, 0.5f) + point_light({-1.5f, -0.2f, 1.3f}, 0.4f) + point_light({-0.9f, 0.8f, -0.7f}, 0.1f) +
-                            emitting_square({-1.8f, 1.5f, 0.3f}, 0.5f, 0.6f);
-  const std::string smoke = uniform_grid("smoke", {.sigma_a = {0.3f, 0.2f, 0.2f}, .sigma_s = {8, 9, 10}, .g = 0.4f}, holes()) + medium_box("smoke", "", kBox);
+  const std::string lamps = point_light({1.6f, 1.2f, 0.3f}, 0.5f) + point_light({-1.5f, -0.2f, 1.3f}, 0.4f) +
+                            point_light({-0.9f, 0.8f, -0.7f}, 0.1f) + emitting_square({-1.8f, 1.5f, 0.3f}, 0.5f, 0.6f);
+  const std::string smoke = uniform_grid("smoke", {.sigma_a = {0.3f, 0.2f, 0.2f}, .sigma_s = {8, 9, 10}, .g = 0.4f}, holes()) +
+                            medium_box("smoke", "", kBox);
   Agreement how;
   how.d = nightly() ? 0.01 : 0.03;  // 0.3 % is a quarter of an hour, for the vertex method's sake
   check_all_agree("stand-off", look(4) + diffuse_plane(1.8f, 3, 0.5f) + lamps + smoke,
-                  {{"pairs", {.distance = DistanceStrategy::profile}}, {"auto", {}},
-                   {"vertex", {.media = MediaStrategy::vertex, .joint = JointStrategy::points}}}, how);
+                  {{"pairs", {.distance = DistanceStrategy::profile}},
+                   {"auto", {}},
+                   {"vertex", {.media = MediaStrategy::vertex, .joint = JointStrategy::points}}},
+                  how);
 }
 
-// Small surfaces of every kind, before, in and behind smoke, one half hidden by a board, one half off the frame, the camera in a fog
-// that dims them; then in one that scatters a little, behind which they are seen whole (Path's Beyond).
+// Small surfaces of every kind, before, in and behind smoke, one half hidden by a board, one half off the frame, the camera in
+// a fog that dims them; then in one that scatters a little, behind which they are seen whole (Path's Beyond).
 TEST_CASE("small shining surfaces that the camera aims at make the picture of those that it does not") {
   const auto shining = [](const std::string& where, const std::string& L, const std::string& shape) {
     return block("Translate " + where + "\nAreaLightSource \"diffuse\" \"rgb L\" [" + L + "]\n" + shape);
   };
-  const std::string triangle = "Shape \"trianglemesh\" \"point3 P\" [0 0 0  0.2 0 0.05  0 0.15 0] \"integer indices\" [0 2 1]\n";
-  const std::string surfaces = shining("-0.6 0.3 -0.9", "30 20 10", "Shape \"sphere\" \"float radius\" 0.07\n") +
-                               shining("0.5 0.4 0.2", "60 80 20", "Shape \"sphere\" \"float radius\" 0.05\n") +
-                               shining("0.1 -0.5 -0.8", "50 50 90", triangle) +
-                               shining("-0.25 0.62 1.4", "90 40 30", "Shape \"disk\" \"float radius\" 0.1\n") +
-                               shining("1.15 -0.2 0", "40 40 60", "Rotate 30 0 1 0\nShape \"sphere\" \"float radius\" 0.08 \"float zmax\" 0.03\n") +
-                               emitting_square({-0.2f, 0, 0.6f}, 0.06f, 70) +
-                               // In a shade that hides it, nearer to it than a shadow ray to its place would look.
-                               shining("3000 -2000 30000", "3e4 3e4 3e4", "Shape \"sphere\" \"float radius\" 300\n") +
-                               block("Translate 3000 -2000 30000\nMaterial \"diffuse\"\nShape \"sphere\" \"float radius\" 301\n");
-  const std::string smoke = uniform_grid("smoke", {.sigma_a = {0.3f, 0.2f, 0.2f}, .sigma_s = {1, 0.8f, 0.6f}, .g = 0.5f}, holes()) +
-                            medium_octahedron("smoke", 1.1f);
+  const std::string triangle =
+      "Shape \"trianglemesh\" \"point3 P\" [0 0 0  0.2 0 0.05  0 0.15 0] \"integer indices\" [0 2 1]\n";
+  const std::string surfaces =
+      shining("-0.6 0.3 -0.9", "30 20 10", "Shape \"sphere\" \"float radius\" 0.07\n") +
+      shining("0.5 0.4 0.2", "60 80 20", "Shape \"sphere\" \"float radius\" 0.05\n") +
+      shining("0.1 -0.5 -0.8", "50 50 90", triangle) +
+      shining("-0.25 0.62 1.4", "90 40 30", "Shape \"disk\" \"float radius\" 0.1\n") +
+      shining("1.15 -0.2 0", "40 40 60", "Rotate 30 0 1 0\nShape \"sphere\" \"float radius\" 0.08 \"float zmax\" 0.03\n") +
+      emitting_square({-0.2f, 0, 0.6f}, 0.06f, 70) +
+      // In a shade that hides it, nearer to it than a shadow ray to its place would look.
+      shining("3000 -2000 30000", "3e4 3e4 3e4", "Shape \"sphere\" \"float radius\" 300\n") +
+      block("Translate 3000 -2000 30000\nMaterial \"diffuse\"\nShape \"sphere\" \"float radius\" 301\n");
+  const std::string smoke =
+      uniform_grid("smoke", {.sigma_a = {0.3f, 0.2f, 0.2f}, .sigma_s = {1, 0.8f, 0.6f}, .g = 0.5f}, holes()) +
+      medium_octahedron("smoke", 1.1f);
   const std::string board = block("Translate -0.2 0.62 1.1\n" + diffuse_plane(0, 0.12f, 0.5f));
   Agreement how;
   if (!nightly()) how.d = 0.04;
   View few{.eye = {0.1f, 0.1f, -3.4f}, .look = {0, 0, 0}, .fov_degrees = 36, .resolution = 12, .max_depth = 0};
   few.medium = "fog";
   using Named = std::pair<std::string, Variant>;
-  const Named off{"off", {.candidates = 1, .joint = JointStrategy::off}}, points{"points", {.candidates = 1, .joint = JointStrategy::points}};
+  const Named off{"off", {.candidates = 1, .joint = JointStrategy::off}},
+      points{"points", {.candidates = 1, .joint = JointStrategy::points}};
   few.before_camera = homogeneous("fog", {.sigma_a = Rgb(0.1f)});
   few.filter = "\"gaussian\"";
   check_all_agree("shining, gaussian", view(few) + surfaces + board + smoke, {off, points}, how);
@@ -259,32 +294,37 @@ TEST_CASE("small shining surfaces that the camera aims at make the picture of th
   few.before_camera = homogeneous("fog", {.sigma_a = Rgb(0.1f), .sigma_s = Rgb(0.02f)});
   few.filter = "\"mitchell\"";
   check_all_agree("shining, mitchell", view(few) + surfaces + board,
-                  {off, points, {"vertex", {.candidates = 1, .media = MediaStrategy::vertex, .joint = JointStrategy::points}}}, how);
+                  {off, points, {"vertex", {.candidates = 1, .media = MediaStrategy::vertex, .joint = JointStrategy::points}}},
+                  how);
 }
 
-// Of several pixels each: round, flat and cut off by the frame, one held by smoke, one of many primitives that instances share, with a
-// small one before another. The rest is as for the small ones.
+// Of several pixels each: round, flat and cut off by the frame, one held by smoke, one of many primitives that instances share,
+// with a small one before another. The rest is as for the small ones.
 TEST_CASE("shining surfaces whose edges are looked at closely make the picture of those that are not") {
   const auto shining = [](const std::string& where, const std::string& L, const std::string& shape) {
     return block("Translate " + where + "\nAreaLightSource \"diffuse\" \"rgb L\" [" + L + "]\n" + shape);
   };
   std::string lamp = "ObjectBegin \"lamp\"\nAreaLightSource \"diffuse\" \"rgb L\" [9 7 2]\n";
   for (int i = 0; i < 16; ++i) {
-    lamp += block("Rotate " + number(22.5f * static_cast<float>(i)) + " 0 0 1\nShape \"trianglemesh\" \"point3 P\" [0 0 0  0.4 0 0  0.37 0.15 0.1] " +
-                  "\"integer indices\" [0 2 1]\n");
+    lamp +=
+        block("Rotate " + number(22.5f * static_cast<float>(i)) +
+              " 0 0 1\nShape \"trianglemesh\" \"point3 P\" [0 0 0  0.4 0 0  0.37 0.15 0.1] " + "\"integer indices\" [0 2 1]\n");
   }
-  const std::string surfaces = shining("-0.5 0.3 0.2", "3 2 1", "Shape \"sphere\" \"float radius\" 0.35\n") +
-                               shining("-0.65 0.35 -0.9", "60 50 40", "Shape \"sphere\" \"float radius\" 0.03\n") +
-                               shining("0.55 0.4 -0.6", "2 4 1", "Shape \"disk\" \"float radius\" 0.3\n") +
-                               shining("-1.2 -0.6 0", "4 4 6", "Rotate 30 0 1 0\nShape \"sphere\" \"float radius\" 0.4 \"float zmax\" 0.2\n") + lamp +
-                               "ObjectEnd\n" + block("Translate 0.4 -0.5 0.8\nObjectInstance \"lamp\"\n");
-  const std::string smoke = uniform_grid("smoke", {.sigma_a = {0.3f, 0.2f, 0.2f}, .sigma_s = {1, 0.8f, 0.6f}, .g = 0.5f}, holes()) +
-                            medium_octahedron("smoke", 0.9f);
+  const std::string surfaces =
+      shining("-0.5 0.3 0.2", "3 2 1", "Shape \"sphere\" \"float radius\" 0.35\n") +
+      shining("-0.65 0.35 -0.9", "60 50 40", "Shape \"sphere\" \"float radius\" 0.03\n") +
+      shining("0.55 0.4 -0.6", "2 4 1", "Shape \"disk\" \"float radius\" 0.3\n") +
+      shining("-1.2 -0.6 0", "4 4 6", "Rotate 30 0 1 0\nShape \"sphere\" \"float radius\" 0.4 \"float zmax\" 0.2\n") + lamp +
+      "ObjectEnd\n" + block("Translate 0.4 -0.5 0.8\nObjectInstance \"lamp\"\n");
+  const std::string smoke =
+      uniform_grid("smoke", {.sigma_a = {0.3f, 0.2f, 0.2f}, .sigma_s = {1, 0.8f, 0.6f}, .g = 0.5f}, holes()) +
+      medium_octahedron("smoke", 0.9f);
   Agreement how;
   if (!nightly()) how.d = 0.02;
   View lens{.eye = {0.1f, 0.1f, -3.4f}, .look = {0, 0, 0}, .fov_degrees = 36, .resolution = 16, .max_depth = 0};
   using Named = std::pair<std::string, Variant>;
-  const Named off{"off", {.candidates = 1, .joint = JointStrategy::off}}, points{"points", {.candidates = 1, .joint = JointStrategy::points}};
+  const Named off{"off", {.candidates = 1, .joint = JointStrategy::off}},
+      points{"points", {.candidates = 1, .joint = JointStrategy::points}};
   lens.medium = "fog";
   lens.before_camera = homogeneous("fog", {.sigma_a = Rgb(0.1f)});
   lens.filter = "\"gaussian\"";
@@ -311,8 +351,9 @@ TEST_CASE("fog that scatters next to nothing, and looks for light seldom, is as 
                           medium_box("fog", "", {{-1.5f, -1.5f, -1.5f}, {1.5f, 1.5f, 1.5f}});
   Agreement how;
   if (!nightly()) how.d = 0.02;
-  check_all_agree("faint", look(2) + lamps + fog,
-                  {{"seldom", {}}, {"both", {.distance = DistanceStrategy::both}}, {"vertex", {.media = MediaStrategy::vertex}}}, how);
+  check_all_agree(
+      "faint", look(2) + lamps + fog,
+      {{"seldom", {}}, {"both", {.distance = DistanceStrategy::both}}, {"vertex", {.media = MediaStrategy::vertex}}}, how);
 }
 
 // 65,536 samples of each: standard errors of 0.002 at most; Approx allows 0.017. Roulette without its weight is off by 0.11.

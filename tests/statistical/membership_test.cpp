@@ -73,8 +73,9 @@ TEST_CASE("an empty box carved out of a medium") {
 
 TEST_CASE("unbounded fog of the camera, and a box of smoke in it") {
   const std::string media = absorber("fog", 0.2f) + absorber("smoke", 0.7f);
-  const std::string scene = view({.eye = {0.13f, 0.07f, -3}, .look = {0.13f, 0.07f, 0}, .before_camera = media, .medium = "fog"}) +
-                            emitting_square({0, 0, 4}, 2, 1);
+  const std::string scene =
+      view({.eye = {0.13f, 0.07f, -3}, .look = {0.13f, 0.07f, 0}, .before_camera = media, .medium = "fog"}) +
+      emitting_square({0, 0, 4}, 2, 1);
   check_depth("fog alone", scene, 7 * 0.2);
   check_depth("fog, smoke instead of it", scene + medium_box("smoke", "fog", kBox), 5 * 0.2 + 2 * 0.7);
   check_depth("fog, smoke on top of it", scene + medium_box("smoke", "", kBox), 7 * 0.2 + 2 * 0.7);
@@ -106,18 +107,19 @@ TEST_CASE("scattering light crosses boundaries alike in a box and in six quads, 
                             point_light({0.5f, 2, -1}, 5) + environment(0.2f) + diffuse_plane(1.5f, 3, 0.5f);
   check_same("boundaries", {{"box", front + homogeneous("m", smoke) + medium_box("m", "", kBox)},
                             {"quads", front + homogeneous("m", smoke) + medium_box_of_quads("m", "", kBox)},
-                            {"two halves", front + homogeneous("a", half) + homogeneous("b", half) +
-                                               medium_box("a", "", kBox) + medium_box_of_quads("b", "", kBox)}});
+                            {"two halves", front + homogeneous("a", half) + homogeneous("b", half) + medium_box("a", "", kBox) +
+                                               medium_box_of_quads("b", "", kBox)}});
 }
 
 // A collision next to a boundary, rounded to its far side, once made paths forget to leave: 1 in 10^7.
 TEST_CASE("no path loses count of the media it is in") {
-  const std::string box = "Translate 40 -30 55\nRotate 33 1 2 3\n" + medium_box("outer", "", kOuter) +
-                          medium_box_of_quads("inner", "outer", kBox) +
-                          block("Material \"interface\"\nMediumInterface \"ball\" \"inner\"\nShape \"sphere\" \"float radius\" 0.7\n");
-  const std::string scene = view({.eye = {43, -28, 50}, .look = {40, -30, 55}, .fov_degrees = 60, .resolution = 48, .max_depth = 100'000}) +
-                            environment(1) + homogeneous("outer", {.sigma_s = Rgb(1.0f)}) +
-                            homogeneous("inner", {.sigma_s = Rgb(4.0f)}) + homogeneous("ball", {.sigma_s = Rgb(15.0f)}) + block(box);
+  const std::string box =
+      "Translate 40 -30 55\nRotate 33 1 2 3\n" + medium_box("outer", "", kOuter) + medium_box_of_quads("inner", "outer", kBox) +
+      block("Material \"interface\"\nMediumInterface \"ball\" \"inner\"\nShape \"sphere\" \"float radius\" 0.7\n");
+  const std::string scene =
+      view({.eye = {43, -28, 50}, .look = {40, -30, 55}, .fov_degrees = 60, .resolution = 48, .max_depth = 100'000}) +
+      environment(1) + homogeneous("outer", {.sigma_s = Rgb(1.0f)}) + homogeneous("inner", {.sigma_s = Rgb(4.0f)}) +
+      homogeneous("ball", {.sigma_s = Rgb(15.0f)}) + block(box);
   Subject subject(scene);
   const int renders = nightly() ? 200 : kSanitized ? 1 : 8;
   Moments mean;

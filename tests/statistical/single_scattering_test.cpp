@@ -73,7 +73,8 @@ TEST_CASE("the quadrature agrees with the table") {
 // One row by each way of choosing light and distance, the other rows by the default; all by each nightly.
 TEST_CASE("single scattering by each choice of light and distance") {
   using enum DistanceStrategy;
-  for (const MediaStrategy media : {MediaStrategy::vertex, MediaStrategy::closest, MediaStrategy::integral, MediaStrategy::product}) {
+  for (const MediaStrategy media :
+       {MediaStrategy::vertex, MediaStrategy::closest, MediaStrategy::integral, MediaStrategy::product}) {
     for (const DistanceStrategy distance : {tracking, equiangular, both, profile}) {
       if (media == MediaStrategy::vertex && distance != tracking) continue;
       Variant variant;
@@ -102,7 +103,8 @@ constexpr double kThin = 1e-7;  // the radiance per sigma_s differs from its lim
 
 TEST_CASE("single scattering, sigma_t 0") {
   for (std::size_t i = 0; i < kPlaces.size(); ++i) {
-    check_agrees(label("sigma_t=0", kPlaces[i]), scene(Rgb(float(kThin)), Rgb(), kPlaces[i]), grey(kThin * kTable[0].values[i]));
+    check_agrees(label("sigma_t=0", kPlaces[i]), scene(Rgb(float(kThin)), Rgb(), kPlaces[i]),
+                 grey(kThin * kTable[0].values[i]));
   }
 }
 

@@ -14,7 +14,7 @@
 namespace tyndall::test {
 namespace {
 
-constexpr double kErrors = 4;       // standard errors that a difference may have
+constexpr double kErrors = 4;        // standard errors that a difference may have
 constexpr double kResolution = 6.5;  // standard errors in d
 constexpr std::array<const char*, 3> kChannel{"R", "G", "B"};
 
@@ -27,7 +27,8 @@ double excess(const Estimate& e, double wanted_error) {
 
 void print(const std::string& name, const char* channel, double value, const WelchResult& w, const Measured& m) {
   const double off = w.difference / value, error = w.standard_error / std::abs(value);
-  std::printf("  %-46s %s %-12.7g off by %+.3f %%, standard error %.3f %%, ", name.c_str(), channel, value, 100 * off, 100 * error);
+  std::printf("  %-46s %s %-12.7g off by %+.3f %%, standard error %.3f %%, ", name.c_str(), channel, value, 100 * off,
+              100 * error);
   if (error < 1e-5) {
     std::printf("z none ");
   } else {
@@ -55,8 +56,8 @@ void check_difference(const std::string& name, int channel, double value, const 
   const bool within = std::abs(w.difference) <= kErrors * w.standard_error + exempt;
   CHECK_MESSAGE(within, name, " ", std::string(kChannel[channel]), ": ", value + w.difference, " instead of ", value, ", ", w.t,
                 " standard errors");
-  CHECK_MESSAGE(w.standard_error <= kCoarser * tolerance.d / kResolution * std::abs(value), name, ": not precise enough after ", m.seconds,
-                " s and ", m.spp, " samples a pixel");
+  CHECK_MESSAGE(w.standard_error <= kCoarser * tolerance.d / kResolution * std::abs(value), name, ": not precise enough after ",
+                m.seconds, " s and ", m.spp, " samples a pixel");
 }
 
 /// Until the image means have at most `share` of the variance that a comparison at d allows.
@@ -104,15 +105,16 @@ Measured check_agrees(const std::string& name, const std::string& scene, const E
   if (!picked(name)) return {};
   const double d = how.d.value_or(required_precision());
   Subject subject(scene, how.variant);
-  const Measured m = measure(subject, {.excess = [&](const MeanImage& image) {
-                                         double worst = 0;
-                                         for (int k = 0; k < 3; ++k) {
-                                           if (!expected[k]) continue;
-                                           const double error = d / kResolution * std::abs(*expected[k]);
-                                           worst = std::max(worst, excess(image_mean(image, k), error));
-                                         }
-                                         return worst;
-                                       },
+  const Measured m = measure(subject, {.excess =
+                                           [&](const MeanImage& image) {
+                                             double worst = 0;
+                                             for (int k = 0; k < 3; ++k) {
+                                               if (!expected[k]) continue;
+                                               const double error = d / kResolution * std::abs(*expected[k]);
+                                               worst = std::max(worst, excess(image_mean(image, k), error));
+                                             }
+                                             return worst;
+                                           },
                                        .seconds = budget(how),
                                        .stream = stream_of(name)});
   for (int k = 0; k < 3; ++k) {
@@ -127,10 +129,10 @@ Measured check_agrees(const std::string& name, const std::string& scene, const E
 void check_vanishes(const std::string& name, const std::string& scene, double bound, const Agreement& how) {
   if (!picked(name)) return;
   Subject subject(scene, how.variant);
-  const Measured m = measure(
-      subject, {.excess = [&](const MeanImage& image) { return excess(image_mean(image, 0), bound / kErrors); },
-                .seconds = budget(how),
-                .stream = stream_of(name)});
+  const Measured m =
+      measure(subject, {.excess = [&](const MeanImage& image) { return excess(image_mean(image, 0), bound / kErrors); },
+                        .seconds = budget(how),
+                        .stream = stream_of(name)});
   const Estimate e = image_mean(m.image, 0);
   std::printf("  %-44s   %.3g +- %.3g, bound %.3g  (%.3g spp, %.1f s)\n", name.c_str(), e.mean, e.standard_error(), bound,
               m.spp, m.seconds);
@@ -155,8 +157,8 @@ void check_same(const std::string& name, const std::vector<Contender>& contender
       }
       const auto blocks = block_test(block_means(measured[j].image, 8), block_means(measured[i].image, 8));
       const BlockDifference& w = worst(blocks);
-      CHECK_MESSAGE(w.welch.p >= sidak(1e-3, pairs * double(blocks.size())), title, ": block ", w.x, ",", w.y,
-                    " differs by ", w.welch.t, " standard errors");
+      CHECK_MESSAGE(w.welch.p >= sidak(1e-3, pairs * double(blocks.size())), title, ": block ", w.x, ",", w.y, " differs by ",
+                    w.welch.t, " standard errors");
     }
   }
 }

@@ -46,7 +46,7 @@ void check_same(const std::string& name, const std::vector<Contender>& contender
 /// grows with their number, not its square.
 /// pairwise_precision() says what that makes of every two.
 void check_all_agree(const std::string& name, const std::vector<Contender>& contenders, const Agreement& how = {});
-void check_all_agree(const std::string& name, const std::string& scene, const std::vector<std::pair<std::string, Variant>>& variants,
-                     const Agreement& how = {});
+void check_all_agree(const std::string& name, const std::string& scene,
+                     const std::vector<std::pair<std::string, Variant>>& variants, const Agreement& how = {});
 
 }  // namespace tyndall::test

@@ -19,8 +19,8 @@ namespace {
 
 constexpr int kCasesOfACommit = 500, kNightlyCases = 20000;
 constexpr std::size_t kSmall = std::size_t{64} << 10, kCutsOfLarge = 1000;
-constexpr double kLongest = 10;                        // seconds
-constexpr long kMostMemory = 256l << 10;               // KB, beyond what was in use
+constexpr double kLongest = 10;           // seconds
+constexpr long kMostMemory = 256l << 10;  // KB, beyond what was in use
 constexpr std::size_t kMostLines = 3, kMostText = 1000, kMostComplaints = 10;
 
 // The sanitizers keep what was freed for a while, and shadows of everything.
@@ -68,7 +68,8 @@ class Trial {
     if (e.failure() != Failure::scene) return "not a scene failure: " + text;
     if (text.find(name) == std::string::npos) return "does not name the file: " + text;
     if (text.size() > kMostText) return "is too long: " + text.substr(0, kMostText);
-    if (static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) >= kMostLines) return "has too many lines: " + text;
+    if (static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) >= kMostLines)
+      return "has too many lines: " + text;
     return "";
   }
 

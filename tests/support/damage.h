@@ -13,8 +13,8 @@ namespace tyndall::test {
 struct Verdict {
   int cases = 0, accepted = 0, refused = 0;
   int accepted_truncations = 0, accepted_flips = 0;
-  double slowest = 0;                  ///< seconds
-  std::vector<std::string> complaints; ///< each breaks the promise; at most 10
+  double slowest = 0;                   ///< seconds
+  std::vector<std::string> complaints;  ///< each breaks the promise; at most 10
   std::string str() const;
 };
 

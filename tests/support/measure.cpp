@@ -89,8 +89,8 @@ std::string Subject::faults() const {
   const bool parity_kept = static_cast<double>(total_.parity_errors) <= 1e-6 * static_cast<double>(total_.rays);
   if (total_.non_finite + total_.majorant_violations + total_.caps_hit == 0 && parity_kept) return {};
   return std::to_string(total_.non_finite) + " non-finite samples, " + std::to_string(total_.majorant_violations) +
-         " majorant violations, " + std::to_string(total_.caps_hit) + " caps hit and " +
-         std::to_string(total_.parity_errors) + " parity errors in " + std::to_string(total_.rays) + " rays";
+         " majorant violations, " + std::to_string(total_.caps_hit) + " caps hit and " + std::to_string(total_.parity_errors) +
+         " parity errors in " + std::to_string(total_.rays) + " rays";
 }
 
 namespace {
@@ -106,7 +106,8 @@ Estimate joined(const Estimate& a, double part_of_a, const Estimate& b) {
 
 MeanImage joined(const MeanImage& a, double part_of_a, MeanImage b) {
   for (std::size_t k = 0; k < b.channels.size(); ++k) {
-    for (std::size_t i = 0; i < b.channels[k].size(); ++i) b.channels[k][i] = joined(a.channels[k][i], part_of_a, b.channels[k][i]);
+    for (std::size_t i = 0; i < b.channels[k].size(); ++i)
+      b.channels[k][i] = joined(a.channels[k][i], part_of_a, b.channels[k][i]);
   }
   return b;
 }

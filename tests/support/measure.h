@@ -52,9 +52,9 @@ struct Goal {
   /// Called with all renders so far: the factor by which their variance is still too large; at most 1, or 25 with
   /// sanitizers (kCoarser): done.
   std::function<double(const MeanImage&)> excess;
-  double seconds = 60;           ///< of all cores' processor time: give up after this long
-  int first_spp = 16;            ///< samples a pixel of the first renders
-  int max_spp = 1 << 20;         ///< samples a pixel in all
+  double seconds = 60;    ///< of all cores' processor time: give up after this long
+  int first_spp = 16;     ///< samples a pixel of the first renders
+  int max_spp = 1 << 20;  ///< samples a pixel in all
   /// Measurements of different streams use different seeds: to be compared, they must be independent.
   int stream = 0;
 };
@@ -62,8 +62,8 @@ struct Goal {
 struct Measured {
   MeanImage image;
   int renders = 0;
-  double spp = 0;  ///< a pixel, in all
-  double seconds = 0;  ///< as Goal::seconds
+  double spp = 0;        ///< a pixel, in all
+  double seconds = 0;    ///< as Goal::seconds
   bool reached = false;  ///< the goal, before time and samples ran out
 };
 
@@ -78,7 +78,7 @@ double processor_seconds();
 /// A stream for each name.
 int stream_of(const std::string& name);
 
-bool nightly();            ///< TYNDALL_NIGHTLY=1: full precision, and what is too long for every commit
-std::uint64_t base_seed(); ///< TYNDALL_SEED, else 1
+bool nightly();             ///< TYNDALL_NIGHTLY=1: full precision, and what is too long for every commit
+std::uint64_t base_seed();  ///< TYNDALL_SEED, else 1
 
 }  // namespace tyndall::test

@@ -35,17 +35,20 @@ Mutant with_number(const std::string& bytes, Draw& draw) {
   std::uint64_t old = 0, value = 0;
   std::memcpy(&old, bytes.data() + at, size);
   const std::uint64_t top = std::uint64_t{1} << (8 * size - 1);
-  const std::uint64_t choices[] = {0, 1, ~std::uint64_t{0}, top - 1, top, old + 1, old - 1, 2 * old, top >> 1, draw.bits(), draw.bits() >> draw.below(64)};
+  const std::uint64_t choices[] = {
+      0, 1, ~std::uint64_t{0}, top - 1, top, old + 1, old - 1, 2 * old, top >> 1, draw.bits(), draw.bits() >> draw.below(64)};
   value = choices[draw.below(std::size(choices))];
-  Mutant m{Damage::overwrite, bytes, std::to_string(size) + " bytes at " + std::to_string(at) + " set to " + std::to_string(value)};
+  Mutant m{Damage::overwrite, bytes,
+           std::to_string(size) + " bytes at " + std::to_string(at) + " set to " + std::to_string(value)};
   std::memcpy(m.bytes.data() + at, &value, size);
   return m.bytes == bytes ? with_flips(bytes, draw) : m;
 }
 
 /// One number in the text, found from a random place on, becomes one that geometry and optics stumble over.
 Mutant with_text_number(const std::string& bytes, Draw& draw) {
-  static const char* const kNumbers[] = {"0", "-1", "1e-38", "1e-30", "1e-10", "1e10", "1e30", "3e38", "-1e30", "1e39", "nan", "0.9999999",
-                                         "65535", "2147483647", "-2147483648", "1e-45", "1000", "-0", "90", "180"};
+  static const char* const kNumbers[] = {"0",           "-1",    "1e-38", "1e-30", "1e-10",     "1e10",  "1e30",
+                                         "3e38",        "-1e30", "1e39",  "nan",   "0.9999999", "65535", "2147483647",
+                                         "-2147483648", "1e-45", "1000",  "-0",    "90",        "180"};
   std::size_t begin = draw.below(bytes.size());
   begin = bytes.find_first_of("0123456789", begin);
   if (begin == std::string::npos) begin = bytes.find_first_of("0123456789");
@@ -53,7 +56,8 @@ Mutant with_text_number(const std::string& bytes, Draw& draw) {
   while (begin > 0 && std::string("0123456789.-+e").find(bytes[begin - 1]) != std::string::npos) --begin;
   const std::size_t end = std::min(bytes.find_first_not_of("0123456789.-+e", begin), bytes.size());
   const std::string number = kNumbers[draw.below(std::size(kNumbers))];
-  return {Damage::number, bytes.substr(0, begin) + number + bytes.substr(end), "number at " + std::to_string(begin) + " set to " + number};
+  return {Damage::number, bytes.substr(0, begin) + number + bytes.substr(end),
+          "number at " + std::to_string(begin) + " set to " + number};
 }
 
 }  // namespace

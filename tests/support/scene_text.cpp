@@ -18,8 +18,7 @@ std::string rgb(const std::string& name, Rgb c) { return " \"rgb " + name + "\" 
 std::string scalar(const std::string& name, double v) { return " \"float " + name + "\" " + number(v); }
 
 std::string optics(const Coefficients& c) {
-  return rgb("sigma_a", c.sigma_a) + rgb("sigma_s", c.sigma_s) + scalar("g", c.g) +
-         (is_black(c.Le) ? "" : rgb("Le", c.Le));
+  return rgb("sigma_a", c.sigma_a) + rgb("sigma_s", c.sigma_s) + scalar("g", c.g) + (is_black(c.Le) ? "" : rgb("Le", c.Le));
 }
 
 std::string medium(const std::string& name, const std::string& type, const std::string& parameters) {
@@ -54,9 +53,8 @@ std::string view(const View& v) {
   const std::string n = std::to_string(v.resolution), w = number(v.half_width);
   const Vec3 d = v.look - v.eye;
   const bool vertical = std::abs(d.y) > 0.9f * length(d);
-  std::string text = "Film \"rgb\" \"integer xresolution\" " + n + " \"integer yresolution\" " + n + "\n" +
-                     "PixelFilter " + v.filter + "\n" +
-                     "Integrator \"volpath\" \"integer maxdepth\" " + std::to_string(v.max_depth) + "\n" +
+  std::string text = "Film \"rgb\" \"integer xresolution\" " + n + " \"integer yresolution\" " + n + "\n" + "PixelFilter " +
+                     v.filter + "\n" + "Integrator \"volpath\" \"integer maxdepth\" " + std::to_string(v.max_depth) + "\n" +
                      "LookAt " + text_of(v.eye) + text_of(v.look) + (vertical ? "0 0 1\n" : "0 1 0\n") + v.before_camera;
   if (!v.medium.empty()) text += "MediumInterface \"\" \"" + v.medium + "\"\n";
   if (v.fov_degrees > 0) {
@@ -120,8 +118,8 @@ std::string diffuse_plane(float height, float half, float reflectance) {
 
 std::string emitting_square(Vec3 c, float half, float L) {
   const float h = half;
-  return block("AreaLightSource \"diffuse\"" + rgb("L", Rgb(L)) + "\nMaterial \"diffuse\"" + rgb("reflectance", Rgb(0.0f)) + "\n" +
-               quad({c + Vec3{-h, -h, 0}, c + Vec3{-h, h, 0}, c + Vec3{h, h, 0}, c + Vec3{h, -h, 0}}));
+  return block("AreaLightSource \"diffuse\"" + rgb("L", Rgb(L)) + "\nMaterial \"diffuse\"" + rgb("reflectance", Rgb(0.0f)) +
+               "\n" + quad({c + Vec3{-h, -h, 0}, c + Vec3{-h, h, 0}, c + Vec3{h, h, 0}, c + Vec3{h, -h, 0}}));
 }
 
 }  // namespace tyndall::test

@@ -63,7 +63,7 @@ std::string diffuse_plane(float height, float half, float reflectance);
 /// A square of half-side `half` around `center` facing -z, of radiance L.
 std::string emitting_square(Vec3 center, float half, float L);
 
-std::string number(double v);       ///< the shortest text that reads back as the same float
+std::string number(double v);                ///< the shortest text that reads back as the same float
 std::string block(const std::string& text);  ///< AttributeBegin ... AttributeEnd
 
 }  // namespace tyndall::test

@@ -31,9 +31,7 @@ double density_at(const Grid& g, double x, double y, double z) {
 
 double single_scattering(double sigma_t, double h, double d) {
   // t = d + h tan(theta): dt / r^2 = dtheta / h, r = h / cos(theta).
-  const auto f = [&](double theta) {
-    return std::exp(-sigma_t * (d + h * std::tan(theta) + h / std::cos(theta)));
-  };
+  const auto f = [&](double theta) { return std::exp(-sigma_t * (d + h * std::tan(theta) + h / std::cos(theta))); };
   return integrate(f, -std::atan2(d, h), kPiExact / 2, 400) / (4 * kPiExact * h);
 }
 

@@ -18,8 +18,8 @@ double single_scattering(double sigma_t, double h, double d);
 /// the emergent radiance is 1 - H(mu) sqrt(1 - w).
 double chandrasekhar_h(double w, double mu);
 
-/// Optical depth at sigma_t = 1 along a ray through a grid of cell-centred samples, trilinear; samples outside the bounds are 0,
-/// and there is nothing at all out there.
+/// Optical depth at sigma_t = 1 along a ray through a grid of cell-centred samples, trilinear; samples outside the bounds are
+/// 0, and there is nothing at all out there.
 double optical_depth(const Grid& grid, const Ray& ray, double t0, double t1);
 
 // ---------------------------------------------------------------------------------------------------------

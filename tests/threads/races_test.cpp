@@ -24,15 +24,18 @@ constexpr int kThreads = 6;
 std::string everything(int lights) {
   Grid grid{kBox, 9, 9, 9, {}};
   for (int i = 0; i < 729; ++i) grid.density.push_back(0.2f * float(i * 7 % 11));
-  std::string text = view({.eye = {1.6f, 1.2f, -3.2f}, .look = {0, 0, 0}, .fov_degrees = 42, .resolution = 33, .max_depth = 4}) +
-                     environment(0.1f) + distant_light({1, -1, 2}, 0.3f) +
-                     uniform_grid("m", {.sigma_a = Rgb(0.3f), .sigma_s = {1, 2, 0.5f}, .g = 0.5f, .Le = Rgb(0.2f)}, grid) +
-                     medium_box("m", "", kBox) + diffuse_plane(1.8f, 3, 0.6f) +
-                     "MakeNamedMedium \"c\" \"string type\" \"cloud\" \"point3 p0\" [-2 -2 -2] \"point3 p1\" [2 2 2]\n" +
-                     medium_box("c", "", {{-1.2f, -1.2f, 1}, {1.2f, 1.2f, 1.6f}}) + block("Material \"coateddiffuse\"\nShape \"sphere\" \"float radius\" 0.4\n") +
-                     "ObjectBegin \"o\"\nAreaLightSource \"diffuse\" \"rgb L\" [2 1 1]\nShape \"sphere\" \"float radius\" 0.05\nObjectEnd\n";
+  std::string text =
+      view({.eye = {1.6f, 1.2f, -3.2f}, .look = {0, 0, 0}, .fov_degrees = 42, .resolution = 33, .max_depth = 4}) +
+      environment(0.1f) + distant_light({1, -1, 2}, 0.3f) +
+      uniform_grid("m", {.sigma_a = Rgb(0.3f), .sigma_s = {1, 2, 0.5f}, .g = 0.5f, .Le = Rgb(0.2f)}, grid) +
+      medium_box("m", "", kBox) + diffuse_plane(1.8f, 3, 0.6f) +
+      "MakeNamedMedium \"c\" \"string type\" \"cloud\" \"point3 p0\" [-2 -2 -2] \"point3 p1\" [2 2 2]\n" +
+      medium_box("c", "", {{-1.2f, -1.2f, 1}, {1.2f, 1.2f, 1.6f}}) +
+      block("Material \"coateddiffuse\"\nShape \"sphere\" \"float radius\" 0.4\n") +
+      "ObjectBegin \"o\"\nAreaLightSource \"diffuse\" \"rgb L\" [2 1 1]\nShape \"sphere\" \"float radius\" 0.05\nObjectEnd\n";
   for (int i = 0; i < lights; ++i) {
-    text += point_light({std::cos(0.7f * float(i)) * 2, std::sin(1.3f * float(i)), std::sin(0.7f * float(i)) * 2}, 3.0f / float(lights));
+    text += point_light({std::cos(0.7f * float(i)) * 2, std::sin(1.3f * float(i)), std::sin(0.7f * float(i)) * 2},
+                        3.0f / float(lights));
     if (i % 100 == 0) text += block("Translate " + number(0.01 * i) + " 1 0\nObjectInstance \"o\"\n");
   }
   return text;
@@ -61,7 +64,8 @@ Image picture(const Scene& scene, LightStrategy lights, EmissionStrategy emissio
 TEST_CASE("worlds built and rendered by several threads") {
   const Scene scene = read_scene_text(everything(3000), "test.pbrt").scene;
   for (const LightStrategy lights : {LightStrategy::tree, LightStrategy::tree_binary, LightStrategy::power}) {
-    const Image many = picture(scene, lights, EmissionStrategy::paths, kThreads), one = picture(scene, lights, EmissionStrategy::paths, 1);
+    const Image many = picture(scene, lights, EmissionStrategy::paths, kThreads),
+                one = picture(scene, lights, EmissionStrategy::paths, 1);
     CHECK(many.find("R")->values == one.find("R")->values);
   }
   picture(scene, LightStrategy::tree, EmissionStrategy::lights, kThreads);
@@ -96,10 +100,12 @@ TEST_CASE("a render that is watched, saved and stopped from other threads") {
 TEST_CASE("what one body throws comes to the caller, and ends the others") {
   ThreadPool pool(kThreads);
   std::atomic<int> run = 0;
-  CHECK_THROWS_AS(pool.for_each(1'000'000, 1, [&](std::size_t i) {
-    ++run;
-    if (i == 3) throw Error(Failure::run_time, "three");
-  }), Error);
+  CHECK_THROWS_AS(pool.for_each(1'000'000, 1,
+                                [&](std::size_t i) {
+                                  ++run;
+                                  if (i == 3) throw Error(Failure::run_time, "three");
+                                }),
+                  Error);
   CHECK(run < 1'000'000);
 }
 

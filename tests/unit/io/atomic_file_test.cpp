@@ -24,10 +24,17 @@ std::string gone() {
 TEST_CASE("what a killed process left of writing a file is removed, and nothing else") {
   const test::Scratch folder;
   const std::string dead = gone(), alive = std::to_string(getpid());
-  const std::string kept[] = {".a.exr." + alive + ".0.part", ".b.exr." + dead + ".0.part",     ".a.exr." + dead + ".0.partial",
-                              "a.exr." + dead + ".0.part",   ".a.exr." + dead + ".x.part",     ".a.exr.-1.0.part",
-                              ".a.exr.0.0.part",             ".a.exr.99999999999999999.0.part", ".a.exr." + dead + ".part",
-                              ".a.exr.x." + dead + ".0.part", "a.exr"};
+  const std::string kept[] = {".a.exr." + alive + ".0.part",
+                              ".b.exr." + dead + ".0.part",
+                              ".a.exr." + dead + ".0.partial",
+                              "a.exr." + dead + ".0.part",
+                              ".a.exr." + dead + ".x.part",
+                              ".a.exr.-1.0.part",
+                              ".a.exr.0.0.part",
+                              ".a.exr.99999999999999999.0.part",
+                              ".a.exr." + dead + ".part",
+                              ".a.exr.x." + dead + ".0.part",
+                              "a.exr"};
   const std::string left[] = {".a.exr." + dead + ".0.part", ".a.exr." + dead + ".17.part"};
   for (const std::string& name : kept) test::write_bytes(folder / name, "x");
   for (const std::string& name : left) test::write_bytes(folder / name, "x");

@@ -6,9 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <thread>
 #include <cstring>
 #include <limits>
+#include <thread>
 
 #include "io/exr.h"
 #include "support/scratch.h"

@@ -36,13 +36,15 @@ std::string tables(const std::string& contents, int length = -1) {
 }  // namespace
 
 TEST_CASE("tables of up to 256 codes pass, wherever they stand") {
-  for (const int codes : {0, 1, 255, 256}) CHECK_FALSE(has_oversized_table(kStart + tables(table(codes) + table(codes)) + kScan));
+  for (const int codes : {0, 1, 255, 256})
+    CHECK_FALSE(has_oversized_table(kStart + tables(table(codes) + table(codes)) + kScan));
   CHECK_FALSE(has_oversized_table(""));
   CHECK_FALSE(has_oversized_table("\xff\xff"));
   CHECK_FALSE(has_oversized_table(kStart));
-  CHECK_FALSE(has_oversized_table(kStart + kScan + "\xff\xd9" + tables(table(300))));                     // after the end
-  CHECK_FALSE(has_oversized_table(kStart + "\xff\xe1" + std::string(1, '\1') + "\xff" + tables(table(300))));  // within a segment
-  CHECK_FALSE(has_oversized_table("\xff\xd7" + tables(table(300))));                                      // no JPEG file
+  CHECK_FALSE(has_oversized_table(kStart + kScan + "\xff\xd9" + tables(table(300))));  // after the end
+  CHECK_FALSE(
+      has_oversized_table(kStart + "\xff\xe1" + std::string(1, '\1') + "\xff" + tables(table(300))));  // within a segment
+  CHECK_FALSE(has_oversized_table("\xff\xd7" + tables(table(300))));                                   // no JPEG file
 }
 
 TEST_CASE("tables of more codes are found, wherever they stand") {

@@ -61,7 +61,8 @@ TEST_CASE("a limit of time or error alone leaves the samples open") {
 }
 
 TEST_CASE("candidates, splitting and shadow rays") {
-  const RenderSettings s = settings("Integrator \"volpath\" \"integer candidates\" 8 \"float splitting\" 0.5 \"integer shadow-rays\" 2");
+  const RenderSettings s =
+      settings("Integrator \"volpath\" \"integer candidates\" 8 \"float splitting\" 0.5 \"integer shadow-rays\" 2");
   CHECK(s.candidates == 8);
   CHECK(s.splitting == 0.5f);
   CHECK(s.shadow_rays == 2);

@@ -112,7 +112,8 @@ TEST_CASE("emitters of instances: power, place, samples and densities are those 
     CHECK(shared.stats().dark == alone.stats().dark);
     CHECK(shared.stats().power == doctest::Approx(alone.stats().power).epsilon(1e-5));
     const Bounds3& around = alone.near_box();
-    for (int k = 0; k < 8; ++k) REQUIRE(shared.near_box().contains(around.center() + (around.corner(k) - around.center()) * 0.999f));
+    for (int k = 0; k < 8; ++k)
+      REQUIRE(shared.near_box().contains(around.center() + (around.corner(k) - around.center()) * 0.999f));
     Rng rng(3);
     int lit = 0;
     for (const auto& [s, a] : same_lights(stage, shared, alone)) {

@@ -79,7 +79,8 @@ TEST_CASE("kernels: cones") {
   check_kernel("union", [](Adversary& any) {
     const DirectionCone a = cone(any), b = cone(any), both = cone_union(a, b);
     const Vec3d w = in_cone(any, any.chance() ? a : b);
-    return holds(both.full() || angle(w, Vec3d(both.axis)) <= both.theta + 1e-6, a.axis, a.theta, b.axis, b.theta, both.axis, both.theta);
+    return holds(both.full() || angle(w, Vec3d(both.axis)) <= both.theta + 1e-6, a.axis, a.theta, b.axis, b.theta, both.axis,
+                 both.theta);
   });
   check_kernel("square maps of the sphere", [](Adversary& any) {
     const Vec3 w = any.direction();
@@ -91,7 +92,8 @@ TEST_CASE("kernels: cones") {
 
 TEST_CASE("kernels: what segments see") {
   check_kernel("angle of a stretch", [](Adversary& any) {
-    const double h = any.positive(60), from = any.real(60), till = any.chance() ? from + double(any.positive(60)) : double(kInfinity);
+    const double h = any.positive(60), from = any.real(60),
+                 till = any.chance() ? from + double(any.positive(60)) : double(kInfinity);
     if (!(till > from)) return Fault();
     const double whole = subtended_angle(h, from, till), middle = middle_of_angle(h, from, till);
     if (!(whole >= 0 && whole <= M_PI && middle >= from && middle <= till)) return holds(false, h, from, till, whole, middle);

@@ -121,11 +121,13 @@ TEST_CASE("a triangle gives no light to points of its own plane, where rounding 
   Rng rng(21);
   for (int i = 0; i < 2000; ++i) {
     const auto number = [&] { return 20 * rng.uniform() - 10; };
-    const TriangleMesh mesh{{{number(), number(), number()}, {number(), number(), number()}, {number(), number(), number()}}, {}, {}, {0, 1, 2}};
+    const TriangleMesh mesh{
+        {{number(), number(), number()}, {number(), number(), number()}, {number(), number(), number()}}, {}, {}, {0, 1, 2}};
     const TriangleEmitter e(mesh, {}, false, false);
     const auto& p = mesh.positions;
     // Inside, often next to an edge, and on the neighbour beyond an edge.
-    const float u = i % 3 == 0 ? 1e-4f * rng.uniform() : (i % 3 == 1 ? -0.2f * rng.uniform() : 0.5f * rng.uniform()), v = 0.5f * rng.uniform();
+    const float u = i % 3 == 0 ? 1e-4f * rng.uniform() : (i % 3 == 1 ? -0.2f * rng.uniform() : 0.5f * rng.uniform()),
+                v = 0.5f * rng.uniform();
     const Vec3 q = to_vec3(Vec3d(p[0]) + (Vec3d(p[1]) - Vec3d(p[0])) * double(u) + (Vec3d(p[2]) - Vec3d(p[0])) * double(v));
     REQUIRE(!e.sample(0, q, {rng.uniform(), rng.uniform()}));
     REQUIRE(e.pdf(0, q, p[0] * 0.3f + p[1] * 0.3f + p[2] * 0.4f) == 0);

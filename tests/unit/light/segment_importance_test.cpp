@@ -73,7 +73,8 @@ TEST_CASE("the angle of a segment is the integral of h / r^2, far and short and 
   CHECK(subtended_angle(2, -1, kInfinity) == doctest::Approx(kPi / 2 + std::atan(0.5)));
   CHECK(subtended_angle(2, -1, middle_of_angle(2, -1, kInfinity)) == doctest::Approx((kPi / 2 + std::atan(0.5)) / 2));
   // Its place cancels against the ends' where the line passes the light closely.
-  for (const auto& [from, till] : {std::pair{-0.88299346, 0.0}, {-0.7, 0.0}, {-0.3, 0.7}, {-0.1, 1e3}, {-0.3, double{kInfinity}}}) {
+  for (const auto& [from, till] :
+       {std::pair{-0.88299346, 0.0}, {-0.7, 0.0}, {-0.3, 0.7}, {-0.1, 1e3}, {-0.3, double{kInfinity}}}) {
     const double h = 9.95e-13, whole = subtended_angle(h, from, till);
     CHECK(std::abs(subtended_angle(h, from, middle_of_angle(h, from, till)) - 0.5 * whole) < 1e-9);
   }

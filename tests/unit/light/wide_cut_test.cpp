@@ -148,7 +148,8 @@ TEST_CASE("draws from a cut: each light comes as often as expected, and its weig
   const auto selector = make_selector(LightStrategy::tree, test::lights_of(40, true));
   Rng rng(12);
   constexpr int kRounds = 2000;
-  for (const CutSettings settings : {CutSettings{1, 0.9f}, {3, 0.9f}, {12, 0.9f}, {20, 0.9f}, {12, 0}, {1, 0}, {0, 0.6f}, {4, 0.5f}}) {
+  for (const CutSettings settings :
+       {CutSettings{1, 0.9f}, {3, 0.9f}, {12, 0.9f}, {20, 0.9f}, {12, 0}, {1, 0}, {0, 0.6f}, {4, 0.5f}}) {
     for (const PointQuery& q : queries()) {
       const LightCut cut = selector->cut(q, settings);
       std::vector<double> count(41);

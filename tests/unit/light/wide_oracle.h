@@ -61,7 +61,8 @@ inline OracleImportance oracle_importance(const Cluster& c, const WideQuery& q) 
     double scattered = q.lobe_count == 0 ? cosine : q.diffuse * cosine;
     for (int i = 0; i < q.lobe_count; ++i) {
       const bool above = dot(n, d) + reach > 0, below = dot(n, d) - reach < 0;
-      if (q.lobes[i].eta != 1 ? below : above) scattered += oracle_lobe(q.lobes[i], mean / reckoned, cosine, c.variance / (reckoned * reckoned));
+      if (q.lobes[i].eta != 1 ? below : above)
+        scattered += oracle_lobe(q.lobes[i], mean / reckoned, cosine, c.variance / (reckoned * reckoned));
     }
     factor *= scattered;
   } else if (q.g != 0) {

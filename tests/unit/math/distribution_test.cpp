@@ -125,7 +125,10 @@ TEST_CASE("tables of any size, with runs of zeros, are inverted as by search fro
     for (const float w : weights) edges.push_back(static_cast<float>(std::min((running += w) / table.total(), 1.0)));
     for (int i = 0; i < 400; ++i) {
       const float edge = edges[rng.next() % edges.size()];
-      const float u = std::clamp(i % 4 == 0 ? rng.uniform() : i % 4 == 1 ? edge : std::nextafter(edge, i % 4 == 2 ? 0.0f : 1.0f), 0.0f, 0x1.fffffep-1f);
+      const float u = std::clamp(i % 4 == 0   ? rng.uniform()
+                                 : i % 4 == 1 ? edge
+                                              : std::nextafter(edge, i % 4 == 2 ? 0.0f : 1.0f),
+                                 0.0f, 0x1.fffffep-1f);
       std::size_t cell = 0;
       for (std::size_t k = 0; k < size; ++k) {
         if (edges[k] <= u && weights[k] > 0) cell = k;

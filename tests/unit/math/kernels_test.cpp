@@ -96,8 +96,9 @@ TEST_CASE("kernels: solid angles") {
     const auto h = sphere_cone_height(distance, radius);
     if (distance <= radius) return holds(!h, distance, radius);
     const double ratio = radius / distance;
-    return holds(h && *h >= 0 && *h <= 1 + 1e-12 && std::abs(*h - ratio * ratio / (1 + std::sqrt(1 - ratio * ratio))) <= 1e-6 * *h,
-                 distance, radius, h.value_or(-1));
+    return holds(
+        h && *h >= 0 && *h <= 1 + 1e-12 && std::abs(*h - ratio * ratio / (1 + std::sqrt(1 - ratio * ratio))) <= 1e-6 * *h,
+        distance, radius, h.value_or(-1));
   });
 }
 

@@ -39,7 +39,8 @@ TEST_CASE("the lowest limit among the control groups of a process and those arou
   CHECK(limit("4:memory:/c\n") == 9223372036854771712u);
   CHECK(limit("4:cpu:/a\n") == kUnlimited);
   CHECK(limit("4:memory:/a\n0::/\n") == 2000000);
-  for (const char* nonsense : {"", "\n", "memory", "4:memory", "0::", "0::x\n", ":::::\n"}) CHECK(limit(nonsense) == kUnlimited);
+  for (const char* nonsense : {"", "\n", "memory", "4:memory", "0::", "0::x\n", ":::::\n"})
+    CHECK(limit(nonsense) == kUnlimited);
 }
 
 TEST_CASE("this process holds some of what the machine has, and its memory is seen to grow") {

@@ -11,7 +11,8 @@ namespace {
 TEST_CASE("the libraries that reckon for a picture are known by their content") {
   const auto libraries = reckoning_libraries();
   for (const std::string_view name : {"libembree", "libopenvdb", "libOpenEXR", "libImath", "libm.", "libc."}) {
-    const auto found = std::find_if(libraries.begin(), libraries.end(), [&](const auto& l) { return l.name.starts_with(name); });
+    const auto found =
+        std::find_if(libraries.begin(), libraries.end(), [&](const auto& l) { return l.name.starts_with(name); });
     REQUIRE_MESSAGE(found != libraries.end(), name);
     CHECK(found->name.find('/') == std::string::npos);
     CHECK(found->id.size() >= 16);

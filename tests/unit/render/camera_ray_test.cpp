@@ -75,7 +75,8 @@ TEST_CASE("the solid angle of the film is that between rays, and of all of it th
   for (int y = 0; y < 32; ++y) {
     for (int x = 0; x < 64; ++x) {
       const float u = static_cast<float>(x), v = static_cast<float>(y);
-      const double between = length(cross(direction(u + 1, v + 0.5f) - direction(u, v + 0.5f), direction(u + 0.5f, v + 1) - direction(u + 0.5f, v)));
+      const double between = length(
+          cross(direction(u + 1, v + 0.5f) - direction(u, v + 0.5f), direction(u + 0.5f, v + 1) - direction(u + 0.5f, v)));
       const double here = rays.solid_angle({u + 0.5f, v + 0.5f});
       CHECK(here / between == doctest::Approx(1).epsilon(3e-3));
       sum += here;

@@ -22,7 +22,8 @@ std::vector<float> random_brightness(const PixelBounds& pixels, Rng& rng) {
   return brightness;
 }
 
-TEST_CASE("a pixel is an edge where centers within its filter's reach see more than a tenth more light than others, in crops too") {
+TEST_CASE(
+    "a pixel is an edge where centers within its filter's reach see more than a tenth more light than others, in crops too") {
   Rng rng(11);
   for (const Vec2 radius : {Vec2{0.5f, 0.5f}, Vec2{1.5f, 1.5f}, Vec2{2, 0.75f}}) {
     const FilmEdges::View whole{{0, 0, 40, 30}, radius};

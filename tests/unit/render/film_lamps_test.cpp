@@ -80,7 +80,7 @@ TEST_CASE("filters of any width are taken, those of many pixels without lamps") 
 
 TEST_CASE("lamps that are dark, not finite or off the film are nowhere") {
   const float nan = std::nanf("");
-  const std::vector<FilmLamp> lamps{{0, {1, 1}, 0},   {1, {1, 1}, nan},    {2, {1, 1}, kInfinity},
+  const std::vector<FilmLamp> lamps{{0, {1, 1}, 0},   {1, {1, 1}, nan},   {2, {1, 1}, kInfinity},
                                     {3, {nan, 1}, 1}, {4, {1e30f, 1}, 1}, {5, {-3, 1}, 1}};
   const FilmLamps none({{0, 0, 4, 4}, {1.5f, 1.5f}, kFinest}, lamps);
   for (int i = 0; i < 16; ++i) CHECK(none.of(i % 4, i / 4).empty());

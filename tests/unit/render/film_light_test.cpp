@@ -16,13 +16,19 @@ struct Fog {
 
 World world_of(const Fog& fog) {
   const std::string at = std::to_string(fog.distance), s = std::to_string(fog.sigma);
-  const std::string text = "Film \"rgb\" \"integer xresolution\" 16 \"integer yresolution\" 12\n"
-                           "PixelFilter " + fog.filter + "\nCamera " + fog.camera + "\nWorldBegin\n"
-                           "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [0 0 0] \"rgb sigma_s\" [" +
-                           s + " " + s + " " + s + "]\nTranslate 0 0 " + at + "\n"
-                           "LightSource \"point\" \"point3 from\" [" + fog.lamp + "]\n"
-                           "LightSource \"point\" \"point3 from\" [9 9 9]\n"
-                           "MediumInterface \"fog\" \"\"\nMaterial \"interface\"\nShape \"sphere\" \"float radius\" 1\n";
+  const std::string text =
+      "Film \"rgb\" \"integer xresolution\" 16 \"integer yresolution\" 12\n"
+      "PixelFilter " +
+      fog.filter + "\nCamera " + fog.camera +
+      "\nWorldBegin\n"
+      "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [0 0 0] \"rgb sigma_s\" [" +
+      s + " " + s + " " + s + "]\nTranslate 0 0 " + at +
+      "\n"
+      "LightSource \"point\" \"point3 from\" [" +
+      fog.lamp +
+      "]\n"
+      "LightSource \"point\" \"point3 from\" [9 9 9]\n"
+      "MediumInterface \"fog\" \"\"\nMaterial \"interface\"\nShape \"sphere\" \"float radius\" 1\n";
   return test::world_of(text, {.threads = 1});
 }
 
@@ -54,7 +60,8 @@ TEST_CASE("they are not around lamps out of fog, deep in it or behind the camera
   CHECK_FALSE(draws_around_lamps({.lamp = "0 1.5 0"}));
   CHECK_FALSE(draws_around_lamps({.sigma = 40}));
   CHECK_FALSE(draws_around_lamps({.distance = 0.1f, .lamp = "0 0 -0.5"}));
-  CHECK_FALSE(draws_around_lamps({.camera = "\"perspective\" \"float fov\" 40 \"float lensradius\" 0.1 \"float focaldistance\" 4"}));
+  CHECK_FALSE(
+      draws_around_lamps({.camera = "\"perspective\" \"float fov\" 40 \"float lensradius\" 0.1 \"float focaldistance\" 4"}));
   CHECK_FALSE(draws_around_lamps({.camera = "\"orthographic\""}));
 }
 

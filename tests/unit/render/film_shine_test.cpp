@@ -15,7 +15,8 @@ using Spot = FilmShine::Spot;
 
 /// Whether the filter's square around the pixel and the spot's meet.
 bool sees(int x, int y, Vec2 radius, const Spot& spot) {
-  const float dx = std::abs(spot.at.x - (static_cast<float>(x) + 0.5f)), dy = std::abs(spot.at.y - (static_cast<float>(y) + 0.5f));
+  const float dx = std::abs(spot.at.x - (static_cast<float>(x) + 0.5f)),
+              dy = std::abs(spot.at.y - (static_cast<float>(y) + 0.5f));
   return dx <= radius.x + spot.radius && dy <= radius.y + spot.radius;
 }
 

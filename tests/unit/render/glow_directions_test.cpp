@@ -39,8 +39,8 @@ TEST_CASE("directions toward smoke follow their density: from afar, beside it, i
   const MediaGlow& glow = world.parts().glow;
   REQUIRE_FALSE(glow.empty());
   const Vec3 up{0, 1, 0};
-  const PointQuery queries[] = {query_at(world, {-0.9f, -30, -0.9f}, up),       query_at(world, {-0.9f, -2, -0.8f}, up),
-                                query_at(world, {-0.85f, -0.9f, -0.85f}, up),   query_at(world, {1, -0.93f, -0.9f}, up),
+  const PointQuery queries[] = {query_at(world, {-0.9f, -30, -0.9f}, up), query_at(world, {-0.9f, -2, -0.8f}, up),
+                                query_at(world, {-0.85f, -0.9f, -0.85f}, up), query_at(world, {1, -0.93f, -0.9f}, up),
                                 query_at(world, {-0.9f, 2, -0.8f}, up, true)};
   for (const PointQuery& query : queries) {
     const GlowDirections directions(glow, query);

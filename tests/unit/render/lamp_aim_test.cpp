@@ -20,10 +20,8 @@ struct Place {
   Vec3 p, lamp;
 };
 constexpr Place kPlaces[] = {
-    {{0, 0, 0}, {0, 0, 1}},
-    {{1, 2, 3}, {1.01f, 2, 3}},
-    {{-5, 0.1f, 4}, {400, -70, 30}},
-    {{0, 0, 0}, {0x1p-40f, 0x1p-41f, 0}},
+    {{0, 0, 0}, {0, 0, 1}},          {{1, 2, 3}, {1.01f, 2, 3}},
+    {{-5, 0.1f, 4}, {400, -70, 30}}, {{0, 0, 0}, {0x1p-40f, 0x1p-41f, 0}},
     {{0, 0, 0}, {0, -0x1p40f, 0}},
 };
 
@@ -105,7 +103,9 @@ TEST_CASE("the density of a distance near a lamp is that of drawing it") {
     for (const float g : kMeanCosines) {
       constexpr float kStep = 0x1p-8f, kPassing = 0.5f;
       for (float u = 2 * kStep; u < 0.99f; u += kStep) {
-        const auto angle = [&](float v) { return std::atan((double{pass_lamp(closest, kPassing, g, v).t} - closest) / kPassing); };
+        const auto angle = [&](float v) {
+          return std::atan((double{pass_lamp(closest, kPassing, g, v).t} - closest) / kPassing);
+        };
         const double slope = (angle(u + kStep) - angle(u - kStep)) / (2 * kStep);
         CHECK(slope == doctest::Approx(pass_lamp(closest, kPassing, g, u).spread * kPassing).epsilon(0.01));
       }

@@ -64,9 +64,7 @@ TEST_CASE("events look at more lights where less follows them, and on glossy sur
   check(many.span(direct, 0, 0.5f), 16, 0);
 }
 
-TEST_CASE("stretches that scatter next to nothing look at one light") {
-  check(Counted(3, true).span({}, 0, 0.9e-3f), 1, 1);
-}
+TEST_CASE("stretches that scatter next to nothing look at one light") { check(Counted(3, true).span({}, 0, 0.9e-3f), 1, 1); }
 
 TEST_CASE("stretches that scatter little look seldom, but on the only event and where candidates are counted") {
   Counted many(3, true);

@@ -99,7 +99,8 @@ TEST_CASE("leaving what was never entered is counted") {
 }
 
 TEST_CASE("the box around media holds those that bring them, and everything in a medium without bounds") {
-  const std::vector<BoundaryGroup> groups{{0, {}, {{-1, -1, -1}, {1, 1, 1}}}, {1, {}, {{0, 0, 0}, {3, 2, 2}}}, {{}, 1, {{-9, -9, -9}, {9, 9, 9}}}};
+  const std::vector<BoundaryGroup> groups{
+      {0, {}, {{-1, -1, -1}, {1, 1, 1}}}, {1, {}, {{0, 0, 0}, {3, 2, 2}}}, {{}, 1, {{-9, -9, -9}, {9, 9, 9}}}};
   MediaState state;
   for (const std::uint32_t group : {0u, 1u, 2u}) state.cross(group, 1);
   CHECK(state.bounds(groups).min == Vec3{-1, -1, -1});

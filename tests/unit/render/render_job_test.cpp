@@ -138,7 +138,8 @@ TEST_CASE("an error goal ends at a power of two from 64 on, at the first that is
 TEST_CASE("checkpoints come at every power of two, and change nothing") {
   const World world = world_of();
   std::vector<int> seen;
-  const Rendering with = render(world, settings_of(21), {.checkpoint = [&](const RenderJob& j) { seen.push_back(j.samples()); }});
+  const Rendering with =
+      render(world, settings_of(21), {.checkpoint = [&](const RenderJob& j) { seen.push_back(j.samples()); }});
   CHECK(seen == std::vector<int>{1, 2, 4, 8, 16});
   CHECK(same_pixels(with.image, render(world, settings_of(21)).image));
 }

@@ -104,7 +104,8 @@ TEST_CASE("resampling: the chance to survive is min(1, w / c)") {
 
 TEST_CASE("resampling: ends with equal weights beside one next to nothing") {
   // The threshold falls onto the weights that are equal to it, and off them again by rounding.
-  const std::vector<Candidate> two{{1, 1}, {0.5f, 1}, {0.5f, 1}, {0x1.8p-53f, 1}}, three{{1, 1}, {1, 1}, {0.5f, 1}, {0.5f, 1}, {0x1p-52f, 1}};
+  const std::vector<Candidate> two{{1, 1}, {0.5f, 1}, {0.5f, 1}, {0x1.8p-53f, 1}},
+      three{{1, 1}, {1, 1}, {0.5f, 1}, {0.5f, 1}, {0x1p-52f, 1}};
   CHECK(resample(two, 2, 0.3f).size() == 2);
   CHECK(resample(three, 3, 0.3f).size() == 3);
 }

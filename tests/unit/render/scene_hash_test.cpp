@@ -195,7 +195,8 @@ TEST_CASE("a built world and its images carry the hash; only the depth of the se
   const std::string text = R"(Film "rgb" "integer xresolution" 4 "integer yresolution" 4
     WorldBegin LightSource "point" "rgb I" [1 2 3] Shape "sphere" "float radius" 0.5)";
   const World world = build(read_scene_text(text, "a.pbrt", "here").scene);
-  const World moved = build(read_scene_text("# a comment\n" + text, "b.pbrt", "there").scene, {.lights = {LightStrategy::power}});
+  const World moved =
+      build(read_scene_text("# a comment\n" + text, "b.pbrt", "there").scene, {.lights = {LightStrategy::power}});
   const RenderSettings plain;
   const std::string hash = world.scene_hash(plain);
   CHECK(hash.size() == 16);

@@ -107,7 +107,8 @@ double integral(const DistanceSampler& sampler, double a, double b, double c) {
 double integral(const DistanceSampler& sampler, double a, double b) {
   constexpr int kPoints = 256;
   double sum = 0;
-  for (int k = 0; k < kPoints; ++k) sum += sampler.pdf(static_cast<float>(a + (b - a) * (k + 0.5) / kPoints)) * (b - a) / kPoints;
+  for (int k = 0; k < kPoints; ++k)
+    sum += sampler.pdf(static_cast<float>(a + (b - a) * (k + 0.5) / kPoints)) * (b - a) / kPoints;
   return sum;
 }
 
@@ -131,7 +132,8 @@ void check_sampler(const SpanProfile& profile, const DistanceSampler& sampler, f
   std::vector<double> expected(bounds.size(), 0), observed(bounds.size(), 0);  // the last: beyond
   double sum = 0;
   for (std::size_t i = 0; i + 1 < bounds.size(); ++i) {
-    expected[i] = std::isnan(peak) ? integral(sampler, bounds[i], bounds[i + 1]) : integral(sampler, bounds[i], bounds[i + 1], peak);
+    expected[i] =
+        std::isnan(peak) ? integral(sampler, bounds[i], bounds[i + 1]) : integral(sampler, bounds[i], bounds[i + 1], peak);
     sum += expected[i];
   }
   expected.back() = std::max(1 - sum, 0.0);
@@ -145,7 +147,8 @@ void check_sampler(const SpanProfile& profile, const DistanceSampler& sampler, f
     REQUIRE(s.t <= profile.end());
     CHECK(sampler.pdf(s.t) == test::relative(s.pdf).epsilon(1e-4));
     const auto next = std::upper_bound(bounds.begin(), bounds.end(), s.t);
-    ++observed[std::min<std::size_t>(static_cast<std::size_t>(std::max<std::ptrdiff_t>(next - bounds.begin() - 1, 0)), observed.size() - 1)];
+    ++observed[std::min<std::size_t>(static_cast<std::size_t>(std::max<std::ptrdiff_t>(next - bounds.begin() - 1, 0)),
+                                     observed.size() - 1)];
   }
   double statistic = 0, pool_e = 0, pool_o = 0;
   int cells = 0;
@@ -171,7 +174,9 @@ TEST_CASE("out of media it is twice as far as to their nearer end on the span") 
     const std::size_t group = profile.bins() / SegmentProfile::kBins;
     for (std::size_t j = 0; j < SegmentProfile::kBins; ++j) {
       const double depth = -std::log(double{profile.transmittance(profile.edges()[j * group + group / 2])});
-      const double ahead = profile.optical_depth() - depth, nearer = enters && leaves ? std::min(depth, ahead) : enters ? depth : ahead;
+      const double ahead = profile.optical_depth() - depth, nearer = enters && leaves ? std::min(depth, ahead)
+                                                                     : enters         ? depth
+                                                                                      : ahead;
       const double expected = enters || leaves ? 2 * nearer : std::max(depth, ahead);
       CHECK(coarse.escape[j] == test::relative(expected).epsilon(1e-4));
     }
@@ -201,8 +206,12 @@ TEST_CASE("a profile is of what scatters: not of clear stretches, nor of fog wit
 }
 
 TEST_CASE("distances toward lights follow their density") {
-  const std::vector<LightPlace> places{{Vec3(0.3f, 0, 2), 0}, {Vec3(0, 0.01f, 6), 0}, {Vec3(40, 0, 3), 0.5f}, {Vec3(0, 0, 5.5f), 0},
-                                       {Vec3(2, 1, -30), 0}, {std::nullopt, 0},
+  const std::vector<LightPlace> places{{Vec3(0.3f, 0, 2), 0},
+                                       {Vec3(0, 0.01f, 6), 0},
+                                       {Vec3(40, 0, 3), 0.5f},
+                                       {Vec3(0, 0, 5.5f), 0},
+                                       {Vec3(2, 1, -30), 0},
+                                       {std::nullopt, 0},
                                        // Flat ones that face along the ray, against it, both ways; a beam across it.
                                        {.center = Vec3(0.5f, 0, 2.2f), .radius = 0.1f, .normal = {-0.6f, 0, 0.8f}},
                                        {.center = Vec3(0.5f, 1, 7.1f), .radius = 0.1f, .normal = {0, -0.6f, -0.8f}},
@@ -211,9 +220,10 @@ TEST_CASE("distances toward lights follow their density") {
   int seed = 0;
   using Bins = SpanProfile::Bins;
   for (const auto& [make, bins] : {std::pair{+[] { return two_stretches(1); }, Bins::many},
-                                   {+[] { return endless(0.7f); }, Bins::many}, {+[] { return two_stretches(1); }, Bins::few},
-                                  {+[] { return box_before_endless_fog(); }, Bins::many},
-                                  {+[] { return box_before_endless_fog(); }, Bins::few}}) {
+                                   {+[] { return endless(0.7f); }, Bins::many},
+                                   {+[] { return two_stretches(1); }, Bins::few},
+                                   {+[] { return box_before_endless_fog(); }, Bins::many},
+                                   {+[] { return box_before_endless_fog(); }, Bins::few}}) {
     const Case c = make();
     const auto profile = SpanProfile::of(c.span, bins);
     REQUIRE(profile);
@@ -236,7 +246,8 @@ TEST_CASE("what lies behind a box that nothing gets through keeps its place") {
     const auto profile = SpanProfile::of(c.span, bins);
     REQUIRE(profile);
     CHECK(profile->finite_end() > profile->edges()[profile->bins() - 1]);
-    for (const std::optional<Vec3> place : {std::optional(Vec3(1, 0, 700)), std::optional(Vec3(1, 0, 50)), std::optional<Vec3>()}) {
+    for (const std::optional<Vec3> place :
+         {std::optional(Vec3(1, 0, 700)), std::optional(Vec3(1, 0, 50)), std::optional<Vec3>()}) {
       const DistanceSampler sampler(*profile, c.span.ray, {place, 0}, DistanceSampler::Weights{0});
       for (const float t : {2.0f, 90.0f, 300.0f, 1200.0f, 3000.0f}) CHECK(sampler.pdf(t) > 0);
     }

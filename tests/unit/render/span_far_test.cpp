@@ -84,7 +84,7 @@ TEST_CASE("collisions suffice after the first event in media that are all but op
   const RenderSettings settings;
   CHECK(pair.suffice(1, 9, settings, 1));
   CHECK_FALSE(pair.suffice(1, 9, settings, 0));
-  CHECK_FALSE(pair.suffice(1, 7, settings, 1));     // a surface stands there
+  CHECK_FALSE(pair.suffice(1, 7, settings, 1));      // a surface stands there
   CHECK_FALSE(pair.suffice(0.7f, 90, settings, 1));  // what is beyond the lights does not count
   CHECK_FALSE(pair.suffice(0.7f, kInfinity, settings, 1));
   CHECK(pair.suffice(1, kInfinity, settings, 1));
@@ -93,20 +93,21 @@ TEST_CASE("collisions suffice after the first event in media that are all but op
 }
 
 TEST_CASE("collisions suffice in dense stretches that no lamp comes close to before they are opaque") {
-  const std::string place = "MakeNamedMedium \"m\" \"string type\" \"homogeneous\"\nAttributeBegin\nMaterial \"interface\"\n"
-                            "MediumInterface \"m\" \"\"\nShape \"sphere\" \"float radius\" 2\nAttributeEnd\n";
+  const std::string place =
+      "MakeNamedMedium \"m\" \"string type\" \"homogeneous\"\nAttributeBegin\nMaterial \"interface\"\n"
+      "MediumInterface \"m\" \"\"\nShape \"sphere\" \"float radius\" 2\nAttributeEnd\n";
   const auto lamp = [](const std::string& at) { return "LightSource \"point\" \"point3 from\" [" + at + "]\n"; };
   const std::string beside = lamp("0.5 0 -1") + lamp("-0.5 0 1");
   Asked aside(place + beside);
   CHECK(aside.suffice(5, 2, {}, 0));
-  CHECK_FALSE(aside.suffice(0.9f, 2, {}, 0));        // few collide
-  CHECK_FALSE(aside.suffice(1.2f, 2, {}, 0));        // in as far as one sees, a lamp is close
-  CHECK_FALSE(aside.suffice(0.45f, 2, {}, 1));       // later, fewer are enough,
-  CHECK(aside.suffice(0.6f, 2, {}, 1));              // and lamps may be closer
-  CHECK_FALSE(aside.suffice(5, kInfinity, {}, 0));   // looks would be infinitely far apart
+  CHECK_FALSE(aside.suffice(0.9f, 2, {}, 0));       // few collide
+  CHECK_FALSE(aside.suffice(1.2f, 2, {}, 0));       // in as far as one sees, a lamp is close
+  CHECK_FALSE(aside.suffice(0.45f, 2, {}, 1));      // later, fewer are enough,
+  CHECK(aside.suffice(0.6f, 2, {}, 1));             // and lamps may be closer
+  CHECK_FALSE(aside.suffice(5, kInfinity, {}, 0));  // looks would be infinitely far apart
   CHECK_FALSE(Asked(place + beside + lamp("0 0.05 -0.8")).suffice(5, 2, {}, 0));
   CHECK(Asked(place + beside + lamp("0 0.05 0.8")).suffice(5, 2, {}, 0));  // behind what is opaque
-  CHECK_FALSE(Asked(beside).suffice(5, 2, {}, 0));  // no medium of the world has bounds
+  CHECK_FALSE(Asked(beside).suffice(5, 2, {}, 0));                         // no medium of the world has bounds
 }
 
 TEST_CASE("of a ray in media, its stretch to the end of their boxes counts") {

@@ -10,7 +10,8 @@ namespace tyndall::test {
 
 /// A lit sphere, in a frame of so many pixels.
 inline std::string sphere_scene(int width, int height) {
-  return "Film \"rgb\" \"integer xresolution\" " + std::to_string(width) + " \"integer yresolution\" " + std::to_string(height) + R"(
+  return "Film \"rgb\" \"integer xresolution\" " + std::to_string(width) + " \"integer yresolution\" " +
+         std::to_string(height) + R"(
 Camera "perspective" "float fov" 50
 WorldBegin
 LightSource "point" "rgb I" [ 1 2 3 ] "point3 from" [ 1 1 2 ]

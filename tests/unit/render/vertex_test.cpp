@@ -31,7 +31,8 @@ WideLightTree sphere_of_lights(std::vector<Vec3>& places) {
 }
 
 /// sum f^2 / p / (sum f)^2 - 1 of the vertex's light, one light chosen.
-double relative_variance(const WideLightTree& tree, const std::vector<Vec3>& places, const Vertex& vertex, const PointQuery& query) {
+double relative_variance(const WideLightTree& tree, const std::vector<Vec3>& places, const Vertex& vertex,
+                         const PointQuery& query) {
   double sum = 0, second = 0;
   std::vector<std::uint32_t> leaf(places.size());
   tree.for_each_leaf([&](LightId light, std::uint32_t ref) { leaf[light] = ref; });

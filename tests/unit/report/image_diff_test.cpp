@@ -127,8 +127,8 @@ TEST_CASE("a variance below 0 differs by itself, is found, and nothing is judged
     CHECK(std::isfinite(channel(diff, "R").bias_error));
     CHECK(!channel(diff, "R").error_from_variance);
     for (const Criteria& criteria : {Criteria{}, Criteria{.test = true}, Criteria{.max_error = 1e30}}) {
-      CHECK(says(judge(diff, criteria), std::string("1 value of Variance.R in the ") +
-                                            (in_reference ? "reference" : "image") + " negative, first at (1, 1)"));
+      CHECK(says(judge(diff, criteria), std::string("1 value of Variance.R in the ") + (in_reference ? "reference" : "image") +
+                                            " negative, first at (1, 1)"));
     }
   }
   CHECK(!judge(compare_images(image, good, {.channels = {"RGB"}}), {}).same);

@@ -19,7 +19,8 @@ Shape "sphere" "float radius" 1.5
 )";
 
 World world() {
-  return build(read_scene_text(kScene, "test.pbrt").scene, {.lights = {LightStrategy::uniform, LightStrategy::power}, .threads = 1});
+  return build(read_scene_text(kScene, "test.pbrt").scene,
+               {.lights = {LightStrategy::uniform, LightStrategy::power}, .threads = 1});
 }
 
 RenderSettings method(LightStrategy lights, std::uint64_t seed = 3) {
@@ -46,8 +47,14 @@ TEST_CASE("a race of equal samples ends with the pictures that plain renders giv
     return image;
   }();
   double last = 0;
-  const auto runs = race(w, {method(LightStrategy::uniform), method(LightStrategy::power)}, {.seconds = std::nullopt, .samples = 21},
-                         {.measure = [&](const Image& i) { return measure_error(i, black); }, .progress = [&](double f) { CHECK(f >= last); last = f; }});
+  const auto runs =
+      race(w, {method(LightStrategy::uniform), method(LightStrategy::power)}, {.seconds = std::nullopt, .samples = 21},
+           {.measure = [&](const Image& i) { return measure_error(i, black); },
+            .progress =
+                [&](double f) {
+                  CHECK(f >= last);
+                  last = f;
+                }});
   CHECK(last == 1);
   REQUIRE(runs.size() == 2);
   CHECK(runs[0].image.find("R")->values == plain(w, LightStrategy::uniform, 21).find("R")->values);
@@ -56,7 +63,9 @@ TEST_CASE("a race of equal samples ends with the pictures that plain renders giv
     std::vector<int> samples;
     for (const RaceCheckpoint& c : run.checkpoints) samples.push_back(c.samples);
     CHECK(samples == std::vector<int>{1, 2, 4, 8, 16, 21});
-    CHECK(run.checkpoints[2].error.mse == doctest::Approx(measure_error(plain(w, &run == &runs[0] ? LightStrategy::uniform : LightStrategy::power, 4), black).mse));
+    CHECK(run.checkpoints[2].error.mse ==
+          doctest::Approx(
+              measure_error(plain(w, &run == &runs[0] ? LightStrategy::uniform : LightStrategy::power, 4), black).mse));
     CHECK(run.checkpoints.back().seconds >= run.checkpoints.front().seconds);
   }
 }
@@ -66,7 +75,8 @@ TEST_CASE("a race of equal time stops at it, and gives up on what has no sample 
   const auto measure = [](const Image&) { return ErrorMetrics{}; };
   const auto runs = race(w, {method(LightStrategy::uniform)}, {.seconds = 0.05, .samples = std::nullopt}, {.measure = measure});
   CHECK(runs[0].checkpoints.size() > 3);
-  const auto hurried = race(w, {method(LightStrategy::uniform)}, {.seconds = 1e-9, .samples = std::nullopt}, {.measure = measure});
+  const auto hurried =
+      race(w, {method(LightStrategy::uniform)}, {.seconds = 1e-9, .samples = std::nullopt}, {.measure = measure});
   CHECK(hurried[0].given_up);
   CHECK(hurried[0].checkpoints.empty());
 }
@@ -76,8 +86,10 @@ TEST_CASE("compare: an unbiased pair, a reference with noise, and a biased one t
   const Reference reference = render_reference(w, method(LightStrategy::power, 99), {.relmse = 1e-5});
   CHECK(reference.relmse < 1e-5);
   CHECK(reference.samples >= 64);
-  const ComparePlan plan{{{"a", "--lights uniform", method(LightStrategy::uniform)}, {"b", "--lights power", method(LightStrategy::power)}},
-                         {.seconds = std::nullopt, .samples = 64}, {1, 2, 3, 4, 5}};
+  const ComparePlan plan{
+      {{"a", "--lights uniform", method(LightStrategy::uniform)}, {"b", "--lights power", method(LightStrategy::power)}},
+      {.seconds = std::nullopt, .samples = 64},
+      {1, 2, 3, 4, 5}};
   const CompareResult result = compare(w, plan, reference);
   REQUIRE(result.variants.size() == 2);
   for (const VariantResult& v : result.variants) {
@@ -94,7 +106,8 @@ TEST_CASE("compare: an unbiased pair, a reference with noise, and a biased one t
   Reference wrong = reference;  // as if the methods lost light
   for (const char* name : {"R", "G", "B"}) {
     for (Channel& c : wrong.image.channels) {
-      if (c.name == name) for (float& v : c.values) v *= 1.4f;
+      if (c.name == name)
+        for (float& v : c.values) v *= 1.4f;
     }
   }
   wrong.relmse = 0;  // it looks perfect

@@ -48,7 +48,8 @@ TEST_CASE("JUnit tells failures from errors and quotes what XML cannot hold") {
 
 TEST_CASE("letters beyond ASCII keep their form in JUnit and their column in the table") {
   SuiteResult result{.suite = "s", .cases = {}};
-  result.cases.push_back({.name = "h\xc3\xb6hle", .status = CaseStatus::error, .message = "\xe2\x82\xac \xc3 \xc0\x80 \xed\xa0\x80"});
+  result.cases.push_back(
+      {.name = "h\xc3\xb6hle", .status = CaseStatus::error, .message = "\xe2\x82\xac \xc3 \xc0\x80 \xed\xa0\x80"});
   const std::string xml = regress_junit(result);
   CHECK(has(xml, "name=\"h\xc3\xb6hle\""));
   CHECK(has(xml, "message=\"\xe2\x82\xac ? ?? ???\""));

@@ -68,7 +68,8 @@ TEST_CASE("binomial tails: by hand, and the sum of all terms") {
   CHECK(same(binomial_tail(3, 0.5, 2), 0.5));
   CHECK(same(binomial_tail(1000, 1e-3, 1), 1 - std::pow(0.999, 1000)));
   double sum = 0;
-  for (int k = 7; k <= 40; ++k) sum += std::exp(std::lgamma(41) - std::lgamma(k + 1) - std::lgamma(41 - k) + k * std::log(0.1) + (40 - k) * std::log(0.9));
+  for (int k = 7; k <= 40; ++k)
+    sum += std::exp(std::lgamma(41) - std::lgamma(k + 1) - std::lgamma(41 - k) + k * std::log(0.1) + (40 - k) * std::log(0.9));
   CHECK(same(binomial_tail(40, 0.1, 7), sum, 11));
 }
 

@@ -82,7 +82,8 @@ TEST_CASE("a box of six quads, nested boxes and a box in an instance are closed 
   const auto faces_of = [](const auto& box, std::size_t corners, const Transform& t, Scene& scene) {
     for (std::size_t i = 0; i < box.indices.size(); i += corners) {
       auto face = box;
-      face.indices.assign(box.indices.begin() + static_cast<std::ptrdiff_t>(i), box.indices.begin() + static_cast<std::ptrdiff_t>(i + corners));
+      face.indices.assign(box.indices.begin() + static_cast<std::ptrdiff_t>(i),
+                          box.indices.begin() + static_cast<std::ptrdiff_t>(i + corners));
       scene.shapes.push_back(make_shape(face, t, kInterface));
     }
   };
@@ -126,9 +127,9 @@ TEST_CASE("rays exactly through vertices, edges and faces cross a box once in an
   Scene scene = empty_scene();
   scene.shapes.push_back(make_shape(box_mesh(), {}, kInterface));
   const Geometry geometry(scene, nullptr, 1);
-  CHECK(geometry.trace_all({{-3, -3, -3}, {1, 1, 1}}, 0, kInfinity).size() == 2);  // corner to corner
-  CHECK(geometry.trace_all({{-3, -3, 0}, {1, 1, 0}}, 0, kInfinity).size() == 2);   // edge to edge
-  CHECK(geometry.trace_all({{-3, 0, 0}, {1, 0, 0}}, 0, kInfinity).size() == 2);    // the faces' diagonals
+  CHECK(geometry.trace_all({{-3, -3, -3}, {1, 1, 1}}, 0, kInfinity).size() == 2);                // corner to corner
+  CHECK(geometry.trace_all({{-3, -3, 0}, {1, 1, 0}}, 0, kInfinity).size() == 2);                 // edge to edge
+  CHECK(geometry.trace_all({{-3, 0, 0}, {1, 0, 0}}, 0, kInfinity).size() == 2);                  // the faces' diagonals
   for (const Vec3 o : {Vec3{-3, 1, 0}, Vec3{-3, 1, 1}, Vec3{-3, -1, 0.5f}, Vec3{-3, -1, -1}}) {  // in a face, along an edge
     CHECK(sum_of(geometry.trace_all({o, {1, 0, 0}}, 0, kInfinity)) == 0);
   }

@@ -74,7 +74,8 @@ TEST_CASE("any fan of triangles around a vertex is met exactly once by a ray thr
     ray.o.x = apex.x, ray.o.y = apex.y;
     int sum = 0;
     for (int k = 0; k < spokes; ++k) {
-      const auto hit = intersect_triangle(ray, {apex, ring[static_cast<std::size_t>(k)], ring[static_cast<std::size_t>((k + 1) % spokes)]});
+      const auto hit =
+          intersect_triangle(ray, {apex, ring[static_cast<std::size_t>(k)], ring[static_cast<std::size_t>((k + 1) % spokes)]});
       if (!hit) continue;
       sum += hit->facing;
       CHECK(hit->t == doctest::Approx(apex.z - ray.o.z).epsilon(1e-6));

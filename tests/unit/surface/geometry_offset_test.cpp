@@ -82,7 +82,8 @@ TEST_CASE("rays that leave a surface do not meet it again, at any scale and offs
 TEST_CASE("position_error bounds the distance from p to the plane of its triangle") {
   Rng rng(23);
   for (const double offset : {0.0, 1e3, 1e6}) {
-    const Transform place = Transform::translate(offset, -offset, offset) * Transform::rotate(50, 1, 2, 3) * Transform::scale(64, 64, 64);
+    const Transform place =
+        Transform::translate(offset, -offset, offset) * Transform::rotate(50, 1, 2, 3) * Transform::scale(64, 64, 64);
     Scene scene = empty_scene();
     scene.shapes.push_back(make_shape(box_mesh(), place));
     scene.shapes[0].boundary = 0;
@@ -92,7 +93,9 @@ TEST_CASE("position_error bounds the distance from p to the plane of its triangl
     for (int i = 0; i < 20000; ++i) {
       const auto hit = geometry.trace(random_ray(rng, 64, place.point({0, 0, 0})), 0, kInfinity).hit;
       if (!hit) continue;
-      const auto vertex = [&](std::size_t k) { return Vec3d(place.point(mesh.positions[mesh.indices[3 * hit->primitive + k]])); };
+      const auto vertex = [&](std::size_t k) {
+        return Vec3d(place.point(mesh.positions[mesh.indices[3 * hit->primitive + k]]));
+      };
       const Vec3d n = normalize(cross(vertex(1) - vertex(0), vertex(2) - vertex(0)));
       const double distance = std::abs(dot(Vec3d(hit->p) - vertex(0), n));
       CHECK(distance <= hit->position_error);
@@ -113,7 +116,8 @@ TEST_CASE("thin triangles are left cleanly too") {
   int tried = 0, met = 0;
   for (int i = 0; i < 50000; ++i) {
     const float a = rng.uniform(), b = rng.uniform() * (1 - a);
-    const Vec3 target = scene.shapes[0].to_world.point(mesh.positions[0] * (1 - a - b) + mesh.positions[1] * a + mesh.positions[2] * b);
+    const Vec3 target =
+        scene.shapes[0].to_world.point(mesh.positions[0] * (1 - a - b) + mesh.positions[1] * a + mesh.positions[2] * b);
     const Vec3 o = random_direction(rng) * 3;
     const auto hit = geometry.trace({o, normalize(target - o)}, 0, kInfinity).hit;
     if (!hit) continue;

@@ -42,7 +42,8 @@ Scan scan(const Implicit& shape, const Ray& object_ray, double t_max) {
       }
       const Vec3d p = at(object_ray, low);
       const bool kept = shape.keeps(p);
-      for (const Vec3d nudge : {Vec3d(1e-4, 0, 0), Vec3d(-1e-4, 0, 0), Vec3d(0, 1e-4, 0), Vec3d(0, -1e-4, 0), Vec3d(0, 0, 1e-4), Vec3d(0, 0, -1e-4)}) {
+      for (const Vec3d nudge : {Vec3d(1e-4, 0, 0), Vec3d(-1e-4, 0, 0), Vec3d(0, 1e-4, 0), Vec3d(0, -1e-4, 0), Vec3d(0, 0, 1e-4),
+                                Vec3d(0, 0, -1e-4)}) {
         if (shape.keeps(p + nudge) != kept) result.sure = false;
       }
       if (kept) result.t = low;
@@ -80,7 +81,8 @@ void check_quadric(const Shape& prototype, const Implicit& implicit) {
         const double h = 1e-5;
         const Vec3 gradient = to_vec3(Vec3d(implicit.f(p + Vec3d(h, 0, 0)) - implicit.f(p - Vec3d(h, 0, 0)),
                                             implicit.f(p + Vec3d(0, h, 0)) - implicit.f(p - Vec3d(0, h, 0)),
-                                            implicit.f(p + Vec3d(0, 0, h)) - implicit.f(p - Vec3d(0, 0, h))) * (1 / h));
+                                            implicit.f(p + Vec3d(0, 0, h)) - implicit.f(p - Vec3d(0, 0, h))) *
+                                      (1 / h));
         CHECK(dot(normalize(to_world.normal(gradient)), hit->ng) * outside > 0.9999f);
         CHECK(hit->ns == hit->ng);
         CHECK(std::abs(dot(normalize(hit->dpdu), hit->ng)) < 1e-5f);
@@ -115,9 +117,9 @@ TEST_CASE("a disk, whole and cut, is where its equation says") {
   const auto f = [](Vec3d p) { return p.z - 0.25; };
   check_quadric(make_shape(Disk{0.25f, 1, 0, 360}), {f, [](Vec3d p) { return p.x * p.x + p.y * p.y <= 1; }});
   check_quadric(make_shape(Disk{0.25f, 1, 0.5f, 200}), {f, [](Vec3d p) {
-                  const double r2 = p.x * p.x + p.y * p.y;
-                  return r2 <= 1 && r2 >= 0.25 && degrees_around(p) <= 200;
-                }});
+                                                          const double r2 = p.x * p.x + p.y * p.y;
+                                                          return r2 <= 1 && r2 >= 0.25 && degrees_around(p) <= 200;
+                                                        }});
 }
 
 TEST_CASE("quadrics carry pbrt's texture coordinates and tangents") {

@@ -54,7 +54,8 @@ inline TriangleMesh bumpy_ball(int n) {
   TriangleMesh mesh;
   for (int i = 1; i < n; ++i) {
     for (int j = 0; j < 2 * n; ++j) {
-      const float theta = kPi * static_cast<float>(i) / static_cast<float>(n), phi = kPi * static_cast<float>(j) / static_cast<float>(n);
+      const float theta = kPi * static_cast<float>(i) / static_cast<float>(n),
+                  phi = kPi * static_cast<float>(j) / static_cast<float>(n);
       const float r = 1 + 0.3f * std::sin(5 * theta) * std::cos(4 * phi);
       mesh.positions.push_back({r * std::sin(theta) * std::cos(phi), r * std::sin(theta) * std::sin(phi), r * std::cos(theta)});
     }
@@ -63,7 +64,9 @@ inline TriangleMesh bumpy_ball(int n) {
   const auto top = static_cast<std::uint32_t>(mesh.positions.size()), bottom = top + 1;
   mesh.positions.push_back({0, 0, 1});
   mesh.positions.push_back({0, 0, -1});
-  const auto face = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) { mesh.indices.insert(mesh.indices.end(), {a, b, c}); };
+  const auto face = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    mesh.indices.insert(mesh.indices.end(), {a, b, c});
+  };
   for (std::uint32_t j = 0; j < columns; ++j) {
     const std::uint32_t next = (j + 1) % columns;
     face(top, j, next);
@@ -101,7 +104,8 @@ inline Ray random_ray(Rng& rng, float size, Vec3 center = {}) {
 inline std::vector<Transform> trial_transforms() {
   return {Transform(), Transform::translate(3, -2, 5) * Transform::rotate(40, 1, 2, 3),
           Transform::rotate(70, 0, 1, 1) * Transform::scale(0.3, 2, 1.1) * Transform::rotate(20, 1, 0, 0),
-          Transform::scale(-1, 1, 1) * Transform::translate(1, 0, 0), Transform::scale(1, -2, 0.5) * Transform::rotate(33, 3, 1, 0)};
+          Transform::scale(-1, 1, 1) * Transform::translate(1, 0, 0),
+          Transform::scale(1, -2, 0.5) * Transform::rotate(33, 3, 1, 0)};
 }
 
 /// Sum of the signs of the crossings.

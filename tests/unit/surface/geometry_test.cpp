@@ -30,8 +30,8 @@ TEST_CASE("triangles: nearest hit, orientation, uv and tangent under any transfo
           double best = 1e30;
           Vec3d normal;
           for (std::size_t k = 0; k < mesh.indices.size(); k += 3) {  // Moller-Trumbore on every triangle
-            const Vec3d a(to_world.point(mesh.positions[mesh.indices[k]])), b(to_world.point(mesh.positions[mesh.indices[k + 1]])),
-                c(to_world.point(mesh.positions[mesh.indices[k + 2]]));
+            const Vec3d a(to_world.point(mesh.positions[mesh.indices[k]])),
+                b(to_world.point(mesh.positions[mesh.indices[k + 1]])), c(to_world.point(mesh.positions[mesh.indices[k + 2]]));
             const Vec3d d(ray.d), s = Vec3d(ray.o) - a, q = cross(s, b - a), pv = cross(d, c - a);
             const double det = dot(b - a, pv), u = dot(s, pv) / det, v = dot(d, q) / det, t = dot(c - a, q) / det;
             if (u < 0 || v < 0 || u + v > 1 || t <= 0 || t >= best) continue;
@@ -92,7 +92,8 @@ TEST_CASE("bilinear patches, planar and twisted, agree with a fine triangulation
     mesh.positions = {{-1, -1, twist}, {1, -0.7f, -twist}, {-1, 1, -twist}, {1, 1, twist}};
     if (twist == 0) mesh.positions[1].y = -1;
     const auto point = [&](float u, float v) {
-      return (mesh.positions[0] * (1 - v) + mesh.positions[2] * v) * (1 - u) + (mesh.positions[1] * (1 - v) + mesh.positions[3] * v) * u;
+      return (mesh.positions[0] * (1 - v) + mesh.positions[2] * v) * (1 - u) +
+             (mesh.positions[1] * (1 - v) + mesh.positions[3] * v) * u;
     };
     TriangleMesh fine;
     constexpr std::uint32_t n = 96;
@@ -158,7 +159,9 @@ TEST_CASE("instances equal the same shapes placed one by one") {
   instanced.objects.push_back(object);
   instanced.shapes.push_back(make_shape(Disk{-2, 20, 0, 360}));
   flat.shapes.push_back(instanced.shapes[0]);
-  const std::vector<Transform> places{Transform::translate(2, 1, 0), Transform::translate(-3, 0, 1) * Transform::rotate(50, 1, 1, 0) * Transform::scale(1.5, 0.5, 1)};
+  const std::vector<Transform> places{
+      Transform::translate(2, 1, 0),
+      Transform::translate(-3, 0, 1) * Transform::rotate(50, 1, 1, 0) * Transform::scale(1.5, 0.5, 1)};
   for (const Transform& place : places) {
     instanced.instances.push_back({0, place});
     for (Shape shape : object.shapes) {

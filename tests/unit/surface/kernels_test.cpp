@@ -55,7 +55,8 @@ TEST_CASE("kernels: microfacets") {
     const Ggx ggx = facets(any);
     const Vec3 wo = any.upper_direction(), wi = any.upper_direction();
     const float g = ggx.shadowing(wo, wi), over_cosine = ggx.G_over_cosine(wo, wi);
-    return holds(is_share(g) && std::isfinite(over_cosine) && over_cosine >= 0, ggx.alpha_x(), ggx.alpha_y(), wo, wi, g, over_cosine);
+    return holds(is_share(g) && std::isfinite(over_cosine) && over_cosine >= 0, ggx.alpha_x(), ggx.alpha_y(), wo, wi, g,
+                 over_cosine);
   });
   check_kernel("density of normals", [](Adversary& any) {
     const Ggx ggx = facets(any);

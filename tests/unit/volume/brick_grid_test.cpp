@@ -75,7 +75,8 @@ TEST_CASE("bricks far apart are found through the tree, without memory for what 
       float values[kMaxChannels];
       grid.lookup(local, values);
       CHECK(values[0] == grid.lookup(local));
-      for (int c = 0; c < channels; ++c) worst = std::max(worst, std::abs(values[c] - source.lookup(index, c)) / bound(c + 1.0));
+      for (int c = 0; c < channels; ++c)
+        worst = std::max(worst, std::abs(values[c] - source.lookup(index, c)) / bound(c + 1.0));
     }
     CHECK(worst < 1);
   }
@@ -129,8 +130,9 @@ TEST_CASE("16-bit steps err by less than 2^-16 of a brick's range, and zero is e
         const double exact = source.voxel(at);
         lowest = std::min(lowest, exact);
         highest = std::max(highest, exact);
-        const float got = grid.lookup(GridVec{{double(at[0]) - double(grid.origin()[0]), double(at[1]) - double(grid.origin()[1]),
-                                             double(at[2]) - double(grid.origin()[2])}});
+        const float got =
+            grid.lookup(GridVec{{double(at[0]) - double(grid.origin()[0]), double(at[1]) - double(grid.origin()[1]),
+                                 double(at[2]) - double(grid.origin()[2])}});
         if (exact == 0) CHECK(got == 0);
         worst = std::max(worst, std::abs(got - exact));
       }

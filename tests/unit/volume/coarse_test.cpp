@@ -154,7 +154,8 @@ TEST_CASE("coefficients of their own in every voxel are averaged over channels t
 
 TEST_CASE("optical depth approaches the integral for smooth grids, under rotation, mirroring and uneven scale") {
   const test::Optics optics{{2, 1, 3}, {4, 6, 2}, 0};
-  const Transform placings[] = {{}, Transform::rotate(50, 1, 2, -1) * Transform::scale(1, -1, 1),
+  const Transform placings[] = {{},
+                                Transform::rotate(50, 1, 2, -1) * Transform::scale(1, -1, 1),
                                 Transform::translate(100, 0, -3) * Transform::scale(0.01, 3, 0.5)};
   Rng rng(4);
   for (const Transform& to_world : placings) {

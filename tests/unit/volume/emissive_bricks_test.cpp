@@ -206,7 +206,8 @@ TEST_CASE("emissive bricks: integrals along rays") {
 }
 
 TEST_CASE("emissive bricks: rays along axes, in faces and from corners tile what they pass") {
-  const ParticipatingMedium medium = grid({16, 0, 16}, kHot, [](int) { return 1.0f; }, kLe);
+  const ParticipatingMedium medium = grid(
+      {16, 0, 16}, kHot, [](int) { return 1.0f; }, kLe);
   const EmissiveBricks bricks(medium);
   for (const Vec3 o : {Vec3{8, 8, -3}, Vec3{0.5f, 4.5f, -3}, Vec3{8.5f, 8.5f, -3}, Vec3{4, 2.25f, -3}}) {
     double columns = 0;

@@ -17,7 +17,8 @@ TEST_CASE("kernels: phase functions") {
   check_kernel("mixture", [](Adversary& any) {
     PhaseMix mix;
     const int media = 1 + static_cast<int>(any.below(3));
-    for (int i = 0; i < media; ++i) mix.add(Rgb(any.positive(20), any.chance() ? any.positive(20) : 0, 1), any.between(-0.99f, 0.99f));
+    for (int i = 0; i < media; ++i)
+      mix.add(Rgb(any.positive(20), any.chance() ? any.positive(20) : 0, 1), any.between(-0.99f, 0.99f));
     const Vec3 wo = any.direction();
     const Rgb beta(any.positive(20), any.positive(20), any.positive(20));
     const float uc = any.unit();
