@@ -39,13 +39,13 @@ function(tyndall_add_test name)
   endif()
 endfunction()
 
-# <folder>/*_test.cpp as one doctest program `name`, each test working in a scratch folder of its own.
+# *_test.cpp under <folder> as one doctest program `name`, each test working in a scratch folder of its own.
 #   EACH_FILE    one ctest entry "<name>.<file>" for each source, instead of one for the program
 #   NIGHTLY      each entry once more as "nightly.<entry>", with TYNDALL_NIGHTLY=1 and the label nightly
 #   PROCESSORS   how many cores ctest is to reserve for an entry
 function(tyndall_test_program name folder)
   cmake_parse_arguments(arg "EACH_FILE;NIGHTLY" "PROCESSORS" "LINK" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${folder}/*_test.cpp)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${folder}/*_test.cpp)
   if(NOT sources)
     return()
   endif()

@@ -13,16 +13,18 @@ BEGIN {
   allow("surface", "texture math")
   allow("light", "texture math")
   allow("io", "math")  # and no grid, surface or light: a reader fills the public Scene
-  allow("render", "volume surface light texture math")
-  allow("report", "")  # io and render through include/tyndall
+  allow("transport/media", "volume surface light math")  # knows no path and no estimator
+  allow("transport", "transport/media volume surface light texture math")
+  allow("session", "transport transport/media math")
+  allow("report", "")  # io and session through include/tyndall
   allow("example", "math")  # writes files through include/tyndall
-  allow("cli", "report io render example")
+  allow("cli", "report io session example")
 
   # A library as its include lines begin, and the files that may see it.
   door("^(openvdb|nanovdb)/", "^src/volume/vdb_")
   door("^embree[0-9]*/", "^src/surface/geometry")
   door("^(OpenEXR/|Imath/|Imf|Imath|Iex|half\\.h)", "^src/io/exr")
-  door("^(tbb|oneapi)/", "^src/(render/render\\.cpp|math/parallel\\.h)$")
+  door("^(tbb|oneapi)/", "^src/math/parallel\\.h$")
   door("^(png\\.h|stb/)", "^src/io/")
   # report: a page carries its pictures deflated, for the browser; that is no file format of io.
   door("^zlib\\.h", "^src/(io/|volume/vdb_|report/page_picture\\.cpp$)")
@@ -31,7 +33,7 @@ BEGIN {
   door("^(CLI|spdlog)/", "^src/cli/")
   # Not libraries: the compiler and the operating system.
   door("^[a-z]*intrin\\.h$", "^src/")
-  door("^(elf|link)\\.h$", "^src/render/build_id\\.cpp$")
+  door("^(elf|link)\\.h$", "^src/session/build_id\\.cpp$")
   door("^sys/platform/x86\\.h$", "^src/cli/cpu_")
   door("^experimental/simd$", "^src/math/simd\\.h$")
   door("^(unistd\\.h|fcntl\\.h|fnmatch\\.h|signal\\.h|sys/[a-z]*\\.h)$", "^src/")
@@ -55,8 +57,10 @@ function wrong(why) { print place ": " path ": " why; found = 1 }
 
   split(file, step, "/")
   owner = step[1] == "include" ? "include" : step[2]
-  slash = index(path, "/")
-  folder = slash ? substr(path, 1, slash - 1) : ""
+  if (step[2] "/" step[3] in known) owner = step[2] "/" step[3]
+  split(path, into, "/")
+  folder = path ~ /\// ? into[1] : ""
+  if (into[1] "/" into[2] in known) folder = into[1] "/" into[2]
 
   if (path ~ /^\.\.?\// || path ~ /\/\.\.?\//) { wrong("write paths from src or include"); next }
   if (folder == "tyndall") next

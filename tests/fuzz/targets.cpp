@@ -11,7 +11,7 @@
 #include "io/exr.h"
 #include "io/ply.h"
 #include "math/stream_hash.h"
-#include "render/checkpoint.h"
+#include "session/checkpoint.h"
 #include "support/scratch.h"
 #include "tyndall/error.h"
 #include "tyndall/io.h"

@@ -1,0 +1,33 @@
+/// A render's state as bytes: to be kept in a file and taken up again, by the same program for the same picture only.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "transport/counters.h"
+
+namespace tyndall {
+
+/// What a checkpoint belongs to, as (what, value): "scene", its hash ... All must agree for it to be taken up.
+using CheckpointIdentity = std::vector<std::pair<std::string, std::string>>;
+
+/// Everything that the samples done so far have left behind.
+struct CheckpointState {
+  int samples = 0;  ///< a pixel
+  double seconds = 0;
+  Counters counters;
+};
+
+/// Ends in a hash of all that goes before it.
+std::string encode_checkpoint(const CheckpointIdentity& identity, const CheckpointState& state, std::span<const double> sums);
+
+/// The state; the film's sums go to `sums`, which are left alone on failure. `name` stands for the file in messages.
+/// Throws Error (scene) for bytes that are no checkpoint or damaged, and for a part of `identity` that differs, with both
+/// values.
+CheckpointState decode_checkpoint(std::string_view bytes, const std::string& name, const CheckpointIdentity& identity,
+                                  std::span<double> sums);
+
+}  // namespace tyndall

@@ -1,0 +1,258 @@
+#include "session/film_buffer.h"
+
+#include <algorithm>
+
+#include "tyndall/error.h"
+#include "tyndall/settings.h"
+
+namespace tyndall {
+namespace {
+
+// A pixel's sums: even samples' RGB, odd samples' RGB, alpha, then each AOV's.
+constexpr double kRelativeEpsilon = 0.01;  ///< of relMSE, as everywhere
+
+constexpr std::size_t kEven = 0, kOdd = 3, kAlpha = 6, kFirstAov = 7;
+
+std::size_t sums_of(Aov aov) {
+  switch (aov) {
+    case Aov::variance:
+    case Aov::sample_count:
+      return 0;  // follow from what is there anyway
+    case Aov::z:
+    case Aov::z_volume:
+      return 2;  // sum and count
+    case Aov::p:
+      return 4;
+    default:
+      return 3;
+  }
+}
+
+bool is_light(Aov aov) { return aov >= Aov::surface_direct; }
+
+void add3(double* sum, float x, float y, float z, float weight) {
+  sum[0] += static_cast<double>(x) * weight;
+  sum[1] += static_cast<double>(y) * weight;
+  sum[2] += static_cast<double>(z) * weight;
+}
+void add3(double* sum, Rgb c, float weight) { add3(sum, c.r, c.g, c.b, weight); }
+
+std::string name_of_aov(Aov aov) { return std::string(aov_names()[static_cast<std::size_t>(aov)]); }
+
+}  // namespace
+
+std::vector<Aov> parse_aovs(const std::vector<std::string>& names) {
+  const auto known = aov_names();
+  std::vector<Aov> aovs;
+  for (const std::string& name : names) {
+    const auto it = std::find(known.begin(), known.end(), name);
+    if (it == known.end()) {
+      std::string list;
+      for (const auto k : known) list += (list.empty() ? "" : ", ") + std::string(k);
+      throw Error(Failure::usage, "AOV \"" + name + "\" is not known; choose from " + list);
+    }
+    aovs.push_back(static_cast<Aov>(it - known.begin()));
+  }
+  std::sort(aovs.begin(), aovs.end());
+  aovs.erase(std::unique(aovs.begin(), aovs.end()), aovs.end());
+  return aovs;
+}
+
+FilmBuffer::FilmBuffer(const Film& film, PixelBounds crop, std::vector<Aov> aovs)
+    : film_(film), crop_(crop), aovs_(std::move(aovs)), stride_(kFirstAov) {
+  for (const Aov aov : aovs_) {
+    offsets_.push_back(stride_);
+    stride_ += sums_of(aov);
+  }
+  sums_.assign(static_cast<std::size_t>(crop.width()) * crop.height() * stride_, 0.0);
+}
+
+bool FilmBuffer::wants(Aov aov) const { return std::find(aovs_.begin(), aovs_.end(), aov) != aovs_.end(); }
+
+std::vector<double> FilmBuffer::copy(const PixelBounds& tile) const {
+  const std::size_t row = static_cast<std::size_t>(tile.width()) * stride_;
+  std::vector<double> sums;
+  sums.reserve(row * static_cast<std::size_t>(tile.height()));
+  for (int y = tile.y0; y < tile.y1; ++y) {
+    const double* from = pixel(crop_.index(tile.x0, y));
+    sums.insert(sums.end(), from, from + row);
+  }
+  return sums;
+}
+
+void FilmBuffer::restore(const PixelBounds& tile, const std::vector<double>& sums) {
+  const std::size_t row = static_cast<std::size_t>(tile.width()) * stride_;
+  for (int y = tile.y0; y < tile.y1; ++y) {
+    std::copy_n(sums.data() + static_cast<std::size_t>(y - tile.y0) * row, row, pixel(tile.x0, y));
+  }
+}
+
+void FilmBuffer::clear(const PixelBounds& tile) {
+  for (int y = tile.y0; y < tile.y1; ++y) std::fill_n(pixel(tile.x0, y), static_cast<std::size_t>(tile.width()) * stride_, 0.0);
+}
+
+void FilmBuffer::add(int x, int y, int sample, const PathRecord& record, float weight) {
+  double* sum = pixel(x, y);
+  add3(sum + ((sample & 1) ? kOdd : kEven), record.radiance(), weight);
+  sum[kAlpha] += static_cast<double>(record.alpha) * weight;
+  for (std::size_t i = 0; i < aovs_.size(); ++i) add_aov(aovs_[i], sum + offsets_[i], record, weight);
+}
+
+void FilmBuffer::add_aov(Aov aov, double* sum, const PathRecord& r, float weight) const {
+  switch (aov) {
+    case Aov::albedo:
+      return add3(sum, r.albedo, weight);
+    case Aov::n:
+      return add3(sum, r.n.x, r.n.y, r.n.z, weight);
+    case Aov::transmittance:
+      return add3(sum, r.transmittance, weight);
+    case Aov::surface_direct:
+      return add3(sum, r.surface_direct, weight);
+    case Aov::surface_indirect:
+      return add3(sum, r.surface_indirect, weight);
+    case Aov::volume_direct:
+      return add3(sum, r.volume_direct, weight);
+    case Aov::volume_indirect:
+      return add3(sum, r.volume_indirect, weight);
+    case Aov::emission:
+      return add3(sum, r.emission, weight);
+    // Positions are means over the samples that have one, unweighted: a filter's negative lobe makes no sense here.
+    case Aov::p:
+      if (r.hit_surface) add3(sum, r.p.x, r.p.y, r.p.z, 1), sum[3] += 1;
+      return;
+    case Aov::z:
+      if (r.hit_surface) sum[0] += r.z, sum[1] += 1;
+      return;
+    case Aov::z_volume:
+      if (r.hit_volume) sum[0] += r.z_volume, sum[1] += 1;
+      return;
+    case Aov::variance:
+    case Aov::sample_count:
+      return;
+  }
+}
+
+Rgb FilmBuffer::to_film_space(Rgb c) const {
+  const auto& m = film_.from_rec709;
+  return {m[0] * c.r + m[1] * c.g + m[2] * c.b, m[3] * c.r + m[4] * c.g + m[5] * c.b, m[6] * c.r + m[7] * c.g + m[8] * c.b};
+}
+
+void FilmBuffer::store_color(Image& image, const std::string& prefix, std::size_t offset, int samples) const {
+  const std::size_t first = image.channels.size();
+  for (const char* suffix : {"R", "G", "B"}) image.add_channel(prefix + suffix);
+  const std::size_t pixels = image.channels[first].values.size();
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const double* s = pixel(i) + offset;
+    const double* other = pixel(i) + kOdd;  // only the beauty sums come in two halves
+    const double add = offset == kEven ? 1.0 : 0.0;
+    const Rgb c = to_film_space({static_cast<float>((s[0] + add * other[0]) / samples),
+                                 static_cast<float>((s[1] + add * other[1]) / samples),
+                                 static_cast<float>((s[2] + add * other[2]) / samples)});
+    for (int k = 0; k < 3; ++k) image.channels[first + k].values[i] = c[k];
+  }
+}
+
+/// Albedo and transmittance: in the film's space, but white stays 1 whatever the space's white is.
+void FilmBuffer::store_ratio(Image& image, const std::string& prefix, std::size_t offset, int samples) const {
+  const std::size_t first = image.channels.size();
+  store_color(image, prefix, offset, samples);
+  const Rgb white = to_film_space(Rgb(1.0f));
+  for (int k = 0; k < 3; ++k) {
+    for (float& v : image.channels[first + k].values) v /= white[k];
+  }
+}
+
+void FilmBuffer::store_variance(Image& image, int samples) const {
+  const std::size_t first = image.channels.size();
+  for (const char* suffix : {"R", "G", "B"}) image.add_channel(std::string("Variance.") + suffix);
+  const int odd = samples / 2, even = samples - odd;
+  const std::size_t pixels = image.channels[first].values.size();
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const double* s = pixel(i);
+    Rgb difference;  // in double first: the halves are nearly equal
+    for (int k = 0; k < 3; ++k) {
+      difference[k] = static_cast<float>(s[kEven + k] / even - (odd > 0 ? s[kOdd + k] / odd : 0.0));
+    }
+    // E[(a-b)^2] = v/even + v/odd for a variance of v a sample, so the mean of all has (a-b)^2 even odd / samples^2.
+    // A single sample says nothing of its variance; its square stands in as a value that promises nothing.
+    const float factor = odd > 0 ? static_cast<float>(even) * odd / (static_cast<float>(samples) * samples) : 1.0f;
+    const Rgb d = to_film_space(difference);
+    for (int k = 0; k < 3; ++k) image.channels[first + k].values[i] = d[k] * d[k] * factor;
+  }
+}
+
+void FilmBuffer::store_aov(Image& image, Aov aov, std::size_t offset, int samples) const {
+  const std::string name = name_of_aov(aov);
+  if (aov == Aov::variance) return store_variance(image, samples);
+  if (aov == Aov::albedo || aov == Aov::transmittance) return store_ratio(image, name + ".", offset, samples);
+  if (is_light(aov)) return store_color(image, name + ".", offset, samples);
+  const std::size_t first = image.channels.size();
+  const bool vector = aov == Aov::n || aov == Aov::p;
+  if (vector) {
+    for (const char* suffix : {".X", ".Y", ".Z"}) image.add_channel(name + suffix);
+  } else {
+    image.add_channel(name);
+  }
+  const std::size_t pixels = image.channels[first].values.size();
+  for (std::size_t i = 0; i < pixels; ++i) {
+    const double* s = pixel(i) + offset;
+    if (aov == Aov::sample_count) {
+      image.channels[first].values[i] = static_cast<float>(samples);
+    } else if (vector) {
+      const double count = aov == Aov::n ? samples : std::max(s[3], 1.0);
+      for (int k = 0; k < 3; ++k) image.channels[first + k].values[i] = static_cast<float>(s[k] / count);
+    } else {
+      image.channels[first].values[i] = static_cast<float>(s[0] / std::max(s[1], 1.0));
+    }
+  }
+}
+
+double FilmBuffer::estimated_relmse(int samples) const {
+  if (samples < 2) return kInfinity;
+  Image halves;
+  halves.data = crop_;
+  store_color(halves, "", kEven, samples);
+  store_variance(halves, samples);
+  double sum = 0;
+  const std::size_t pixels = halves.channels[0].values.size();
+  for (std::size_t i = 0; i < pixels; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      const double mean = halves.channels[k].values[i];
+      sum += halves.channels[3 + k].values[i] / (mean * mean + kRelativeEpsilon);
+    }
+  }
+  return sum / (3.0 * static_cast<double>(pixels));
+}
+
+void FilmBuffer::store_count(Image& image, const std::string& name, std::size_t offset) const {
+  std::vector<float>& values = image.add_channel(name).values;
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(pixel(i)[offset]);
+}
+
+void FilmBuffer::store_counts(Image& image) const {
+  bool surface_done = false;  // P and Z have the same
+  for (std::size_t i = 0; i < aovs_.size(); ++i) {
+    const std::size_t count = offsets_[i] + sums_of(aovs_[i]) - 1;  // follows the sums
+    const bool surface = aovs_[i] == Aov::p || aovs_[i] == Aov::z;
+    if (surface && !surface_done) store_count(image, "SurfaceCount", count);
+    if (aovs_[i] == Aov::z_volume) store_count(image, "VolumeCount", count);
+    surface_done = surface_done || surface;
+  }
+}
+
+Image FilmBuffer::image(int samples) const {
+  Image image;
+  image.data = crop_;
+  image.display = {0, 0, film_.width, film_.height};
+  image.chromaticities = film_.chromaticities;
+  store_color(image, "", kEven, samples);
+  Channel& alpha = image.add_channel("A");
+  for (std::size_t i = 0; i < alpha.values.size(); ++i) {
+    alpha.values[i] = static_cast<float>(pixel(i)[kAlpha] / samples);
+  }
+  for (std::size_t i = 0; i < aovs_.size(); ++i) store_aov(image, aovs_[i], offsets_[i], samples);
+  store_counts(image);
+  return image;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,62 @@
+#include "session/image_header.h"
+
+#include <charconv>
+#include <ctime>
+
+#include "session/scene_hash.h"
+#include "tyndall/version.h"
+
+namespace tyndall {
+
+namespace {
+
+/// The shortest decimal number that is read back as `value`.
+std::string exact(float value) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+}  // namespace
+
+std::string options_text(const RenderSettings& settings) {
+  std::string text = "--max-depth " + std::to_string(settings.max_depth);
+  for (const StrategyAxis& axis : strategy_axes()) {
+    text += " --" + std::string(axis.option) + " " + std::string(axis.get(settings));
+  }
+  if (settings.candidates) text += " --candidates " + std::to_string(*settings.candidates);
+  if (settings.splitting) text += " --splitting " + exact(*settings.splitting);
+  if (settings.shadow_rays) text += " --shadow-rays " + std::to_string(*settings.shadow_rays);
+  return text;
+}
+
+namespace {
+
+std::string utc_now() {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text;
+}
+
+}  // namespace
+
+std::string_view version() { return kVersion; }
+
+void write_header(Image& image, const World::Parts& world, const RenderSettings& settings, const RenderReport& report) {
+  auto& a = image.attributes;
+  a["worldToCamera"] = world.user_camera.world_to_camera();
+  a["worldToNDC"] = world.user_camera.world_to_ndc();
+  a["software"] = "Tyndall " + std::string(kVersion);
+  a["tyndall/scene"] = world.built.scene.source;
+  a["tyndall/sceneHash"] = scene_hash_text(world.scene_hash, settings);
+  a["tyndall/samples"] = report.samples;
+  a["tyndall/seed"] = std::to_string(settings.seed);  // 64 bits do not fit an EXR integer
+  a["tyndall/options"] = options_text(settings);
+  if (settings.reproducible) return;
+  a["tyndall/renderTime"] = report.seconds;
+  a["tyndall/date"] = utc_now();
+}
+
+}  // namespace tyndall

@@ -1,0 +1,15 @@
+/// What a rendered image says about itself.
+#pragma once
+
+#include "session/world_parts.h"
+
+namespace tyndall {
+
+/// Every option of the command line that chooses a method, with its value: "--max-depth 5 --lights tree ...". Settings that
+/// differ give texts that differ.
+std::string options_text(const RenderSettings& settings);
+
+/// Add camera matrices, the scene's hash, samples, seed, options, version and (unless reproducible) date and time taken.
+void write_header(Image& image, const World::Parts& world, const RenderSettings& settings, const RenderReport& report);
+
+}  // namespace tyndall

@@ -1,0 +1,61 @@
+#include "session/memory_plan.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "math/process_memory.h"
+#include "transport/planned_memory.h"
+#include "tyndall/error.h"
+
+namespace tyndall {
+namespace {
+
+std::size_t plan_film(const Scene& scene) {
+  const double pixels = pixels_of(scene);
+  const double channels = 4 + 4 * static_cast<double>(scene.settings.aovs.size());
+  ByteCount sum;
+  sum.add(pixels, 2 * sizeof(double) * (3 + channels));  // twice: a long pass keeps a way back
+  sum.add(pixels, 2 * sizeof(float) * channels);         // the image, and its encoding
+  return sum.bytes();
+}
+
+std::string gigabytes(std::size_t bytes) {
+  char text[32];
+  std::snprintf(text, sizeof text, bytes < 1'000'000'000 ? "%.3f" : "%.1f", static_cast<double>(bytes) * 1e-9);
+  return text;
+}
+
+}  // namespace
+
+std::size_t MemoryPlan::total() const {
+  std::size_t sum = in_use;
+  for (const auto& part : parts) sum += std::min(part.second, SIZE_MAX - sum);
+  return sum;
+}
+
+std::string MemoryPlan::str() const {
+  std::string text = "in use " + gigabytes(in_use);
+  for (const auto& [what, bytes] : parts) text += ", " + what + " " + gigabytes(bytes);
+  return text;
+}
+
+MemoryPlan plan_memory(const Scene& scene, std::span<const LightStrategy> lights) {
+  const PlannedMemory built = plan_built_world(scene, lights);
+  return {process_memory().resident,
+          {{"film", plan_film(scene) + built.on_film},
+           {"geometry", built.geometry},
+           {"lights", built.lights},
+           {"textures", built.textures},
+           {"volumes", built.volumes}}};
+}
+
+void require_memory(const MemoryPlan& plan, const Scene& scene, std::size_t limit) {
+  if (plan.total() <= limit) return;
+  throw Error(Failure::scene, (scene.source.empty() ? "the scene" : scene.source) + ": is estimated to need " +
+                                  gigabytes(plan.total()) + " GB of memory (" + plan.str() + "), more than the limit of " +
+                                  gigabytes(limit) + "; make it smaller, or set --max-memory");
+}
+
+std::size_t left_for_volumes(const MemoryPlan& plan, std::size_t limit) { return limit - std::min(plan.total(), limit); }
+
+}  // namespace tyndall

@@ -1,0 +1,71 @@
+#include "session/pass_schedule.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace tyndall {
+namespace {
+
+constexpr int kLargestPass = 16;
+constexpr double kPassSeconds = 1.0;  ///< aim: the longest wait for a stop
+constexpr double kReportSeconds = 0.2;
+constexpr int kFirstErrorCheck = 64;  ///< samples; replicates of fewer are too noisy to decide on
+
+int samples_to_next_checkpoint(int samples) {
+  const unsigned next = std::bit_ceil(static_cast<unsigned>(samples) + 1);
+  return static_cast<int>(next) - samples;
+}
+
+}  // namespace
+
+bool PassSchedule::good_enough(const RenderJob& job) const {
+  return settings_.error && job.samples() >= kFirstErrorCheck && is_checkpoint(job.samples()) &&
+         job.estimated_relmse() < *settings_.error;
+}
+
+bool PassSchedule::complete(const RenderJob& job) const {
+  if (job.samples() >= settings_.spp) return true;
+  if (settings_.time && job.samples() > 0 && job.seconds() >= *settings_.time) return true;
+  return good_enough(job);
+}
+
+int PassSchedule::next_pass(const RenderJob& job) {
+  pass_timer_ = {};
+  if (!begun_) begun_ = Begun{pass_timer_, job.samples(), job.seconds()};
+  if (complete(job)) return 0;
+  const int done = job.samples();
+  int pass = std::clamp(done, 1, kLargestPass);
+  if (done > 0) {
+    const double a_sample = job.seconds() / done;
+    double budget = kPassSeconds;
+    if (settings_.time) budget = std::min(budget, *settings_.time - job.seconds());
+    pass = std::clamp(static_cast<int>(budget / std::max(a_sample, 1e-9)), 1, pass);
+  }
+  if (checkpoints_ || settings_.error) pass = std::min(pass, samples_to_next_checkpoint(done));
+  // The error falls like 1/samples: good enough to tell how long it will take.
+  if (settings_.error && done >= 2 && is_checkpoint(done)) samples_needed_ = done * job.estimated_relmse() / *settings_.error;
+  return std::min(pass, settings_.spp - done);
+}
+
+double PassSchedule::fraction(double samples, double seconds) const {
+  double fraction = samples / settings_.spp;
+  if (settings_.time) fraction = std::max(fraction, seconds / *settings_.time);
+  if (samples_needed_ > 0) fraction = std::max(fraction, samples / std::max<double>(samples_needed_, kFirstErrorCheck));
+  return std::min(fraction, 1.0);
+}
+
+std::optional<Progress> PassSchedule::progress(const RenderJob& job, double pass_samples) {
+  const double now = begun_ ? begun_->timer.seconds() : 0;
+  if (!begun_ || (now - last_report_ < kReportSeconds && job.samples() < settings_.spp)) return std::nullopt;
+  last_report_ = now;
+  Progress p;
+  p.samples_done = job.samples();
+  p.seconds = now;
+  // The job's clock stands still until a pass has ended.
+  p.fraction = fraction(p.samples_done + pass_samples, job.seconds() + (pass_samples > 0 ? pass_timer_.seconds() : 0));
+  const double here = p.fraction - fraction(begun_->samples, begun_->seconds);  // what a checkpoint brought took no time here
+  p.remaining = here > 0 ? now * (1 - p.fraction) / here : 0.0;
+  return p;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,304 @@
+#include <pmmintrin.h>
+#include <xmmintrin.h>
+
+#include <algorithm>
+#include <mutex>
+
+#include "math/parallel.h"
+#include "math/timer.h"
+#include "session/build_id.h"
+#include "session/checkpoint.h"
+#include "session/film_buffer.h"
+#include "session/image_header.h"
+#include "session/render_pass.h"
+#include "session/scene_hash.h"
+#include "transport/film_light.h"
+#include "transport/path.h"
+#include "transport/shine_light.h"
+
+namespace tyndall {
+namespace {
+
+/// Flush denormals to zero while it lives, alike on every thread, whatever settings the thread came with.
+class FlushDenormals {
+ public:
+  FlushDenormals() : saved_(_mm_getcsr()) {
+    _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
+    _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
+  }
+  ~FlushDenormals() { _mm_setcsr(saved_); }
+  FlushDenormals(const FlushDenormals&) = delete;
+  FlushDenormals& operator=(const FlushDenormals&) = delete;
+
+ private:
+  unsigned int saved_;
+};
+
+PixelBounds full_crop(const Scene& scene, const RenderSettings& settings) {
+  const PixelBounds frame{0, 0, scene.film.width, scene.film.height};
+  const PixelBounds wanted = settings.crop.value_or(scene.film.crop);
+  const PixelBounds crop{std::max(wanted.x0, frame.x0), std::max(wanted.y0, frame.y0), std::min(wanted.x1, frame.x1),
+                         std::min(wanted.y1, frame.y1)};
+  if (crop.width() <= 0 || crop.height() <= 0) {
+    throw Error(Failure::usage, "the crop holds no pixel of the " + std::to_string(frame.x1) + "x" + std::to_string(frame.y1) +
+                                    " frame; give x0,x1,y0,y1 inside it");
+  }
+  return crop;
+}
+
+void check(const RenderSettings& settings) {
+  if (settings.spp < 1) throw Error(Failure::usage, "spp is " + std::to_string(settings.spp) + "; give 1 or more");
+  if (settings.candidates && *settings.candidates < 0) throw Error(Failure::usage, "candidates is negative; give 0 or more");
+  if (settings.splitting && !(*settings.splitting >= 0 && *settings.splitting <= 1))
+    throw Error(Failure::usage, "splitting must be from 0 to 1");
+  const bool along_spans = settings.distance != DistanceStrategy::automatic && settings.distance != DistanceStrategy::tracking;
+  if (settings.media == MediaStrategy::vertex && along_spans) {
+    throw Error(Failure::usage,
+                "media vertex chooses a light at a collision that has been tracked, so its distance is tracking; "
+                "leave distance out, or choose media closest, integral or product");
+  }
+  if (settings.shadow_rays && *settings.shadow_rays < 0) throw Error(Failure::usage, "shadow rays is negative; give 0 or more");
+  if (settings.max_depth < 0) throw Error(Failure::usage, "max depth is negative; give 0 or more");
+  if (settings.error && !(*settings.error > 0)) throw Error(Failure::usage, "error must be positive; give a relMSE");
+  if (settings.time && !(*settings.time > 0)) throw Error(Failure::usage, "time must be positive; give seconds");
+}
+
+/// With the methods that "auto" stands for.
+RenderSettings resolved(RenderSettings settings, const World::Parts& world) {
+  check(settings);
+  world.built.lights.selector(settings.lights);  // throws when it was not built
+  if (settings.emission == EmissionStrategy::lights && !world.built.has_fire)
+    throw Error(Failure::usage, "the world was not built for emission as lights; set BuildSettings::fire");
+  // What stands for other programs' methods goes on from events as they do.
+  const bool ours = settings.media == MediaStrategy::product;
+  if (settings.guiding == GuidingStrategy::automatic) settings.guiding = ours ? GuidingStrategy::media : GuidingStrategy::off;
+  if (settings.joint == JointStrategy::automatic) settings.joint = ours ? JointStrategy::points : JointStrategy::off;
+  if (settings.media == MediaStrategy::vertex) settings.distance = DistanceStrategy::tracking;
+  return settings;
+}
+
+}  // namespace
+
+class RenderJob::Impl {
+ public:
+  Impl(const World::Parts& world, const RenderSettings& settings)
+      : world_(world),
+        settings_(resolved(settings, world)),
+        selector_(world.built.lights.selector(settings.lights, settings.emission == EmissionStrategy::lights)),
+        film_(world.built.scene.film, full_crop(world.built.scene, settings), parse_aovs(settings.aovs)),
+        pool_(settings.threads),
+        film_lamps_(film_lamps(world.built, settings_, film_.crop(), pool_)),
+        film_shine_(film_shine(world.built, settings_, film_.crop(), pool_)),
+        film_edges_(film_edges(world.built, settings_, film_.crop(), pool_)) {
+    seconds_ = preparing_.seconds();
+  }
+
+  bool advance(int count, const PassWatch& watch, GivenUp if_given_up) {
+    const Timer pass_timer;
+    RenderPass pass(film_.crop(), count, watch);
+    const bool first = samples_ == 0, undo = if_given_up == GivenUp::undone;
+    const Counters counters_before = counters_;
+    if (undo && !first) pass.before.resize(pass.tiles());
+    pool_.for_each(pass.tiles(), 1, [&](std::size_t tile) {
+      if (pass.given_up) return;
+      const FlushDenormals guard;
+      Counters counters;
+      if (!pass.before.empty()) pass.before[tile] = film_.copy(pass.tile(tile));
+      pass.finished[tile] = render_tile(pass, pass.tile(tile), counters);
+      const std::scoped_lock lock(mutex_);
+      counters_ += counters;
+    });
+    seconds_ += pass_timer.seconds();
+    if (!pass.given_up) {
+      samples_ += count;
+    } else if (undo && first) {
+      keep_finished(pass);
+    } else if (undo) {
+      for (std::size_t i = 0; i < pass.tiles(); ++i) {
+        if (!pass.before[i].empty()) film_.restore(pass.tile(i), pass.before[i]);
+      }
+      counters_ = counters_before;
+    }
+    return !pass.given_up;
+  }
+
+  std::string save() const { return encode_checkpoint(identity(), {samples_, seconds_, counters_}, film_.sums()); }
+
+  void restore(std::string_view bytes, const std::string& name) {
+    CheckpointState state = decode_checkpoint(bytes, name, identity(), film_.sums());
+    samples_ = state.samples;
+    seconds_ = state.seconds;
+    counters_ = std::move(state.counters);
+  }
+
+  Image image() const {
+    Image image = film_.image(samples_);
+    if (!unrendered_.empty()) mark_unrendered(image);
+    write_header(image, world_, settings_, report());
+    return image;
+  }
+
+  double estimated_relmse() const { return film_.estimated_relmse(samples_); }
+  const PixelBounds& pixels() const { return film_.crop(); }
+  int samples() const { return samples_; }
+  double seconds() const { return seconds_; }
+
+  RenderReport report() const {
+    RenderReport r;
+    r.samples = samples_;
+    r.seconds = seconds_;
+    r.paths = counters_.paths;
+    r.rays = counters_.rays;
+    r.shadow_rays = counters_.shadow_rays;
+    r.density_lookups = counters_.tracking.lookups;
+    r.non_finite = counters_.non_finite;
+    r.majorant_violations = counters_.tracking.majorant_violations;
+    r.caps_hit = counters_.tracking.caps_hit;
+    r.parity_errors = counters_.parity_errors;
+    r.bad_samples = counters_.bad_samples;
+    for (const PixelBounds& tile : unrendered_) r.unrendered += static_cast<std::uint64_t>(tile.width()) * tile.height();
+    return r;
+  }
+
+ private:
+  /// What a pixel's samples seek on the film.
+  struct FilmLights {
+    PixelLamps lamps;
+    ShineView shine;
+  };
+
+  /// False: the pass was given up on the way.
+  bool render_tile(RenderPass& pass, const PixelBounds& pixels, Counters& counters) {
+    for (int y = pixels.y0; y < pixels.y1; ++y) {
+      if (pass.given_up) return false;
+      for (int x = pixels.x0; x < pixels.x1; ++x) {
+        const FilmLights of_pixel{film_lamps_.of(x, y), {film_shine_.of(x, y), film_edges_.at(x, y)}};
+        for (int s = samples_; s < samples_ + pass.count; ++s) render_sample({settings_.seed, x, y, s}, of_pixel, counters);
+      }
+      pass.tell(pixels.width());
+    }
+    return true;
+  }
+
+  /// Of a first pass that was given up.
+  void keep_finished(const RenderPass& pass) {
+    samples_ = pass.count;
+    for (std::size_t i = 0; i < pass.tiles(); ++i) {
+      if (pass.finished[i]) continue;
+      unrendered_.push_back(pass.tile(i));
+      film_.clear(pass.tile(i));
+    }
+  }
+
+  void mark_unrendered(Image& image) const {
+    if (!image.find("SampleCount")) {
+      for (float& v : image.add_channel("SampleCount").values) v = static_cast<float>(samples_);
+    }
+    for (Channel& channel : image.channels) {
+      if (channel.name != "SampleCount") continue;
+      for (const PixelBounds& tile : unrendered_) {
+        for (int y = tile.y0; y < tile.y1; ++y) {
+          const auto row = static_cast<std::size_t>(y - image.data.y0) * static_cast<std::size_t>(image.width());
+          std::fill_n(channel.values.begin() + static_cast<std::ptrdiff_t>(row) + (tile.x0 - image.data.x0), tile.width(),
+                      0.0f);
+        }
+      }
+    }
+  }
+
+  /// What must agree for a checkpoint to be taken up: everything that the bits of the picture depend on.
+  CheckpointIdentity identity() const {
+    const PixelBounds& c = film_.crop();
+    std::string pixels, aovs;
+    for (const int v : {c.x0, c.x1, c.y0, c.y1}) pixels += (pixels.empty() ? "" : ",") + std::to_string(v);
+    for (const Aov aov : parse_aovs(settings_.aovs))
+      aovs += (aovs.empty() ? "" : ",") + std::string(aov_names()[static_cast<std::size_t>(aov)]);
+    return {{"scene", scene_hash_text(world_.scene_hash, settings_)},
+            {"options", options_text(settings_) + " --seed " + std::to_string(settings_.seed)},
+            {"crop", pixels},
+            {"aov", aovs},
+            {"build", build_id()}};
+  }
+
+  void render_sample(const SampleKey& key, const FilmLights& of_pixel, Counters& counters) {
+    const auto& [lamps, shine] = of_pixel;
+    Sampler sampler(key);
+    const FilterSampler::Offset offset = world_.built.filter.sample(sampler.next_2d());
+    const Vec2 lens = sampler.next_2d();
+    const Vec2 center{static_cast<float>(key.x) + 0.5f, static_cast<float>(key.y) + 0.5f};
+    const Vec2 on_film{center.x + offset.p.x, center.y + offset.p.y};
+    const FilmRay film_ray(lamps, on_film, offset.pdf);
+    const ShineRay shine_ray(shine, offset.pdf);
+    LightContext context{world_.built, selector_, settings_, sampler, counters};
+    if (!lamps.empty()) context.joint = &film_ray;
+    if (!shine.own_only()) context.shine = &shine_ray;
+    const Path::Limits limits{.max_depth = settings_.max_depth,
+                              .want_transmittance = film_.wants(Aov::transmittance),
+                              .want_albedo = film_.wants(Aov::albedo)};
+    const Rgb of_lamps = lamps.empty() ? Rgb() : film_light(context, lamps, center, sampler.fork());
+    const Rgb of_shine = shine.own_only() ? Rgb() : shine_light(context, shine, center, sampler.fork());
+    PathRecord record = Path(context, limits, world_.built.camera.ray(on_film, lens)).run();
+    record.volume_direct += of_lamps * (1 / offset.weight);  // the film takes it times that weight
+    record.emission += of_shine * (1 / offset.weight);
+    expose(record);
+    place(record);
+    if (!record.is_finite()) {
+      ++counters.non_finite;
+      counters.bad_samples.push_back({key.x, key.y, key.sample});
+      if (counters.bad_samples.size() > 4 * kBadSamplesKept) counters.trim_bad_samples();
+      record = PathRecord();
+      record.alpha = 0;
+    }
+    film_.add(key.x, key.y, key.sample, record, offset.weight);
+  }
+
+  /// Positions and depths, in the user's space and units.
+  void place(PathRecord& record) const {
+    if (record.hit_surface) record.p = world_.to_user.point(record.p);
+    record.z *= world_.unit;
+    record.z_volume *= world_.unit;
+  }
+
+  void expose(PathRecord& record) const {
+    const Film& film = world_.built.scene.film;
+    record.scale_radiance(film.imaging_ratio);
+    const Rgb radiance = record.radiance();  // may be negative, where the filter is
+    const float brightest = std::max(max_component(radiance), max_component(radiance * -1.0f));
+    if (brightest > film.max_component) record.scale_radiance(film.max_component / brightest);
+  }
+
+  const Timer preparing_;
+  const World::Parts& world_;
+  RenderSettings settings_;
+  const LightSelector& selector_;
+  FilmBuffer film_;
+  ThreadPool pool_;
+  FilmLamps film_lamps_;
+  FilmShine film_shine_;
+  FilmEdges film_edges_;
+  int samples_ = 0;
+  double seconds_ = 0;
+  std::mutex mutex_;
+  Counters counters_;
+  std::vector<PixelBounds> unrendered_;  ///< tiles that the given-up first pass did not finish
+};
+
+RenderJob::RenderJob(const World& world, const RenderSettings& settings)
+    : impl_(std::make_unique<Impl>(world.parts(), settings)) {}
+RenderJob::RenderJob(RenderJob&&) noexcept = default;
+RenderJob& RenderJob::operator=(RenderJob&&) noexcept = default;
+RenderJob::~RenderJob() = default;
+
+bool RenderJob::advance(int samples, const PassWatch& watch, GivenUp given_up) {
+  return impl_->advance(samples, watch, given_up);
+}
+std::string RenderJob::save() const { return impl_->save(); }
+void RenderJob::restore(std::string_view bytes, const std::string& name) { impl_->restore(bytes, name); }
+PixelBounds RenderJob::pixels() const { return impl_->pixels(); }
+int RenderJob::samples() const { return impl_->samples(); }
+double RenderJob::seconds() const { return impl_->seconds(); }
+double RenderJob::estimated_relmse() const { return impl_->estimated_relmse(); }
+RenderReport RenderJob::report() const { return impl_->report(); }
+Image RenderJob::image() const { return impl_->image(); }
+
+}  // namespace tyndall

@@ -1,0 +1,103 @@
+#include "transport/built_world.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "math/timer.h"
+#include "transport/media/camera_media.h"
+
+namespace tyndall {
+namespace {
+
+std::vector<ParticipatingMedium> build_media(const Scene& scene, const BuildSettings& settings, std::size_t most_memory,
+                                             BuildSummary& summary) {
+  const Timer watch;
+  std::vector<ParticipatingMedium> media;
+  media.reserve(scene.media.size());
+  for (const Medium& medium : scene.media) {
+    const std::size_t left = most_memory - std::min(summary.volume_bytes, most_memory);
+    media.push_back(build_medium(medium, {.sanitize = settings.sanitize, .most_memory = left}, summary.notes));
+    summary.volume_bytes += media.back().memory_bytes();
+  }
+  summary.media = media.size();
+  summary.volume_seconds = watch.seconds();
+  return media;
+}
+
+Geometry build_geometry(const Scene& scene, const Textures& textures, int threads, BuildSummary& summary) {
+  const Timer watch;
+  Geometry geometry(scene, &textures, threads);
+  summary.triangles = geometry.triangle_count();
+  summary.geometry_bytes = geometry.memory_bytes();
+  summary.geometry_seconds = watch.seconds();
+  return geometry;
+}
+
+/// The emissive shapes as placed, in order, and which placed shape each is.
+struct Emitters {
+  std::vector<EmitterShape> shapes;
+  std::vector<std::size_t> placed;
+};
+
+Emitters find_emitters(const Scene& scene, const Geometry& geometry, BuildSummary& summary) {
+  Emitters emitters;
+  std::size_t without_surface = 0;
+  for (std::size_t i = 0; i < geometry.placed().size(); ++i) {
+    const PlacedShape& placed = geometry.placed()[i];
+    if (!placed.shape->emission) continue;
+    if (std::holds_alternative<InterfaceMaterial>(scene.materials[placed.shape->material].kind)) {
+      ++without_surface;
+      continue;
+    }
+    const Instance* instance = placed.instance == kNone ? nullptr : &scene.instances[placed.instance];
+    emitters.shapes.push_back({placed.shape, placed.to_world, instance});
+    emitters.placed.push_back(i);
+  }
+  if (without_surface > 0) {
+    summary.notes.push_back(std::to_string(without_surface) +
+                            " area light(s) on shapes of interface material were left out; give them a material");
+  }
+  return emitters;
+}
+
+/// Boxes of everything a light can shine on: shapes, and media beyond them.
+Bounds3 scene_bounds(const Geometry& geometry, const std::vector<ParticipatingMedium>& media) {
+  Bounds3 bounds = geometry.bounds();
+  for (const ParticipatingMedium& medium : media) {
+    if (!medium.homogeneous() && !medium.bounds().empty()) bounds.expand(medium.bounds());
+  }
+  return bounds;
+}
+
+}  // namespace
+
+BuiltWorld::BuiltWorld(Scene unit_scene, const BuildSettings& settings, std::size_t volume_memory, BuildSummary& summary)
+    : scene(std::move(unit_scene)),
+      textures(build_textures(scene.textures)),
+      materials(scene, textures),
+      geometry(build_geometry(scene, textures, settings.threads, summary)),
+      media(build_media(scene, settings, volume_memory, summary)),
+      fire(settings.fire ? FireLights(media, geometry.groups(), scene.camera.medium) : FireLights()),
+      has_fire(settings.fire),
+      camera(scene.camera, scene.film),
+      filter(scene.filter) {
+  const Timer watch;
+  const Emitters emitters = find_emitters(scene, geometry, summary);
+  const std::vector<VolumeEmitter> volumes = fire.emitters();
+  lights =
+      build_lights(scene, emitters.shapes, scene_bounds(geometry, media),
+                   {.strategies = settings.lights, .textures = &textures, .threads = settings.threads, .volumes = volumes});
+  fire.set_first(lights.first_volume());
+  near_lamps = tyndall::near_lamps(media, geometry.groups(), scene.camera.medium, lights, fire);
+  glow = MediaGlow(media, {geometry.groups(), scene.camera.medium, lights, fire, scene_bounds(geometry, media)});
+  for (std::string& note : fire.notes(scene.media)) summary.notes.push_back(std::move(note));
+  first_light.assign(geometry.placed().size(), kNone);
+  for (std::size_t i = 0; i < emitters.placed.size(); ++i) first_light[emitters.placed[i]] = lights.first_light(i);
+  summary.lights = lights.size();
+  for (const SelectorStats& s : lights.selectors()) summary.light_strategies.push_back({s.strategy, s.seconds, s.memory_bytes});
+  summary.light_bytes = lights.memory_bytes() + fire.memory_bytes();
+  summary.light_seconds = watch.seconds();
+  camera_media = find_camera_media(scene.camera.medium, camera.center(), geometry);
+}
+
+}  // namespace tyndall

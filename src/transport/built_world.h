@@ -1,0 +1,58 @@
+/// The scene as light transport runs on it.
+#pragma once
+
+#include <vector>
+
+#include "light/lights.h"
+#include "surface/geometry.h"
+#include "surface/material.h"
+#include "texture/textures.h"
+#include "transport/camera_ray.h"
+#include "transport/fire_lights.h"
+#include "transport/media/media_state.h"
+#include "transport/media/span_walk.h"
+#include "transport/media_glow.h"
+#include "transport/near_lamps.h"
+#include "transport/pixel_filter.h"
+#include "tyndall/render.h"
+#include "volume/medium.h"
+
+namespace tyndall {
+
+/// Everything that a path may meet, in the units of the scene it was made from.
+struct BuiltWorld {
+  /// `volume_memory`: bytes that volume files may take. Fills its part of `summary`. Throws Error for what is wrong with the
+  /// scene.
+  BuiltWorld(Scene unit_scene, const BuildSettings& settings, std::size_t volume_memory, BuildSummary& summary);
+  BuiltWorld(const BuiltWorld&) = delete;  // its members refer to each other
+
+  Scene scene;
+  Textures textures;
+  Materials materials;
+  Geometry geometry;
+  std::vector<ParticipatingMedium> media;
+  FireLights fire;  ///< empty unless asked for
+  bool has_fire;    ///< it was
+  Lights lights;
+  NearLamps near_lamps;              ///< where all media are unbounded, or all lamps far, of no place
+  MediaGlow glow;                    ///< empty where all media are homogeneous
+  std::vector<LightId> first_light;  ///< by placed shape; kNone where it does not emit
+  CameraRays camera;
+  FilterSampler filter;
+  MediaState camera_media;  ///< what holds the camera's center
+
+  SpanWalk::Context media_context() const { return {geometry.groups(), media}; }
+  /// No medium anywhere: nothing of src/volume needs to run.
+  bool has_media() const { return !media.empty(); }
+  MaterialId material_of(const SurfaceHit& hit) const { return geometry.placed()[hit.shape].shape->material; }
+  /// Whether there are lights that a ray can find, at its end: surfaces that shine, and skies.
+  bool rays_find_lights() const { return lights.stats().emitters > 0 || !lights.infinite().empty(); }
+  /// The light that the hit primitive is, if it emits.
+  std::optional<LightId> light_of(const SurfaceHit& hit) const {
+    const LightId first = first_light[hit.shape];
+    if (first == kNone) return std::nullopt;
+    return first + hit.primitive;
+  }
+};
+
+}  // namespace tyndall

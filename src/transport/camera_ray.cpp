@@ -1,0 +1,106 @@
+#include "transport/camera_ray.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "math/warp.h"
+
+namespace tyndall {
+namespace {
+
+/// As OpenEXR keeps matrices: for row vectors, the translation in the last row.
+std::array<float, 16> to_floats(const Transform::Matrix& m) {
+  std::array<float, 16> out{};
+  for (int i = 0; i < 16; ++i) out[i] = static_cast<float>(m[i % 4][i / 4]);
+  return out;
+}
+
+/// x0 x1 y0 y1: the shorter side spans [-1, 1] unless the scene says otherwise.
+std::array<float, 4> screen_window(const Camera& camera, const Film& film) {
+  if (camera.screen_window) return *camera.screen_window;
+  const float aspect = camera.frame_aspect_ratio.value_or(static_cast<float>(film.width) / static_cast<float>(film.height));
+  if (aspect > 1) return {-aspect, aspect, -1, 1};
+  return {-1, 1, -1 / aspect, 1 / aspect};
+}
+
+}  // namespace
+
+CameraRays::CameraRays(const Camera& camera, const Film& film)
+    : to_world_(camera.to_world),
+      orthographic_(camera.kind == Camera::Kind::orthographic),
+      width_(static_cast<float>(film.width)),
+      height_(static_cast<float>(film.height)),
+      lens_radius_(camera.lens_radius),
+      focal_distance_(camera.focal_distance),
+      axis_(normalize(camera.to_world.vector({0, 0, 1}))) {
+  const auto window = screen_window(camera, film);
+  const float scale = orthographic_ ? 1.0f : std::tan(camera.fov_degrees * (kPi / 360.0f));
+  x0_ = window[0] * scale;
+  x1_ = window[1] * scale;
+  y0_ = window[2] * scale;
+  y1_ = window[3] * scale;
+}
+
+Ray CameraRays::ray(Vec2 p, Vec2 lens) const {
+  const float x = x0_ + (x1_ - x0_) * (p.x / width_);
+  const float y = y1_ + (y0_ - y1_) * (p.y / height_);
+  Vec3 o = orthographic_ ? Vec3{x, y, 0} : Vec3{0, 0, 0};
+  Vec3 d = orthographic_ ? Vec3{0, 0, 1} : normalize(Vec3{x, y, 1});
+  if (lens_radius_ > 0) {
+    const Vec2 q = lens_radius_ * square_to_concentric_disk(lens);
+    const Vec3 focus = o + d * (focal_distance_ / d.z);
+    o += Vec3{q.x, q.y, 0};
+    d = normalize(focus - o);
+  }
+  return {to_world_.point(o), normalize(to_world_.vector(d))};
+}
+
+std::optional<Vec2> CameraRays::film_position(Vec3 p) const {
+  // In double, and from where rays start: far from the origin the last bit of a float may be more than a pixel.
+  const Vec3 c = center();
+  const std::array<double, 3> d{double{p.x} - c.x, double{p.y} - c.y, double{p.z} - c.z};
+  const Transform::Matrix m = to_world_.inverse().matrix();
+  std::array<double, 3> local{};
+  for (int r = 0; r < 3; ++r) local[r] = m[r][0] * d[0] + m[r][1] * d[1] + m[r][2] * d[2];
+  if (!(local[2] > 0)) return std::nullopt;
+  const double x = (local[0] / local[2] - x0_) / (x1_ - x0_), y = (local[1] / local[2] - y1_) / (y0_ - y1_);
+  return Vec2{static_cast<float>(x * width_), static_cast<float>(y * height_)};
+}
+
+float CameraRays::solid_angle(Vec2 p) const {
+  const float x = x0_ + (x1_ - x0_) * (p.x / width_), y = y1_ + (y0_ - y1_) * (p.y / height_);
+  const float d2 = x * x + y * y + 1;
+  return std::abs((x1_ - x0_) * (y1_ - y0_)) / (width_ * height_ * d2 * std::sqrt(d2));
+}
+
+float CameraRays::film_rounding() const {
+  constexpr float kSomeBits = 0x1p-20f;
+  const float pixels_a_radian = std::max(width_ / std::abs(x1_ - x0_), height_ / std::abs(y1_ - y0_));
+  return kSomeBits * std::max({width_, height_, pixels_a_radian});
+}
+
+std::array<float, 16> CameraRays::world_to_camera() const { return to_floats(to_world_.inverse().matrix()); }
+
+std::array<float, 16> CameraRays::world_to_ndc() const {
+  // Rows of the projection: x and y to [0,1] over the frame (y downward), z kept, w = z in perspective.
+  const double sx = 1.0 / (x1_ - x0_), sy = 1.0 / (y0_ - y1_);
+  Transform::Matrix projection{};
+  const int divide = orthographic_ ? 3 : 2;  // the column that holds the offset: constant, or times z
+  projection[0] = {sx, 0, 0, 0};
+  projection[1] = {0, sy, 0, 0};
+  projection[0][divide] = -x0_ * sx;
+  projection[1][divide] = -y1_ * sy;
+  projection[2] = {0, 0, 1, 0};
+  projection[3][divide] = 1;
+
+  const Transform::Matrix view = to_world_.inverse().matrix();
+  Transform::Matrix product{};
+  for (int r = 0; r < 4; ++r) {
+    for (int c = 0; c < 4; ++c) {
+      for (int k = 0; k < 4; ++k) product[r][c] += projection[r][k] * view[k][c];
+    }
+  }
+  return to_floats(product);
+}
+
+}  // namespace tyndall

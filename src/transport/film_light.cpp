@@ -1,0 +1,104 @@
+#include "transport/film_light.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "transport/direct_light.h"
+#include "transport/gather_lights.h"
+#include "transport/lamp_aim.h"
+#include "transport/media/scattering.h"
+#include "transport/way.h"
+#include "volume/coarse.h"
+
+namespace tyndall {
+namespace {
+
+constexpr int kReads = 4;
+/// Optical depth before a lamp, roughly: less than a hundredth of its light comes through more.
+constexpr float kDeepest = 5;
+
+bool is_wanted(const BuiltWorld& world, const RenderSettings& settings) {
+  return settings.joint == JointStrategy::points && settings.lights != LightStrategy::exhaustive && settings.max_depth > 0 &&
+         world.has_media() && world.camera.is_pinhole();
+}
+
+/// A medium, and a box that holds all there is of it.
+struct Place {
+  const ParticipatingMedium* medium;
+  Bounds3 box;
+};
+std::vector<Place> places_with_lamps(const BuiltWorld& world) {
+  std::vector<Place> places;
+  for (MediumId id = 0; id < world.media.size(); ++id) {
+    const Bounds3 box = reach_of(id, world.geometry.groups(), world.camera_media.unbounded());
+    if (!overlap(box, world.lights.point_box()).empty()) places.push_back({&world.media[id], box});
+  }
+  return places;
+}
+
+/// What media around a lamp make of it.
+struct Surroundings {
+  ActiveMedia media;
+  float depth = 0;  ///< optical, of these media, on the way to the camera
+};
+Surroundings around(const std::vector<Place>& places, const Ray& ray, float distance) {
+  Surroundings found;
+  for (const Place& place : places) {
+    if (!place.box.contains(ray.at(distance))) continue;
+    found.media.push_back(place.medium);
+    const float enters = std::max(distance - exit_distance(place.box, {ray.at(distance), -ray.d}), 0.0f);
+    found.depth += coarse_optical_depth({&place.medium, 1}, ray, enters, distance, kReads);
+  }
+  return found;
+}
+
+/// `light` as the camera sees it: what media around it send there, coarsely, over the size of a pixel.
+std::optional<FilmLamp> film_lamp(const BuiltWorld& world, const std::vector<Place>& places, LightId light, Vec2 at) {
+  const Vec3 lamp = *world.lights.point(light), to_lamp = lamp - world.camera.center();
+  const float distance = length(to_lamp);
+  const Ray ray{world.camera.center(), to_lamp * (1 / distance)};
+  const auto [media, depth] = around(places, ray, distance);
+  if (media.empty() || !(depth < kDeepest)) return std::nullopt;
+  const float sigma_s = CoarseRay({media.data(), media.size()}, ray).at(distance).sigma_s;
+  const auto power = static_cast<float>(world.lights.power(light));
+  return FilmLamp{.light = light,
+                  .at = at,
+                  .brightness = power * sigma_s * std::exp(-depth) / world.camera.depth(lamp),
+                  .g = Scattering::at(media, lamp).phase.mean_cosine()};
+}
+
+}  // namespace
+
+FilmLamps film_lamps(const BuiltWorld& world, const RenderSettings& settings, const PixelBounds& pixels, ThreadPool& pool) {
+  const FilmLamps::View view{pixels, world.scene.filter.radius, world.camera.film_rounding()};
+  const auto places = is_wanted(world, settings) ? places_with_lamps(world) : std::vector<Place>();
+  if (places.empty()) return {view, {}};
+  const std::size_t count = world.scene.lights.size();  // the first of all, points and spots among them
+  const auto look = [&](LightId light) -> std::optional<FilmLamp> {
+    const auto p = world.lights.point(light);
+    const auto at = p ? world.camera.film_position(*p) : std::nullopt;
+    return at && view.sees(*at) ? film_lamp(world, places, light, *at) : std::nullopt;
+  };
+  return {view, gather_lights(count, pool, look)};
+}
+
+Rgb film_light(const LightContext& context, const PixelLamps& lamps, Vec2 center, Sampler sampler) {
+  const float which = sampler.next_1d();
+  const Vec2 around = sampler.next_2d();
+  const float along = sampler.next_1d();
+  const BuiltWorld& world = context.world;
+  const auto drawn = lamps.draw(which, around);
+  const auto filter = world.filter.at({drawn.x.x - center.x, drawn.x.y - center.y});
+  if (!(drawn.pdf > 0) || !(filter.pdf > 0)) return {};
+  const Ray ray = world.camera.ray(drawn.x, {0.5f, 0.5f});
+  const Vec3 to_lamp = *world.lights.point(drawn.light) - ray.o;
+  const PassingPlace place = pass_lamp(dot(to_lamp, ray.d), length(cross(to_lamp, ray.d)), drawn.g, along);
+  if (!(place.t > 0 && place.t < kInfinity && place.spread < kInfinity)) return {};
+  const float share = mis_weight(drawn.pdf, filter.pdf);
+  return lamplight(context, {world.camera_media, ray, place.t}, drawn.light, sampler) *
+         (filter.weight * filter.pdf / drawn.pdf * place.spread * share);
+}
+
+float FilmRay::own_share(const LightContext&, LightId light) const { return mis_weight(pdf_, lamps_.pdf(light, x_)); }
+
+}  // namespace tyndall

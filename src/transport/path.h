@@ -1,0 +1,95 @@
+/// One path from the camera: the transport that makes the picture.
+#pragma once
+
+#include "transport/joint_light.h"
+#include "transport/path_record.h"
+#include "transport/span_light.h"
+
+namespace tyndall {
+
+/// Path tracing with next-event estimation and MIS through surfaces and media [Kajiya 1986; Veach 1997].
+/// A value for one sample: make it, run() it, drop it.
+class Path {
+ public:
+  /// What a path may do.
+  struct Limits {
+    int max_depth;                    ///< scattering events, counted as pbrt's volpath does
+    bool want_transmittance = false;  ///< record the camera ray's transmittance
+    bool want_albedo = false;         ///< and the first event's albedo
+  };
+
+  Path(const LightContext& context, const Limits& limits, const Ray& camera_ray);
+
+  Path(const Path&) = delete;  // context_ may point into it
+
+  PathRecord run();
+
+ private:
+  /// What a path draws random numbers for between one event and the next.
+  enum class Step { gather, fly, light, scatter };
+  static constexpr int kSteps = 4;
+  void begin(Step step);
+
+  /// What stands behind the media that the camera's ray collides in.
+  struct Beyond {
+    Ray ray;
+    Rgb seen;
+    MediaState media;
+    Trace trace;
+  };
+  /// For the light of that alone: it goes no further.
+  Path(const Path& camera, const Beyond& beyond);
+  PathRecord run_beyond(const Trace& trace);
+
+  void follow(std::optional<Vertex> vertex);
+  std::optional<Vertex> next_vertex();
+  std::optional<Vertex> arrive(const Trace& trace);
+  std::optional<Vertex> collide_untraced();
+  std::optional<Vertex> pass_media(const Trace& trace);
+  std::optional<Rgb> seen_beyond(const Span& span, const Trace& trace);
+  void gather(const Span& span);
+  bool lit_at_collisions(const Span& span) const;
+  std::optional<Vertex> fly(const Span& span, const Trace& trace);
+  void dim(const Span& span);
+  Rgb light_at(const Directions& directions, Rgb beta);
+  float scattering_share(LightId id, float light_pdf) const;
+  Vertex surface_vertex(const SurfaceHit& hit);
+  float emission_share() const;
+  void add_environment();
+  void add_surface_emission(const SurfaceHit& hit);
+  void add(Rgb contribution, int events);
+  void record_camera_ray(const Trace& trace);
+  void record_collision(float t);
+  void record_transmittance(const Span& span);
+  bool scatter(const Vertex& vertex);
+  bool survive_roulette();
+
+  LightContext context_;
+  Limits limits_;
+  Ray ray_;
+  MediaState media_;
+  Rgb beta_{1.0f};
+  std::optional<Rgb> seen_;  ///< in place of beta_ for the light of what the camera's ray meets at its end
+  int depth_ = 0;            ///< scattering events so far
+  float eta_scale_ = 1;      ///< undoes the 1/eta^2 of transmissions in Russian roulette
+  float emphasis_ = 1;       ///< and what paths weigh less for having been guided
+  PathRecord record_;
+  bool first_event_in_medium_ = false;
+
+  // The last scattering event, for the MIS weight of emitters that its ray hits.
+  bool light_sampled_ = false;         ///< next-event estimation could have found what this ray finds
+  Vec3 from_;                          ///< where it took place
+  float pdf_ = 0;                      ///< of the direction it took, 1/sr
+  std::optional<CollisionRay> joint_;  ///< the ray from it, if it sought lamps jointly; context_ points to it
+  LightSearch search_;
+  std::optional<SpanEvent> span_event_;  ///< in place of search_ when the event's lights are chosen along its span
+
+  // The span that the path is in.
+  std::optional<bool> lit_at_collisions_;  ///< as decided before the ray was traced; else the span decides
+  std::optional<SpanSearch> span_search_;
+  float collision_t_ = 0, collision_density_ = 0;
+
+  std::optional<Beyond> beyond_;  ///< what this path, which collided, leaves to another
+};
+
+}  // namespace tyndall

@@ -1,0 +1,161 @@
+#include "transport/planned_memory.h"
+
+#include <set>
+#include <string>
+#include <utility>
+
+#include "light/instance_runs.h"
+#include "transport/film_shine.h"
+#include "tyndall/error.h"
+#include "tyndall/io.h"
+
+namespace tyndall {
+namespace {
+
+// Bytes a primitive, measured on scenes of a million of each and rounded up.
+constexpr std::size_t kTriangle = 130;          // positions, and the ray tracing library's tree while it is built
+constexpr std::size_t kBoundaryTriangle = 300;  // kept in a tree of its own as well
+constexpr std::size_t kInstance = 300;
+constexpr std::size_t kLight = 200;           // with its share of the light tree while it is built
+constexpr std::size_t kLightInstance = 1000;  // all lights of an instance that shares them
+constexpr std::size_t kTexel = 16, kTexelWhileRead = 20, kTexelOfSky = 62;
+constexpr std::size_t kDenseVoxel = 12;  // values, and the bricks made of them
+
+struct Primitives {
+  double triangles = 0, others = 0;
+  double all() const { return triangles + others; }
+};
+
+Primitives primitives_of(const Shape& shape) {
+  if (const auto* mesh = std::get_if<TriangleMesh>(&shape.kind)) return {static_cast<double>(mesh->indices.size() / 3), 0};
+  if (const auto* mesh = std::get_if<BilinearMesh>(&shape.kind)) return {0, static_cast<double>(mesh->indices.size() / 4)};
+  return {0, 1};
+}
+
+void add_shapes(const std::vector<Shape>& shapes, ByteCount& geometry) {
+  for (const Shape& shape : shapes)
+    geometry.add(primitives_of(shape).all(), static_cast<double>(shape.boundary ? kBoundaryTriangle : kTriangle));
+}
+
+double emitters_of(const std::vector<Shape>& shapes) {
+  double count = 0;
+  for (const Shape& shape : shapes) count += shape.emission ? primitives_of(shape).all() : 0;
+  return count;
+}
+
+std::vector<double> emitters_of(const std::vector<Object>& objects) {
+  std::vector<double> counts;
+  for (const Object& object : objects) counts.push_back(emitters_of(object.shapes));
+  return counts;
+}
+
+/// The lists of pixels that aim at small shining surfaces (film_shine.h), and what finds where larger ones end (film_edges.h).
+/// A surface of a pixel or so is in the lists of those whose filters see it.
+std::size_t plan_film_search(const Scene& scene) {
+  const double radius = std::max(scene.filter.radius.x, scene.filter.radius.y);
+  const std::vector<double> of_object = emitters_of(scene.objects);
+  double surfaces = emitters_of(scene.shapes);
+  for (const Instance& instance : scene.instances) {
+    if (instance.object < of_object.size()) surfaces += of_object[instance.object];
+  }
+  if (surfaces == 0 || !(radius <= FilmShine::kWidestFilter)) return 0;
+  const double pixels = pixels_of(scene), pixels_of_surface = (4 * radius + 1) * (4 * radius + 1);
+  ByteCount sum;
+  sum.add(pixels, sizeof(std::uint32_t) + sizeof(float) + 1);
+  sum.add(std::min(pixels * PixelShine::kMost, surfaces * pixels_of_surface), sizeof(ShiningLight));
+  return sum.bytes();
+}
+
+/// `shared`: instances that can share their lights do, as in shared_runs().
+std::size_t plan_lights(const Scene& scene, bool shared) {
+  ByteCount sum;
+  sum.add(static_cast<double>(scene.lights.size()) + emitters_of(scene.shapes), kLight);
+  const std::vector<double> of_object = emitters_of(scene.objects);
+  if (shared)
+    for (const double lights : of_object) sum.add(lights, kLight);
+  for (const Instance& instance : scene.instances) {
+    if (instance.object >= of_object.size()) continue;
+    const double lights = of_object[instance.object];
+    const bool shares = shared && lights >= kFewestShared && Similarity::of(instance.to_world);
+    sum.add(shares ? 1 : lights, shares ? kLightInstance : kLight);
+  }
+  return sum.bytes();
+}
+
+std::size_t plan_geometry(const Scene& scene) {
+  ByteCount sum;
+  add_shapes(scene.shapes, sum);
+  for (const Object& object : scene.objects) add_shapes(object.shapes, sum);
+  sum.add(static_cast<double>(scene.instances.size()), kInstance);
+  return sum.bytes();
+}
+
+class Pictures {
+ public:
+  void add(const std::string& path, std::size_t bytes_a_texel) {
+    if (path.empty() || !seen_.insert(path).second) return;
+    ImageSize size;
+    try {
+      size = read_image_size(path);
+    } catch (const Error&) {
+      return;  // whoever reads it will say so, with its place in the scene
+    }
+    const double texels = static_cast<double>(size.width) * size.height;
+    sum_.add(texels, static_cast<double>(bytes_a_texel));
+    largest_ = std::max(largest_, texels);
+  }
+  std::size_t bytes() {
+    sum_.add(std::exchange(largest_, 0.0), kTexelWhileRead);
+    return sum_.bytes();
+  }
+
+ private:
+  std::set<std::string> seen_;
+  ByteCount sum_;
+  double largest_ = 0;
+};
+
+void add_pictures(const std::vector<Shape>& shapes, Pictures& pictures) {
+  for (const Shape& shape : shapes)
+    if (shape.emission) pictures.add(shape.emission->path, kTexel);
+}
+
+std::size_t plan_pictures(const Scene& scene) {
+  Pictures pictures;
+  for (const Texture& texture : scene.textures)
+    if (const auto* image = std::get_if<ImageTexture>(&texture.kind)) pictures.add(image->path, kTexel);
+  for (const Light& light : scene.lights)
+    if (const auto* sky = std::get_if<InfiniteLight>(&light.kind)) pictures.add(sky->path, kTexelOfSky);
+  add_pictures(scene.shapes, pictures);
+  for (const Object& object : scene.objects) add_pictures(object.shapes, pictures);
+  return pictures.bytes();
+}
+
+std::size_t plan_volumes(const Scene& scene) {
+  ByteCount sum;
+  for (const Medium& medium : scene.media) {
+    if (const auto* grid = std::get_if<UniformGridMedium>(&medium.kind))
+      sum.add(static_cast<double>(grid->density.size() + grid->Le_scale.size() + grid->temperature.size()), kDenseVoxel);
+    if (const auto* grid = std::get_if<RgbGridMedium>(&medium.kind))
+      sum.add(3.0 * static_cast<double>(grid->sigma_a.size() + grid->sigma_s.size() + grid->Le.size()), kDenseVoxel);
+  }
+  return sum.bytes();
+}
+
+}  // namespace
+
+double pixels_of(const Scene& scene) {
+  const PixelBounds& crop = scene.settings.crop.value_or(scene.film.crop);
+  return static_cast<double>(std::max(crop.width(), 0)) * std::max(crop.height(), 0);
+}
+
+PlannedMemory plan_built_world(const Scene& scene, std::span<const LightStrategy> lights) {
+  const bool shared = std::all_of(lights.begin(), lights.end(), [](LightStrategy s) { return s == LightStrategy::tree; });
+  return {.on_film = plan_film_search(scene),
+          .geometry = plan_geometry(scene),
+          .lights = plan_lights(scene, shared),
+          .textures = plan_pictures(scene),
+          .volumes = plan_volumes(scene)};
+}
+
+}  // namespace tyndall

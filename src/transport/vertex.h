@@ -1,0 +1,70 @@
+/// A point where a path scatters: on a surface or in a medium, behind one interface.
+#pragma once
+
+#include <optional>
+#include <variant>
+
+#include "light/lights.h"
+#include "surface/bsdf.h"
+#include "surface/geometry.h"
+#include "transport/media/media_state.h"
+#include "volume/phase_mix.h"
+
+namespace tyndall {
+
+/// A direction drawn at a vertex.
+struct ScatterSample {
+  Vec3 wi;
+  Rgb weight;          ///< scattering function (with cosine at surfaces) / density
+  float pdf;           ///< 1/sr
+  bool specular;       ///< next-event estimation cannot reach it
+  float eta = 1;       ///< relative index crossed
+  float emphasis = 1;  ///< pdf, by that of the scattering function alone
+};
+
+class Vertex {
+ public:
+  /// A surface point seen along `wo`; `media` is the membership on that side.
+  struct Surface {
+    SurfaceHit hit;
+    Bsdf bsdf;
+  };
+  struct InMedium {
+    Vec3 p;
+    PhaseMix phase;
+  };
+
+  Vertex(Surface surface, Vec3 wo, const MediaState& media);
+  Vertex(InMedium medium, Vec3 wo, const MediaState& media);
+
+  Vec3 p() const;
+  Vec3 wo() const { return wo_; }
+  const MediaState& media() const { return media_; }  ///< on the side of wo
+  bool on_surface() const { return std::holds_alternative<Surface>(kind_); }
+
+  /// How light selection sees this vertex: with the directions that it favours.
+  PointQuery light_query() const;
+  /// Some light arriving from a sampled direction could be scattered: next-event estimation makes sense.
+  bool has_smooth() const;
+
+  /// f |cos| at surfaces; the phase function in media (the albedo is in the collision's weight).
+  Rgb eval(Vec3 wi) const;
+  /// 1/sr, of sample(); `beta` is the path's throughput, which steers the choice between overlapping phase functions.
+  float pdf(Vec3 wi, Rgb beta) const;
+  std::optional<ScatterSample> sample(Rgb beta, float uc, Vec2 u) const;
+
+  /// Reflectance plus transmittance of a surface; 1 in media, where it is in the collision's weight.
+  Rgb albedo() const;
+
+  /// Origin of a ray that leaves along `wi`.
+  Vec3 origin(const Geometry& geometry, Vec3 wi) const;
+  /// Membership of origin(geometry, wi): a direction through a surface passes the boundaries that lie in it.
+  MediaState media_toward(const Geometry& geometry, Vec3 wi) const;
+
+ private:
+  std::variant<Surface, InMedium> kind_;
+  Vec3 wo_;
+  MediaState media_;
+};
+
+}  // namespace tyndall

@@ -1,0 +1,81 @@
+/// Next-event estimation at a vertex, for any search for lights and any technique that competes with it.
+#pragma once
+
+#include <optional>
+
+#include "math/small_vector.h"
+#include "transport/direct_light.h"
+#include "transport/fire_light.h"
+#include "transport/resampling.h"
+
+namespace tyndall {
+
+/// A vertex whose light is sought. `Search` has a query, the cut made for it and shadow_rays; `Share` is a function of a
+/// LightSample and the density of the candidates that found it: its weight in MIS.
+template <typename Search, typename Share>
+class VertexLight {
+ public:
+  VertexLight(const LightContext& context, const Vertex& vertex, const Search& search, Rgb beta, const Share& share)
+      : context_(context), vertex_(vertex), search_(search), beta_(beta), share_(share) {}
+
+  /// Of all lights, or of the candidates that survive resampling.
+  Rgb estimate(Sampler& sampler) const { return context_.selector.exhaustive() ? all(sampler) : chosen(sampler); }
+
+ private:
+  /// A light looked at without visibility.
+  struct Candidate {
+    LightSample light;
+    Rgb contribution;  ///< were it visible: scattering x radiance x MIS weight / density, of all candidates together
+    float weight;      ///< in resampling: the contribution's size
+  };
+
+  std::optional<Candidate> look_at(LightCandidate tried, Vec2 u) const {
+    const auto light = sample_light(context_, search_, tried, vertex_.p(), u);
+    // What is not a number goes on, so that the film sees it and counts it.
+    if (!light || is_black(light->L)) return std::nullopt;
+    const float density = tried.tries * light->pdf;
+    if (density <= 0) return std::nullopt;
+    const Rgb f = vertex_.eval(light->wi);
+    if (is_black(f)) return std::nullopt;
+    const Rgb contribution = f * light->L * (share_(*light, tried.light, density) / density);
+    const float weight = mean(beta_ * contribution);
+    if (weight == 0) return std::nullopt;
+    return Candidate{*light, contribution, weight};
+  }
+
+  /// The candidate's contribution dimmed by what is in between.
+  Rgb trace(const Candidate& c, Sampler& sampler) const {
+    const Geometry& geometry = context_.world.geometry;
+    const MediaState media = vertex_.media_toward(geometry, c.light.wi);
+    return c.contribution * arriving(context_, media, vertex_.origin(geometry, c.light.wi), c.light, sampler);
+  }
+
+  Rgb all(Sampler& sampler) const {
+    Rgb sum;
+    for (LightId id = 0; id < context_.world.lights.size(); ++id) {
+      if (const auto c = look_at({id, 1}, sampler.next_2d())) sum += trace(*c, sampler);
+    }
+    return sum;
+  }
+
+  Rgb chosen(Sampler& sampler) const {
+    const float u = sampler.next_1d();
+    SmallVector<Candidate, 8> candidates;
+    for (const LightCandidate& tried : context_.selector.draw(search_.cut, search_.query, sampler.next_wide())) {
+      if (const auto c = look_at(tried, sampler.next_2d())) candidates.push_back(*c);
+    }
+    Rgb sum;
+    for (const Survivor& s : resample(candidates, search_.shadow_rays, u)) {
+      sum += trace(candidates[s.index], sampler) * s.scale;
+    }
+    return sum;
+  }
+
+  const LightContext& context_;
+  const Vertex& vertex_;
+  const Search& search_;
+  Rgb beta_;
+  const Share& share_;
+};
+
+}  // namespace tyndall

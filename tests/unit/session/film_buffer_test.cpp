@@ -1,0 +1,74 @@
+#include "session/film_buffer.h"
+
+#include <doctest/doctest.h>
+
+#include "math/rng.h"
+#include "support/relative.h"
+#include "tyndall/error.h"
+
+using namespace tyndall;
+
+namespace {
+
+PathRecord grey(float L) {
+  PathRecord record;
+  record.surface_direct = Rgb(L);
+  return record;
+}
+
+}  // namespace
+
+TEST_CASE("the mean of the samples, split into its parts, over a crop") {
+  Film film;
+  film.width = 4;
+  film.height = 3;
+  FilmBuffer buffer(film, {1, 1, 3, 2}, parse_aovs({"SurfaceDirect", "Emission", "P", "Z", "SampleCount"}));
+  PathRecord a = grey(2), b = grey(4);
+  a.emission = {1, 0, 0};
+  a.hit_surface = true;
+  a.p = {1, 2, 3};
+  a.z = 5;
+  buffer.add(2, 1, 0, a, 1);
+  buffer.add(2, 1, 1, b, 1);
+  buffer.add(1, 1, 0, b, 1);
+  buffer.add(1, 1, 1, b, 1);
+  const Image image = buffer.image(2);
+
+  CHECK(image.data == PixelBounds{1, 1, 3, 2});
+  CHECK(image.display == PixelBounds{0, 0, 4, 3});
+  CHECK(image.find("R")->values[1] == doctest::Approx(3.5));
+  CHECK(image.find("G")->values[1] == doctest::Approx(3));
+  CHECK(image.find("SurfaceDirect.R")->values[1] == doctest::Approx(3));
+  CHECK(image.find("Emission.R")->values[1] == doctest::Approx(0.5));
+  CHECK(image.find("P.Z")->values[1] == 3);  // over the samples that hit something
+  CHECK(image.find("Z")->values[1] == 5);
+  CHECK(image.find("Z")->values[0] == 0);
+  CHECK(image.find("SampleCount")->values[0] == 2);
+  CHECK(image.find("SurfaceCount")->values == std::vector<float>{0, 1});
+  CHECK(image.find("VolumeCount") == nullptr);
+}
+
+TEST_CASE("variance of the pixel mean from the two replicates is right on average") {
+  // Independent samples of variance 1/12: with n of them the mean has 1/(12 n). 4000 pixels give it to
+  // sqrt(2/4000) = 2.2 % (the square of a normal has relative variance 2); 4 of these are allowed. Odd n too.
+  Film film;
+  film.width = 80;
+  film.height = 50;
+  for (const int n : {2, 5, 16}) {
+    FilmBuffer buffer(film, {0, 0, 80, 50}, parse_aovs({"Variance"}));
+    Rng rng(n);
+    for (int y = 0; y < 50; ++y) {
+      for (int x = 0; x < 80; ++x) {
+        for (int s = 0; s < n; ++s) buffer.add(x, y, s, grey(rng.uniform()), 1);
+      }
+    }
+    const Image image = buffer.image(n);
+    double sum = 0;
+    for (const float v : image.find("Variance.G")->values) sum += v;
+    CHECK(sum / 4000 == test::relative(1.0 / (12 * n)).epsilon(0.09));
+  }
+}
+
+TEST_CASE("an unknown AOV is named with the known ones") {
+  CHECK_THROWS_WITH_AS(parse_aovs({"Depth"}), doctest::Contains("Albedo, N, P, Z"), Error);
+}

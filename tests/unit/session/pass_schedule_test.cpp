@@ -1,0 +1,69 @@
+#include "session/pass_schedule.h"
+
+#include <doctest/doctest.h>
+
+#include "support/sphere_scene.h"
+
+namespace tyndall {
+namespace {
+
+/// A render that was cut off after 8 samples, as another process finds it.
+RenderJob resumed(const World& world, const RenderSettings& settings) {
+  RenderJob before(world, settings), after(world, settings);
+  before.advance(8);
+  after.restore(before.save(), "kept");
+  return after;
+}
+
+TEST_CASE("what is left of a resumed render is measured by what was done here") {
+  const World world = test::world_of(test::sphere_scene(16, 16), {.threads = 1});
+  RenderSettings settings{.spp = 16, .threads = 1};
+  RenderJob job = resumed(world, settings);
+  PassSchedule schedule(settings, false);
+  CHECK(schedule.next_pass(job) > 0);
+  const auto begun = schedule.progress(job, 0);
+  REQUIRE(begun);
+  CHECK(begun->fraction == doctest::Approx(0.5));
+  PassSchedule other(settings, false);
+  other.next_pass(job);
+  job.advance(4);
+  const auto half = other.progress(job, 0);
+  REQUIRE(half);
+  CHECK(half->fraction == doctest::Approx(0.75));
+  CHECK(half->remaining == doctest::Approx(half->seconds));  // 4 samples took so long, 4 are left
+}
+
+TEST_CASE("the time that a render had before it was resumed counts") {
+  const World world = test::world_of(test::sphere_scene(16, 16), {.threads = 1});
+  RenderJob job = resumed(world, {.threads = 1});
+  RenderSettings settings{.spp = 1 << 20, .threads = 1};
+  settings.time = 4 * job.seconds();
+  PassSchedule schedule(settings, false);
+  CHECK(schedule.next_pass(job) > 0);
+  const auto begun = schedule.progress(job, 0);
+  REQUIRE(begun);
+  CHECK(begun->fraction == doctest::Approx(0.25));
+  settings.time = job.seconds() / 2;
+  CHECK(PassSchedule(settings, false).next_pass(job) == 0);
+}
+
+TEST_CASE("the time that a running pass takes counts before it has ended") {
+  const World world = test::world_of(test::sphere_scene(16, 16), {.threads = 1});
+  RenderSettings settings{.spp = 1 << 20, .threads = 1};
+  settings.time = 1e-4;
+  RenderJob job(world, settings);
+  PassSchedule schedule(settings, false);
+  std::optional<Progress> during;
+  job.advance(schedule.next_pass(job), [&](double samples) {
+    const auto progress = schedule.progress(job, samples);
+    if (progress) during = progress;
+    return true;
+  });
+  REQUIRE(during);
+  CHECK(job.samples() == 1);
+  CHECK(during->samples_done == 0);
+  CHECK(during->fraction > 1e-3);  // the share of the samples is 1e-6
+}
+
+}  // namespace
+}  // namespace tyndall

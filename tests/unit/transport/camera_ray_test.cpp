@@ -1,0 +1,105 @@
+#include "transport/camera_ray.h"
+
+#include <doctest/doctest.h>
+
+using namespace tyndall;
+
+namespace {
+
+Film film(int width, int height) {
+  Film f;
+  f.width = width;
+  f.height = height;
+  return f;
+}
+
+}  // namespace
+
+TEST_CASE("field of view spans the shorter side, y runs downward") {
+  Camera camera;
+  camera.fov_degrees = 90;
+  const CameraRays wide(camera, film(200, 100));
+  CHECK(wide.ray({100, 50}, {0.5f, 0.5f}).d.z == doctest::Approx(1));
+  const Vec3 top = wide.ray({100, 0}, {0.5f, 0.5f}).d;
+  CHECK(top.y / top.z == doctest::Approx(1));
+  const Vec3 right = wide.ray({200, 50}, {0.5f, 0.5f}).d;
+  CHECK(right.x / right.z == doctest::Approx(2));
+  const CameraRays tall(camera, film(100, 200));
+  const Vec3 left = tall.ray({0, 100}, {0.5f, 0.5f}).d;
+  CHECK(left.x / left.z == doctest::Approx(-1));
+}
+
+TEST_CASE("an orthographic camera has parallel rays from the screen") {
+  Camera camera;
+  camera.kind = Camera::Kind::orthographic;
+  camera.screen_window = {{-2, 2, -1, 1}};
+  camera.to_world = Transform::translate(0, 0, 5);
+  const CameraRays rays(camera, film(4, 2));
+  const Ray ray = rays.ray({4, 0}, {0, 0});
+  CHECK(ray.o.x == doctest::Approx(2));
+  CHECK(ray.o.y == doctest::Approx(1));
+  CHECK(ray.o.z == doctest::Approx(5));
+  CHECK(ray.d.z == doctest::Approx(1));
+  CHECK_FALSE(rays.is_pinhole());
+}
+
+TEST_CASE("rays through any point of the lens meet in the plane of focus") {
+  Camera camera;
+  camera.lens_radius = 0.3f;
+  camera.focal_distance = 4;
+  const CameraRays rays(camera, film(10, 10));
+  const Ray a = rays.ray({3, 7}, {0.1f, 0.2f}), b = rays.ray({3, 7}, {0.9f, 0.6f});
+  CHECK(length(a.o - b.o) > 0.05f);
+  CHECK(length(a.at(4 / a.d.z) + Vec3{0, 0, -a.o.z} - b.at(4 / b.d.z)) < 1e-5f);
+}
+
+TEST_CASE("worldToNDC takes a point to its place on the film") {
+  Camera camera;
+  camera.fov_degrees = 50;
+  camera.to_world = Transform::look_at({1, 2, -3}, {0, 0.5f, 1}, {0, 1, 0}).inverse();
+  const CameraRays rays(camera, film(320, 180));
+  const Vec3 p = rays.ray({80, 135}, {0, 0}).at(2.5f);
+  const auto m = rays.world_to_ndc();
+  const auto row = [&](int r) { return m[r] * p.x + m[4 + r] * p.y + m[8 + r] * p.z + m[12 + r]; };
+  CHECK(row(0) / row(3) == doctest::Approx(0.25));
+  CHECK(row(1) / row(3) == doctest::Approx(0.75));
+}
+
+TEST_CASE("the solid angle of the film is that between rays, and of all of it that of a pyramid") {
+  Camera camera;
+  camera.fov_degrees = 70;
+  camera.to_world = Transform::rotate(40, 1, 2, 3) * Transform::scale(2, 2, -2);
+  const CameraRays rays(camera, film(64, 32));
+  const auto direction = [&](float x, float y) { return rays.ray({x, y}, {0.5f, 0.5f}).d; };
+  double sum = 0;
+  for (int y = 0; y < 32; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      const float u = static_cast<float>(x), v = static_cast<float>(y);
+      const double between = length(
+          cross(direction(u + 1, v + 0.5f) - direction(u, v + 0.5f), direction(u + 0.5f, v + 1) - direction(u + 0.5f, v)));
+      const double here = rays.solid_angle({u + 0.5f, v + 0.5f});
+      CHECK(here / between == doctest::Approx(1).epsilon(3e-3));
+      sum += here;
+    }
+  }
+  const double b = std::tan(35 * kPi / 180), a = 2 * b;
+  CHECK(sum == doctest::Approx(4 * std::asin(a * b / std::sqrt((1 + a * a) * (1 + b * b)))).epsilon(2e-3));
+}
+
+TEST_CASE("a point is seen at the film position whose ray passes it, far from the origin too") {
+  Camera camera;
+  camera.fov_degrees = 50;
+  for (const float far : {0.0f, 1e4f}) {
+    camera.to_world = Transform::translate(far, -far, 3) * Transform::rotate(40, 1, 2, 3);
+    const CameraRays rays(camera, film(640, 360));
+    for (const Vec2 x : {Vec2{0, 0}, Vec2{320.25f, 100.5f}, Vec2{639, 359}, Vec2{-50, 400}}) {
+      const Ray ray = rays.ray(x, {0.5f, 0.5f});
+      const auto again = rays.film_position(ray.at(20));
+      REQUIRE(again);
+      // The ray's point is rounded to 2^-24 of 1e4 units: 20 units away that is 0.012 pixels.
+      CHECK(again->x == doctest::Approx(x.x).epsilon(1e-6).scale(far > 0 ? 5e4 : 500));
+      CHECK(again->y == doctest::Approx(x.y).epsilon(1e-6).scale(far > 0 ? 5e4 : 500));
+      CHECK_FALSE(rays.film_position(ray.at(-20)));
+    }
+  }
+}

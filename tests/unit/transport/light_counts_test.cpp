@@ -1,0 +1,142 @@
+#include "transport/light_counts.h"
+
+#include <doctest/doctest.h>
+
+#include "light/query.h"
+#include "support/sphere_scene.h"
+
+namespace tyndall {
+namespace {
+
+/// Counts in a world with as many point lights, and a lamp with an area or none.
+class Counted {
+ public:
+  Counted(int points, bool lamp) : world_(test::world_of(scene(points, lamp), {})) {}
+
+  /// `lobe`: its share of what is scattered.
+  LightCounts vertex(const RenderSettings& settings, int event, float lobe = 0) {
+    PointQuery query{.p = {0, 0, 0}, .n = {0, 0, -1}, .diffuse = 1 - lobe};
+    query.lobe_count = lobe > 0 ? 1 : 0;
+    return counts_at_vertex(context(settings, event), query);
+  }
+  SpanCounts span(const RenderSettings& settings, int event, float scattered, float depth = 1) {
+    return counts_along_span(context(settings, event), scattered, depth);
+  }
+
+  float splitting(const RenderSettings& settings, int candidates) {
+    return cut_settings(context(settings, 0), candidates).splitting;
+  }
+
+ private:
+  static std::string scene(int points, bool lamp) {
+    std::string text = test::sphere_scene(4, 4);
+    for (int i = 1; i < points; ++i) text += "LightSource \"point\" \"point3 from\" [2 0 " + std::to_string(i) + "]\n";
+    if (lamp) text += "AreaLightSource \"diffuse\"\nShape \"sphere\" \"float radius\" 0.1\n";
+    return text;
+  }
+  LightContext context(const RenderSettings& settings, int event) {
+    return {world_.parts().built, world_.parts().built.lights.selector(settings.lights), settings, sampler_, counters_, event};
+  }
+
+  World world_;
+  Sampler sampler_{{0, 0, 0, 0}};
+  Counters counters_;
+};
+
+void check(LightCounts counts, int candidates, int shadow_rays) {
+  CHECK(counts.candidates == candidates);
+  CHECK(counts.shadow_rays == shadow_rays);
+}
+
+TEST_CASE("events look at more lights where less follows them, and on glossy surfaces") {
+  Counted many(8, true);
+  RenderSettings deep, direct;
+  deep.max_depth = 5;
+  direct.max_depth = 1;
+  for (const int event : {0, 1, 4}) {
+    check(many.vertex(deep, event), 2, 2);
+    check(many.vertex(deep, event, 0.9f), 4, 2);
+    check(many.vertex(deep, event, 0.1f), 2, 2);  // coated
+    check(many.span(deep, event, 0.5f), 3, 2);
+  }
+  check(many.vertex(direct, 0), 8, 0);
+  check(many.vertex(direct, 0, 0.9f), 8, 0);
+  check(many.span(direct, 0, 0.5f), 16, 0);
+}
+
+TEST_CASE("stretches that scatter next to nothing look at one light") { check(Counted(3, true).span({}, 0, 0.9e-3f), 1, 1); }
+
+TEST_CASE("stretches that scatter little look seldom, but on the only event and where candidates are counted") {
+  Counted many(3, true);
+  RenderSettings direct, set;
+  direct.max_depth = 1;
+  set.candidates = 2;
+  CHECK(many.span({}, 0, 0.5f).chance == 1);
+  CHECK(many.span({}, 0, 0.05f).chance == doctest::Approx(0.5));
+  CHECK(many.span({}, 2, 1e-4f).chance == 1 / 16.0f);
+  CHECK(many.span({}, 0, 0).chance == 1 / 16.0f);  // perhaps there is something that was not looked at
+  CHECK(many.span(direct, 0, 0.05f).chance == 1);
+  CHECK(many.span(set, 0, 0.05f).chance == 1);
+}
+
+TEST_CASE("along dense stretches candidates are looked at from two distances where nothing follows") {
+  Counted many(3, true);
+  RenderSettings direct, set;
+  direct.max_depth = set.max_depth = 1;
+  set.candidates = 16;
+  CHECK(many.span(direct, 0, 0.9f, 1).distances == 1);
+  const SpanCounts dense = many.span(direct, 0, 0.9f, 10);
+  check(dense, 16, 8);
+  CHECK(dense.distances == 2);
+  CHECK(many.span({}, 0, 0.9f, 10).distances == 1);
+  CHECK(many.span(direct, 0, 1e-5f, 10).distances == 1);
+  CHECK(many.span(set, 0, 0.9f, 10).distances == 1);  // as many pairs as were asked for
+}
+
+TEST_CASE("from one point a light without extent is looked at once") {
+  RenderSettings direct;
+  direct.max_depth = 1;
+  check(Counted(5, false).vertex(direct, 0), 5, 0);
+  check(Counted(5, true).vertex(direct, 0), 8, 0);
+  check(Counted(1, false).span(direct, 0, 0.5f), 16, 0);  // from several points along the stretch
+}
+
+TEST_CASE("few lights need few looks, unless the path ends there") {
+  RenderSettings deep, direct;
+  deep.max_depth = 5;
+  direct.max_depth = 1;
+  Counted one(1, false), three(2, true);
+  check(one.vertex(deep, 0), 1, 1);
+  check(one.vertex(deep, 0, 0.9f), 1, 1);
+  check(one.span(deep, 0, 0.5f), 1, 1);
+  check(three.vertex(deep, 1), 2, 2);
+  check(three.vertex(deep, 1, 0.9f), 3, 2);
+  check(three.span(deep, 0, 0.5f), 3, 2);
+  check(Counted(1, true).span(deep, 1, 0.5f), 2, 1);
+  check(three.vertex(direct, 0), 8, 0);
+  check(three.span(direct, 0, 0.5f), 16, 0);
+}
+
+TEST_CASE("clusters are split for many candidates, unless it is set") {
+  Counted lights(2, false);
+  RenderSettings set;
+  set.splitting = 0.2f;
+  for (const int candidates : {0, 8, 32}) CHECK(lights.splitting({}, candidates) == 0.5f);
+  for (const int candidates : {1, 2, 7}) CHECK(lights.splitting({}, candidates) == 0);
+  for (const int candidates : {0, 1, 8}) CHECK(lights.splitting(set, candidates) == 0.2f);
+}
+
+TEST_CASE("what is set holds everywhere") {
+  Counted many(3, false);
+  RenderSettings set;
+  set.candidates = 12;
+  set.shadow_rays = 0;
+  for (const int event : {0, 1}) {
+    check(many.vertex(set, event), 12, 0);
+    check(many.vertex(set, event, 0.9f), 12, 0);
+    for (const float scattered : {0.5f, 1e-5f}) check(many.span(set, event, scattered), 12, 0);
+  }
+}
+
+}  // namespace
+}  // namespace tyndall
