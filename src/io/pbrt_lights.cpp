@@ -86,7 +86,7 @@ InfiniteLight infinite_light(State& state, ParamList& params) {
   return light;
 }
 
-decltype(Light::kind) read_kind(State& state, ParamList& params, const std::string& type) {
+decltype(Light::kind) read_light_kind(State& state, ParamList& params, const std::string& type) {
   if (type == "point") return point_light(state, params);
   if (type == "spot") return spot_light(state, params);
   if (type == "distant") return distant_light(state, params);
@@ -120,7 +120,7 @@ AreaLight read_area_light(State& state, ParamList& params, const std::string& ty
 void read_light_source(State& state, Tokenizer& in, const Location& where) {
   const std::string type(in.expect_string("a kind of light, as \"point\"").text);
   ParamList params = read_param_list(state, in, "light \"" + printable(type) + "\"", where, &AttributeDefaults::light);
-  auto kind = read_kind(state, params, type);
+  auto kind = read_light_kind(state, params, type);
   params.finish();
   state.scene.lights.push_back({std::move(kind), where});
 }

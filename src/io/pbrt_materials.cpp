@@ -9,7 +9,7 @@
 namespace tyndall::pbrt {
 namespace {
 
-using Kind = decltype(Material::kind);
+using MaterialKind = decltype(Material::kind);
 
 /// `prefix` + "roughness", "uroughness", "vroughness"; pbrt's default is smooth.
 Roughness read_roughness(State& state, ParamList& params, std::array<std::string_view, 3> names) {
@@ -104,7 +104,7 @@ CoatedConductorMaterial read_coated_conductor(State& state, ParamList& params) {
   return m;
 }
 
-Kind read_kind(State& state, ParamList& params, const std::string& type) {
+MaterialKind read_material_kind(State& state, ParamList& params, const std::string& type) {
   if (type == "diffuse") return DiffuseMaterial{color_texture(state, params, "reflectance", Rgb(0.5f))};
   if (type == "conductor") return ConductorMaterial{read_conductor(state, params, "eta", "k"), read_roughness(state, params)};
   if (type == "dielectric") return DielectricMaterial{find_eta(state, params, "eta"), read_roughness(state, params)};
@@ -125,8 +125,8 @@ Kind read_kind(State& state, ParamList& params, const std::string& type) {
                                        "coateddiffuse", "coatedconductor", "mix", "interface"}));
 }
 
-Kind read_checked_kind(State& state, ParamList& params, const std::string& type) {
-  Kind kind = read_kind(state, params, type);
+MaterialKind read_checked_kind(State& state, ParamList& params, const std::string& type) {
+  MaterialKind kind = read_material_kind(state, params, type);
   params.ignore("displacement", {ParamType::number, ParamType::texture}, "surfaces are not displaced");
   params.ignore("normalmap", {ParamType::string}, "normals come from the mesh alone");
   params.finish();
@@ -139,7 +139,7 @@ MaterialId add_material(State& state, Material material) {
 }
 
 /// Unnamed plain materials of equal content are one.
-MaterialId shared_material(State& state, Kind kind, const Location& where) {
+MaterialId shared_material(State& state, MaterialKind kind, const Location& where) {
   if (const auto* diffuse = std::get_if<DiffuseMaterial>(&kind)) {
     const auto it = state.diffuse_materials.find(diffuse->reflectance);
     if (it != state.diffuse_materials.end()) return it->second;

@@ -17,7 +17,7 @@ std::string list_of(std::initializer_list<ParamType> types) {
   return out;
 }
 
-std::string quoted(std::string_view text) { return "\"" + std::string(text) + "\""; }
+std::string in_quotes(std::string_view text) { return "\"" + std::string(text) + "\""; }
 
 std::size_t count_of(const Param& p) { return p.numbers.size() + p.integers.size() + p.strings.size(); }
 
@@ -43,7 +43,7 @@ Param* ParamList::find(std::string_view name, std::initializer_list<ParamType> t
   const Param* p = look(name);
   if (!p) return nullptr;
   if (std::find(types.begin(), types.end(), p->type) == types.end())
-    throw Error(p->where, "parameter " + quoted(name) + " of " + owner_ + " is a " + list_of(types) + ", not a " +
+    throw Error(p->where, "parameter " + in_quotes(name) + " of " + owner_ + " is a " + list_of(types) + ", not a " +
                               std::string(name_of(p->type)) + "; change its type");
   const auto own = [&](auto& list) { return std::find_if(list.begin(), list.end(), [&](const Param& q) { return &q == p; }); };
   if (const auto it = own(params_); it != params_.end()) return &*it;
@@ -56,7 +56,7 @@ Param* ParamList::one(std::string_view name, ParamType type) {
   if (!p) return nullptr;
   const bool triple = type == ParamType::point3 || type == ParamType::vector3;
   if (count_of(*p) != (triple ? 3 : 1))
-    throw Error(p->where, "parameter " + quoted(name) + " has more than one value; give one");
+    throw Error(p->where, "parameter " + in_quotes(name) + " has more than one value; give one");
   return p;
 }
 
@@ -126,12 +126,12 @@ std::string ParamList::choice(std::string_view name, std::string_view otherwise,
   const std::string value = string(name, otherwise);
   if (std::find(choices.begin(), choices.end(), value) != choices.end()) return value;
   const std::vector<std::string> known(choices.begin(), choices.end());
-  throw error(name, quoted(printable(value)) + " is no " + std::string(name) + "; " + suggestion(value, known));
+  throw error(name, in_quotes(printable(value)) + " is no " + std::string(name) + "; " + suggestion(value, known));
 }
 
 void ParamList::ignore(std::string_view name, std::initializer_list<ParamType> types, std::string_view reason) {
   const Param* p = find(name, types);
-  if (p) reports_->warn(p->where, "parameter " + quoted(name) + " of " + owner_ + " is ignored: " + std::string(reason));
+  if (p) reports_->warn(p->where, "parameter " + in_quotes(name) + " of " + owner_ + " is ignored: " + std::string(reason));
 }
 
 void ParamList::finish() const {
@@ -140,7 +140,7 @@ void ParamList::finish() const {
     std::vector<std::string> known(asked_.begin(), asked_.end());
     std::sort(known.begin(), known.end());
     known.erase(std::unique(known.begin(), known.end()), known.end());
-    throw Error(p.where, owner_ + " has no parameter " + quoted(p.name) + "; " + suggestion(p.name, known));
+    throw Error(p.where, owner_ + " has no parameter " + in_quotes(p.name) + "; " + suggestion(p.name, known));
   }
 }
 

@@ -46,10 +46,10 @@ Cylinder cylinder(ParamList& params) {
   return {r, std::min(z0, z1), std::max(z0, z1), phi_max(params)};
 }
 
-using Kind = decltype(Shape::kind);
+using ShapeKind = decltype(Shape::kind);
 
-std::vector<Kind> read_kinds(State& state, ParamList& params, const std::string& type) {
-  std::vector<Kind> kinds;
+std::vector<ShapeKind> read_kinds(State& state, ParamList& params, const std::string& type) {
+  std::vector<ShapeKind> kinds;
   if (type == "sphere")
     kinds.emplace_back(sphere(params));
   else if (type == "disk")
@@ -74,8 +74,8 @@ std::vector<Kind> read_kinds(State& state, ParamList& params, const std::string&
 std::optional<BoundaryId> boundary_group(State& state) {
   const auto inside = state.graphics.inside, outside = state.graphics.outside;
   if (inside == outside) return std::nullopt;
-  const auto block =
-      std::find_if(state.blocks.rbegin(), state.blocks.rend(), [](const Block& b) { return b.kind != Block::Kind::import; });
+  const auto block = std::find_if(state.blocks.rbegin(), state.blocks.rend(),
+                                  [](const Block& b) { return b.kind != Block::Kind::import; });
   for (const BlockBoundary& b : block->boundaries)
     if (b.inside == inside && b.outside == outside) return b.id;
   const auto id = static_cast<BoundaryId>(state.scene.boundaries.size());
@@ -106,12 +106,12 @@ std::optional<TextureId> read_alpha(State& state, ParamList& params) {
 void read_shape(State& state, Tokenizer& in, const Location& where) {
   const std::string type(in.expect_string("a kind of shape, as \"sphere\"").text);
   ParamList params = read_param_list(state, in, "shape \"" + printable(type) + "\"", where, &AttributeDefaults::shape);
-  std::vector<Kind> kinds = read_kinds(state, params, type);
+  std::vector<ShapeKind> kinds = read_kinds(state, params, type);
   const auto alpha = read_alpha(state, params);
   params.finish();
 
   auto& shapes = state.open_object ? state.scene.objects[*state.open_object].shapes : state.scene.shapes;
-  for (Kind& kind : kinds) {
+  for (ShapeKind& kind : kinds) {
     Shape& shape = shapes.emplace_back();
     shape.kind = std::move(kind);
     shape.to_world = state.graphics.ctm;

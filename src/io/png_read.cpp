@@ -27,13 +27,13 @@ struct Raster {
   std::vector<png_bytep> rows;
 };
 
-void on_error(png_structp png, png_const_charp message) {
+void on_read_error(png_structp png, png_const_charp message) {
   auto* source = static_cast<Source*>(png_get_error_ptr(png));
   std::strncpy(source->reason, message, sizeof source->reason - 1);
   std::longjmp(png_jmpbuf(png), 1);
 }
 
-void on_warning(png_structp, png_const_charp) {}
+void on_read_warning(png_structp, png_const_charp) {}
 
 void on_read(png_structp png, png_bytep out, png_size_t count) {
   auto* source = static_cast<Source*>(png_get_io_ptr(png));
@@ -85,7 +85,7 @@ Image decode_png(std::string_view bytes, const Encoding& encoding, const std::st
   const auto fail = [&](const std::string& reason) -> void {
     throw Error(Failure::scene, path + ": cannot be read as PNG: " + reason);
   };
-  png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &source, on_error, on_warning);
+  png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &source, on_read_error, on_read_warning);
   png_infop info = png ? png_create_info_struct(png) : nullptr;
   struct Release {
     png_structp* png;

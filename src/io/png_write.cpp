@@ -32,8 +32,8 @@ std::vector<png_byte> tone_mapped(const Image& image, float exposure) {
   return pixels;
 }
 
-void on_error(png_structp png, png_const_charp) { std::longjmp(png_jmpbuf(png), 1); }
-void on_warning(png_structp, png_const_charp) {}
+void on_write_error(png_structp png, png_const_charp) { std::longjmp(png_jmpbuf(png), 1); }
+void on_write_warning(png_structp, png_const_charp) {}
 void on_write(png_structp png, png_bytep bytes, png_size_t count) {
   bool taken = true;
   try {
@@ -66,7 +66,7 @@ void write_png(const Image& image, const std::string& path, float exposure) {
     throw Error(Failure::output, path + ": cannot be written: the image has no pixels");
   const std::vector<png_byte> pixels = tone_mapped(image, exposure);
 
-  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, on_error, on_warning);
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, on_write_error, on_write_warning);
   png_infop info = png ? png_create_info_struct(png) : nullptr;
   std::string bytes;
   const bool encoded = info && encode(png, info, image, pixels.data(), bytes);

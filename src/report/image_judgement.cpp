@@ -8,7 +8,7 @@
 namespace tyndall {
 namespace {
 
-std::string number(double v) {
+std::string plain_number(double v) {
   std::array<char, 32> text{};
   std::snprintf(text.data(), text.size(), "%.4g", v);
   return text.data();
@@ -33,7 +33,7 @@ void judge_always(const ImageDiff& diff, std::vector<std::string>& reasons) {
 void judge_exact(const ImageDiff& diff, std::vector<std::string>& reasons) {
   for (const ChannelDiff& c : diff.channels) {
     if (!c.equal) {
-      reasons.push_back("channel " + c.name + " is not equal: off by up to " + number(c.largest) + " at (" +
+      reasons.push_back("channel " + c.name + " is not equal: off by up to " + plain_number(c.largest) + " at (" +
                         std::to_string(c.x) + ", " + std::to_string(c.y) + ")");
     }
   }
@@ -42,8 +42,8 @@ void judge_exact(const ImageDiff& diff, std::vector<std::string>& reasons) {
 void judge_error(const ImageDiff& diff, double limit, std::vector<std::string>& reasons) {
   for (const ChannelDiff& c : diff.channels) {
     if (is_statistic(c.name) || c.largest <= limit) continue;
-    reasons.push_back("channel " + c.name + " is off by " + number(c.largest) + " at (" + std::to_string(c.x) + ", " +
-                      std::to_string(c.y) + "), more than " + number(limit));
+    reasons.push_back("channel " + c.name + " is off by " + plain_number(c.largest) + " at (" + std::to_string(c.x) + ", " +
+                      std::to_string(c.y) + "), more than " + plain_number(limit));
   }
 }
 
@@ -51,7 +51,7 @@ void judge_relmse(const ImageDiff& diff, double limit, std::vector<std::string>&
   for (const GroupDiff& g : diff.groups) {
     const double relmse = g.without_noise ? g.without_noise->relmse : g.errors.relmse;
     if (is_statistic(g.name) || relmse <= limit) continue;
-    reasons.push_back("relMSE of " + g.name + " is " + number(relmse) + ", more than " + number(limit));
+    reasons.push_back("relMSE of " + g.name + " is " + plain_number(relmse) + ", more than " + plain_number(limit));
   }
 }
 
@@ -61,7 +61,7 @@ void judge_flip(const ImageDiff& diff, double limit, std::vector<std::string>& r
     throw Error(Failure::usage, "--max-flip needs R, G and B in both images and no --no-flip; choose another criterion");
   }
   const double mean = diff.flip_hdr->mean();
-  if (!(mean <= limit)) reasons.push_back("mean HDR-FLIP is " + number(mean) + ", more than " + number(limit));
+  if (!(mean <= limit)) reasons.push_back("mean HDR-FLIP is " + plain_number(mean) + ", more than " + plain_number(limit));
 }
 
 void judge_test(const ImageDiff& diff, std::vector<std::string>& reasons) {
@@ -85,9 +85,9 @@ std::string options_of(const Criteria& c) {
   std::string options;
   if (c.test) options += " --test";
   if (c.exact) options += " --exact";
-  if (c.max_error) options += " --max-error " + number(*c.max_error);
-  if (c.max_relmse) options += " --max-relmse " + number(*c.max_relmse);
-  if (c.max_flip) options += " --max-flip " + number(*c.max_flip);
+  if (c.max_error) options += " --max-error " + plain_number(*c.max_error);
+  if (c.max_relmse) options += " --max-relmse " + plain_number(*c.max_relmse);
+  if (c.max_flip) options += " --max-flip " + plain_number(*c.max_flip);
   return options.substr(1);
 }
 

@@ -17,7 +17,6 @@ namespace tyndall {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
 
 /// Options of render that the suite itself sets, and those that end a render at no fixed number of samples.
 constexpr std::array kTaken{"-o",      "--output", "--seed",     "--spp",          "--aov",   "--threads",   "--json",
@@ -25,7 +24,7 @@ constexpr std::array kTaken{"-o",      "--output", "--seed",     "--spp",       
 
 [[noreturn]] void bad(const std::string& path, const std::string& what) { throw Error(Failure::scene, path + ": " + what); }
 
-int whole_number(const Json& value, int lowest, int highest) {
+int whole_number(const nlohmann::json& value, int lowest, int highest) {
   if (!value.is_number_integer()) throw Error(Failure::scene, "must be a whole number");
   const auto number = value.get<std::int64_t>();
   if (number < lowest || number > highest) {
@@ -34,20 +33,20 @@ int whole_number(const Json& value, int lowest, int highest) {
   return static_cast<int>(number);
 }
 
-std::string text(const Json& value) {
+std::string text(const nlohmann::json& value) {
   if (!value.is_string()) throw Error(Failure::scene, "must be a text in quotes");
   return value.get<std::string>();
 }
 
-std::vector<std::string> texts(const Json& value, const std::string& example) {
+std::vector<std::string> texts(const nlohmann::json& value, const std::string& example) {
   if (!value.is_array()) throw Error(Failure::scene, "must be a list of texts, such as " + example);
   std::vector<std::string> list;
-  for (const Json& entry : value) list.push_back(text(entry));
+  for (const nlohmann::json& entry : value) list.push_back(text(entry));
   return list;
 }
 
 /// Sample counts and variances are no means of samples, and are there anyway.
-std::vector<std::string> aov_list(const Json& value) {
+std::vector<std::string> aov_list(const nlohmann::json& value) {
   const auto known = aov_names();
   std::vector<std::string> list = texts(value, "[\"Albedo\", \"N\"]");
   for (const std::string& name : list) {
@@ -62,7 +61,7 @@ std::vector<std::string> aov_list(const Json& value) {
   return list;
 }
 
-std::vector<std::string> option_list(const Json& value) {
+std::vector<std::string> option_list(const nlohmann::json& value) {
   std::vector<std::string> list = texts(value, "[\"--max-depth\", \"8\"]");
   for (const std::string& option : list) {
     const std::string name = option.substr(0, option.find('='));
@@ -73,19 +72,19 @@ std::vector<std::string> option_list(const Json& value) {
   return list;
 }
 
-double seconds(const Json& value) {
+double seconds(const nlohmann::json& value) {
   if (!value.is_number() || !(value.get<double>() > 0) || value.get<double>() > 1e6) {
     throw Error(Failure::scene, "must be a number of seconds above 0, at most 1000000");
   }
   return value.get<double>();
 }
 
-bool yes_or_no(const Json& value) {
+bool yes_or_no(const nlohmann::json& value) {
   if (!value.is_boolean()) throw Error(Failure::scene, "must be true or false");
   return value.get<bool>();
 }
 
-void set(RegressCase& c, const std::string& key, const Json& value) {
+void set(RegressCase& c, const std::string& key, const nlohmann::json& value) {
   constexpr int kMost = 1 << 20;
   if (key == "about")
     c.about = text(value);
@@ -119,22 +118,22 @@ std::string place(const std::string& path, const std::string& text, std::size_t 
 }
 
 /// The object in a settings file. JSON readers take the last of two equal keys, and the first was meant as well.
-Json read_object(const std::string& path) {
+nlohmann::json read_object(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   std::set<std::string> keys;
   std::string twice;
-  const auto see_key = [&](int depth, Json::parse_event_t event, const Json& key) {
-    const bool own = event == Json::parse_event_t::key && depth == 1;
+  const auto see_key = [&](int depth, nlohmann::json::parse_event_t event, const nlohmann::json& key) {
+    const bool own = event == nlohmann::json::parse_event_t::key && depth == 1;
     if (own && !keys.insert(key.get<std::string>()).second) twice = key.get<std::string>();
     return true;
   };
-  Json settings;
+  nlohmann::json settings;
   try {
-    settings = Json::parse(text, see_key);
-  } catch (const Json::parse_error& e) {
+    settings = nlohmann::json::parse(text, see_key);
+  } catch (const nlohmann::json::parse_error& e) {
     bad(place(path, text, e.byte), "is no JSON from here on; write settings as {\"spp\": 64, \"aovs\": [\"N\"]}");
-  } catch (const Json::exception& e) {  // "[json.exception.out_of_range.406] number overflow parsing '1e999'"
+  } catch (const nlohmann::json::exception& e) {  // "[json.exception.out_of_range.406] number overflow parsing '1e999'"
     const std::string_view what = e.what();
     bad(path, "cannot be read: " + std::string(what.substr(what.find("] ") + 2)) + "; give a number that the setting can have");
   }
@@ -145,7 +144,7 @@ Json read_object(const std::string& path) {
 
 void read_settings(const std::string& path, RegressCase& c) {
   if (!fs::exists(path)) return;
-  const Json settings = read_object(path);
+  const nlohmann::json settings = read_object(path);
   for (const auto& [key, value] : settings.items()) {
     try {
       set(c, key, value);

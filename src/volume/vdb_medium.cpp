@@ -22,7 +22,7 @@ Names stand_ins(const std::string& name, bool given, const Names& aliases) {
   return !given || std::find(aliases.begin(), aliases.end(), name) != aliases.end() ? aliases : Names{};
 }
 
-std::string quoted(const std::string& name) { return "\"" + name + "\""; }
+std::string in_quotes(const std::string& name) { return "\"" + name + "\""; }
 
 /// Finds, checks and converts the grids of one file.
 class GridLoader {
@@ -69,7 +69,7 @@ class GridLoader {
     PlacedGrid placed;
     placed.grid = build_bricks(entry(index), *grid.source, rules);
     taken_ += placed.grid.memory_bytes();
-    if (placed.grid.empty()) note(use.role + " grid " + quoted(entry(index).name) + " is empty");
+    if (placed.grid.empty()) note(use.role + " grid " + in_quotes(entry(index).name) + " is empty");
     const Index3& origin = placed.grid.origin();
     placed.to_local =
         Affine::of(index_to_world.inverse())
@@ -82,7 +82,7 @@ class GridLoader {
   std::string listing() const {
     std::string names;
     for (const VolumeGridEntry& grid : file_->grids())
-      names += (names.empty() ? "" : ", ") + quoted(grid.name) + " (" + grid.type + ")";
+      names += (names.empty() ? "" : ", ") + in_quotes(grid.name) + " (" + grid.type + ")";
     return names.empty() ? "no grids" : names;
   }
 
@@ -99,8 +99,8 @@ class GridLoader {
     const std::vector<std::size_t> exact = all_called(name);
     if (!exact.empty()) {
       if (exact.size() > 1)
-        note(std::to_string(exact.size()) + " grids are called " + quoted(name) + "; the first is used, write " +
-             quoted(name + "[1]") + " for the second");
+        note(std::to_string(exact.size()) + " grids are called " + in_quotes(name) + "; the first is used, write " +
+             in_quotes(name + "[1]") + " for the second");
       return exact.front();
     }
     const std::size_t bracket = name.rfind('[');
@@ -119,7 +119,7 @@ class GridLoader {
   }
 
   void refuse_unfit(const VolumeGridEntry& grid, const Use& use) const {
-    const std::string who = use.role + " grid " + quoted(grid.name);
+    const std::string who = use.role + " grid " + in_quotes(grid.name);
     if (grid.values == VolumeGridEntry::Values::other)
       fail(who + " is of type " + grid.type + ", which holds no density; name a float or vec3 grid of: " + listing());
     if (grid.values == VolumeGridEntry::Values::vector && !use.vectors)
@@ -142,7 +142,7 @@ class GridLoader {
     constexpr double kBricks = 3;
     const double bytes = values_of(grid) * (static_cast<double>(grid.read_bytes) + kBricks);
     if (bytes > static_cast<double>(left()))
-      fail_large("grid " + quoted(grid.name) + " is estimated to need " + gigabytes(bytes) + " of memory");
+      fail_large("grid " + in_quotes(grid.name) + " is estimated to need " + gigabytes(bytes) + " of memory");
   }
   /// Only leaves are known before: boxes of one value, and what lies alone, make bricks too.
   BrickGrid build_bricks(const VolumeGridEntry& grid, const VoxelSource& source, const VoxelRules& rules) const {
@@ -150,7 +150,7 @@ class GridLoader {
     try {
       return build_brick_grid(source, {rules, options_.float_bricks, static_cast<std::size_t>(std::min(most, 0x1p62))});
     } catch (const GridTooLarge&) {
-      fail_large("grid " + quoted(grid.name) + " becomes more bricks than " + gigabytes(most) + " of memory hold");
+      fail_large("grid " + in_quotes(grid.name) + " becomes more bricks than " + gigabytes(most) + " of memory hold");
     }
   }
   static std::string gigabytes(double bytes) { return std::to_string(bytes * 1e-9) + " GB"; }
@@ -162,14 +162,14 @@ class GridLoader {
   void report(const VolumeGridEntry& grid, const VoxelReport& found, const VoxelRules& rules) {
     if (found.non_finite > 0) {
       const Index3& i = found.first_non_finite;
-      const std::string what = "grid " + quoted(grid.name) + ": " + std::to_string(found.non_finite) +
+      const std::string what = "grid " + in_quotes(grid.name) + ": " + std::to_string(found.non_finite) +
                                " voxels are NaN or infinite, the first at index (" + std::to_string(i[0]) + ", " +
                                std::to_string(i[1]) + ", " + std::to_string(i[2]) + ")";
       if (!rules.sanitize) fail(what + "; --sanitize sets them to 0");
       note(what + "; they were set to 0");
     }
     if (found.negative > 0 && rules.negative_to_zero)
-      note("warning: grid " + quoted(grid.name) + ": " + std::to_string(found.negative) + " negative voxels (lowest " +
+      note("warning: grid " + in_quotes(grid.name) + ": " + std::to_string(found.negative) + " negative voxels (lowest " +
            std::to_string(found.lowest) + ") were set to 0");
   }
 
@@ -184,7 +184,7 @@ class GridLoader {
 std::size_t density_index(GridLoader& loader, const VdbMedium& vdb) {
   if (const auto found = loader.find(vdb.density_grid, stand_ins(vdb.density_grid, vdb.density_grid_given, kDensityAliases)))
     return *found;
-  if (vdb.density_grid_given) loader.fail("has no grid " + quoted(vdb.density_grid) + "; it holds " + loader.listing());
+  if (vdb.density_grid_given) loader.fail("has no grid " + in_quotes(vdb.density_grid) + "; it holds " + loader.listing());
   if (const auto only = loader.only_fog()) return *only;
   loader.fail("has no grid called density, smoke or fog; name one with \"string gridname\" of: " + loader.listing());
 }
@@ -196,22 +196,22 @@ VdbGrids load_vdb_grids(const Medium& medium, const VdbMedium& vdb, const Medium
   GridLoader loader(medium, vdb.path, options, notes);
   VdbGrids grids;
   const std::size_t density = density_index(loader, vdb);
-  std::string chosen = "density grid " + quoted(loader.entry(density).name);
+  std::string chosen = "density grid " + in_quotes(loader.entry(density).name);
   grids.density = loader.load(density, {.role = "density", .vectors = true}, &grids.density_to_world);
 
   const auto temperature =
       loader.find(vdb.temperature_grid, stand_ins(vdb.temperature_grid, vdb.temperature_grid_given, kTemperatureAliases));
   if (!temperature && vdb.temperature_grid_given)
-    loader.fail("has no grid " + quoted(vdb.temperature_grid) + "; it holds " + loader.listing());
+    loader.fail("has no grid " + in_quotes(vdb.temperature_grid) + "; it holds " + loader.listing());
   // One that was not asked for by name is passed over when it cannot be read as numbers.
   if (temperature && (vdb.temperature_grid_given || loader.entry(*temperature).values == VolumeGridEntry::Values::scalar)) {
-    chosen += ", temperature grid " + quoted(loader.entry(*temperature).name);
+    chosen += ", temperature grid " + in_quotes(loader.entry(*temperature).name);
     grids.temperature = loader.load(*temperature, {.role = "temperature", .level_set = true, .negative_to_zero = false});
   }
   if (!vdb.flame_grid.empty()) {
     const auto flame = loader.find(vdb.flame_grid, stand_ins(vdb.flame_grid, true, kFlameAliases));
-    if (!flame) loader.fail("has no grid " + quoted(vdb.flame_grid) + "; it holds " + loader.listing());
-    chosen += ", flame grid " + quoted(loader.entry(*flame).name);
+    if (!flame) loader.fail("has no grid " + in_quotes(vdb.flame_grid) + "; it holds " + loader.listing());
+    chosen += ", flame grid " + in_quotes(loader.entry(*flame).name);
     grids.flame = loader.load(*flame, {.role = "flame"});
   }
   loader.note(chosen);

@@ -13,6 +13,8 @@ unset TYNDALL_NIGHTLY  # a commit's cases, and less: support/sanitized.h says ho
 here=$PWD
 # Lines of a stack are all that a report needs: the rest of what -g writes costs 40 % of the compiler's time.
 options=(--preset asan-ubsan -B "$here/build" "-DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O${TYNDALL_SANITIZE_LEVEL:-1} -g1 -D_GLIBCXX_ASSERTIONS")
+# The whole suite is built source by source, which shows what a precompiled header hides; a few programs of it quickly.
+[ $# -gt 0 ] && options+=(-DTYNDALL_FAST_BUILD=ON)
 # GCC's shared libubsan reads no log_path when libasan is there, too.
 "${CXX:-c++}" --version | grep -qi clang || options+=(-DCMAKE_EXE_LINKER_FLAGS=-static-libubsan)
 command -v ccache >/dev/null && options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
