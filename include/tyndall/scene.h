@@ -15,6 +15,7 @@
 #include "tyndall/error.h"
 #include "tyndall/image.h"
 #include "tyndall/math.h"
+#include "tyndall/phase.h"
 #include "tyndall/settings.h"
 
 namespace tyndall {
@@ -133,7 +134,7 @@ struct Material {
 /// Coefficients in 1/scene unit at density 1, already multiplied by the medium's `scale`.
 struct MediumOptics {
   Rgb sigma_a{1.0f}, sigma_s{1.0f};
-  float g = 0;  ///< Henyey-Greenstein mean cosine, (-1, 1)
+  Phase phase = HenyeyGreenstein{};
 };
 struct HomogeneousMedium {
   Rgb Le;  ///< radiance scale of emission sigma_a * Le

@@ -6,6 +6,7 @@
 
 #include "io/pbrt_colors.h"
 #include "io/pbrt_medium_presets.h"
+#include "io/pbrt_phase.h"
 #include "io/pbrt_suggest.h"
 
 namespace tyndall::pbrt {
@@ -14,12 +15,6 @@ namespace {
 /// Integral of the CIE 1931 ybar over 360..830 nm in pbrt's steps. pbrt scales its illuminants to it, and divides
 /// it out of a light's spectrum, but not out of the emission of an rgbgrid.
 constexpr float kCieYIntegral = 106.856895f;
-
-float read_g(ParamList& params) {
-  const float g = params.number("g", 0);
-  if (!(std::abs(g) < 1)) throw params.error("g", "g must lie between -1 and 1, both excluded");
-  return g;
-}
 
 float read_scale(ParamList& params) {
   const float scale = params.number("scale", 1);
@@ -31,7 +26,7 @@ MediumOptics read_optics(State& state, ParamList& params, float scale) {
   const auto sigma = [&](std::string_view name) {
     return find_color(state, params, name, ColorUse::unbounded).value_or(Rgb(1.0f)) * scale;
   };
-  return {sigma("sigma_a"), sigma("sigma_s"), read_g(params)};
+  return {sigma("sigma_a"), sigma("sigma_s"), read_phase(params)};
 }
 
 Bounds3 read_bounds(ParamList& params) {
@@ -137,7 +132,7 @@ Medium rgb_grid(State&, ParamList& params) {
   for (Rgb& Le : g.Le) Le *= Le_scale;
   g.scale = read_scale(params);
   Medium m;
-  m.optics.g = read_g(params);
+  m.optics.phase = read_phase(params);
   m.kind = std::move(g);
   return m;
 }

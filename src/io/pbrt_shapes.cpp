@@ -74,8 +74,8 @@ std::vector<ShapeKind> read_kinds(State& state, ParamList& params, const std::st
 std::optional<BoundaryId> boundary_group(State& state) {
   const auto inside = state.graphics.inside, outside = state.graphics.outside;
   if (inside == outside) return std::nullopt;
-  const auto block = std::find_if(state.blocks.rbegin(), state.blocks.rend(),
-                                  [](const Block& b) { return b.kind != Block::Kind::import; });
+  const auto block =
+      std::find_if(state.blocks.rbegin(), state.blocks.rend(), [](const Block& b) { return b.kind != Block::Kind::import; });
   for (const BlockBoundary& b : block->boundaries)
     if (b.inside == inside && b.outside == outside) return b.id;
   const auto id = static_cast<BoundaryId>(state.scene.boundaries.size());

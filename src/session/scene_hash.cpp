@@ -78,6 +78,16 @@ class SceneHasher {
   }
   void add(const Transform& transform) { add(transform.matrix()); }
 
+  /// HG by its g alone, as when it was the only one: images of those days can still be merged.
+  void add(const Phase& phase) {
+    if (!std::holds_alternative<HenyeyGreenstein>(phase)) add(phase.index());
+    std::visit(
+        [this](const auto& kind) {
+          for (const float p : kind.parameters()) this->add(p);
+        },
+        phase);
+  }
+
   // Structs of which not everything counts. Each names all its fields: a new one must be given its place.
   void add(const Location&) {}
   void add(const RenderSettings&) {}  // how to render, not what; scene_hash_text adds the depth

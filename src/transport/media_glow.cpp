@@ -79,7 +79,7 @@ struct Average {
     for (int i = 0; i < kReads * kReads * kReads; ++i) {
       const Vec3 at{along(i), along(i / kReads), along(i / (kReads * kReads))};
       const Vec3 p = corner + size * at;
-      const auto [sigma_a, sigma_s, g] = medium.optics_at(p);
+      const auto [sigma_a, sigma_s] = medium.optics_at(p);
       a.sigma_t += mean(sigma_a + sigma_s) * kPerRead;
       a.sigma_s += mean(sigma_s) * kPerRead;
       if (medium.emissive()) a.emission += mean(sigma_a * medium.at(p).Le) * kPerRead;

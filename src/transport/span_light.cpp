@@ -10,6 +10,7 @@
 #include "transport/media/scattering.h"
 #include "transport/resampling.h"
 #include "volume/coarse.h"
+#include "volume/phase/phase.h"
 
 namespace tyndall {
 namespace {
@@ -172,7 +173,7 @@ float mean_cosine(const Span& span) {
   for (const SpanPart& part : span.parts) {
     for (const ParticipatingMedium* medium : part.media) {
       if (!medium->scatters()) continue;
-      sum += medium->g();
+      sum += mean_cosine(medium->phase());
       weight += 1;
     }
   }

@@ -8,7 +8,7 @@
 #include "surface/bsdf.h"
 #include "surface/geometry.h"
 #include "transport/media/media_state.h"
-#include "volume/phase_mix.h"
+#include "volume/phase/phase_mix.h"
 
 namespace tyndall {
 

@@ -85,7 +85,7 @@ Flight homogeneous_flight(MediaView media, double t0, double t1, Rgb beta, float
     flight.weight = (flight.collided ? m.sigma_s * T : T) * (1 / (density.r + density.g + density.b));
   }
   if (flight.collided)
-    for (const ParticipatingMedium* medium : media) flight.phase.add(medium->data().optics.sigma_s, medium->g());
+    for (const ParticipatingMedium* medium : media) flight.phase.add(medium->data().optics.sigma_s, medium->phase());
   return flight;
 }
 

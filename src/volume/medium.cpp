@@ -36,14 +36,14 @@ ParticipatingMedium& ParticipatingMedium::operator=(ParticipatingMedium&&) noexc
 ParticipatingMedium::~ParticipatingMedium() = default;
 
 Coefficients ParticipatingMedium::at(Vec3 p) const {
-  const auto [sigma_a, sigma_s, g] = optics_at(p);
-  return {.sigma_a = sigma_a, .sigma_s = sigma_s, .Le = is_black(sigma_a) ? Rgb() : data_->emission.at(p), .g = g};
+  const auto [sigma_a, sigma_s] = optics_at(p);
+  return {.sigma_a = sigma_a, .sigma_s = sigma_s, .Le = is_black(sigma_a) ? Rgb() : data_->emission.at(p)};
 }
 
-MediumOptics ParticipatingMedium::optics_at(Vec3 p) const {
+PointOptics ParticipatingMedium::optics_at(Vec3 p) const {
   const MediumData& m = *data_;
-  if (m.kind == MediumData::Kind::homogeneous) return m.optics;
-  MediumOptics result{.sigma_a = Rgb(), .sigma_s = Rgb(), .g = m.optics.g};
+  if (m.kind == MediumData::Kind::homogeneous) return {m.optics.sigma_a, m.optics.sigma_s};
+  PointOptics result;
   const GridVec local = m.density.to_local.point(p);
   if (!m.clip.contains(local)) return result;
   if (m.kind == MediumData::Kind::cloud) {
@@ -72,7 +72,7 @@ bool ParticipatingMedium::scatters() const {
 }
 
 bool ParticipatingMedium::homogeneous() const { return data_->kind == MediumData::Kind::homogeneous; }
-float ParticipatingMedium::g() const { return data_->optics.g; }
+const Phase& ParticipatingMedium::phase() const { return data_->optics.phase; }
 Bounds3 ParticipatingMedium::bounds() const { return data_->bounds; }
 
 float ParticipatingMedium::sigma_maj() const {

@@ -16,8 +16,12 @@ namespace tyndall {
 struct Coefficients {
   Rgb sigma_a, sigma_s;  ///< 1/world unit
   Rgb Le;                ///< radiance scale: emission is sigma_a * Le per world unit
-  float g = 0;           ///< Henyey-Greenstein mean cosine
   Rgb sigma_t() const { return sigma_a + sigma_s; }
+};
+
+/// The same of what light passes.
+struct PointOptics {
+  Rgb sigma_a, sigma_s;  ///< 1/world unit
 };
 
 struct MediumBuildOptions {
@@ -40,11 +44,11 @@ class ParticipatingMedium {
   /// At world-space `p`; grids are interpolated trilinearly.
   Coefficients at(Vec3 p) const;
   /// The same without emission, whose grids are not read.
-  MediumOptics optics_at(Vec3 p) const;
+  PointOptics optics_at(Vec3 p) const;
   bool emissive() const;
   bool scatters() const;  ///< false: sigma_s is 0 everywhere
   bool homogeneous() const;
-  float g() const;
+  const Phase& phase() const;
   /// World-space box around all non-zero density: infinite for a homogeneous medium, empty for an empty grid.
   Bounds3 bounds() const;
   /// Largest extinction coefficient of any channel anywhere, 1/world unit.

@@ -8,7 +8,7 @@
 
 #include "volume/brick_reader.h"
 #include "volume/medium_data.h"
-#include "volume/phase_mix.h"
+#include "volume/phase/phase_mix.h"
 
 namespace tyndall {
 
@@ -108,7 +108,7 @@ class MediumWalk {
     return optics.sigma_a + optics.sigma_s - control_;
   }
   /// The lobe of the last optics_at().
-  void add_phase(PhaseMix& phase) const { phase.add(last_sigma_s_, medium_->optics.g); }
+  void add_phase(PhaseMix& phase) const { phase.add(last_sigma_s_, medium_->optics.phase); }
 
  private:
   static constexpr double kInf = std::numeric_limits<double>::infinity();

@@ -10,7 +10,7 @@
 #include "math/rng.h"
 #include "tyndall/settings.h"
 #include "volume/medium.h"
-#include "volume/phase_mix.h"
+#include "volume/phase/phase_mix.h"
 
 namespace tyndall {
 

@@ -18,7 +18,8 @@ std::string rgb(const std::string& name, Rgb c) { return " \"rgb " + name + "\" 
 std::string scalar(const std::string& name, double v) { return " \"float " + name + "\" " + number(v); }
 
 std::string optics(const Coefficients& c) {
-  return rgb("sigma_a", c.sigma_a) + rgb("sigma_s", c.sigma_s) + scalar("g", c.g) + (is_black(c.Le) ? "" : rgb("Le", c.Le));
+  return rgb("sigma_a", c.sigma_a) + rgb("sigma_s", c.sigma_s) + (c.phase.empty() ? scalar("g", c.g) : c.phase + " ") +
+         (is_black(c.Le) ? "" : rgb("Le", c.Le));
 }
 
 std::string medium(const std::string& name, const std::string& type, const std::string& parameters) {

@@ -31,8 +31,14 @@ std::string view(const View& v);
 struct Coefficients {
   Rgb sigma_a{}, sigma_s{};
   float g = 0;
-  Rgb Le{};  ///< emission sigma_a * Le
+  Rgb Le{};             ///< emission sigma_a * Le
+  std::string phase{};  ///< in place of g: the parameters of a phase function
 };
+
+/// Parameters of a phase function of each kind that media have besides HG.
+inline const std::vector<std::string> kOtherPhases{"\"string phase\" \"rayleigh\"",
+                                                   "\"string phase\" \"draine\" \"float g\" 0.6 \"float alpha\" 4",
+                                                   "\"string phase\" \"mie\" \"float diameter\" 8"};
 std::string homogeneous(const std::string& name, const Coefficients& c);
 
 /// A uniform grid over `bounds` with nx * ny * nz densities, x fastest.

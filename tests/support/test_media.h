@@ -17,7 +17,7 @@ struct Optics {
 };
 
 inline ParticipatingMedium built(Medium medium, const Optics& optics) {
-  medium.optics = {optics.sigma_a, optics.sigma_s, optics.g};
+  medium.optics = {optics.sigma_a, optics.sigma_s, HenyeyGreenstein{optics.g}};
   medium.name = "test";
   std::vector<std::string> notes;
   return build_medium(medium, {}, notes);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "transport/media/media_state.h"
-#include "volume/phase_mix.h"
+#include "volume/phase/phase_mix.h"
 
 namespace tyndall {
 
@@ -14,10 +14,10 @@ struct Scattering {
   static Scattering at(const ActiveMedia& media, Vec3 p) {
     Scattering s;
     for (const ParticipatingMedium* medium : media) {
-      const auto [sigma_a, sigma_s, g] = medium->optics_at(p);
+      const auto [sigma_a, sigma_s] = medium->optics_at(p);
       s.sigma_s += sigma_s;
       s.sigma_t += mean(sigma_a + sigma_s);
-      s.phase.add(sigma_s, g);
+      s.phase.add(sigma_s, medium->phase());
     }
     return s;
   }

@@ -86,7 +86,7 @@ float last_distance(const Span& span, const Extent& e) {
   float sigma_t = 0, settled = from;
   for (const ParticipatingMedium* medium : last.media) {
     if (medium->homogeneous()) {
-      const auto [sigma_a, sigma_s, g] = medium->optics_at(span.ray.o);
+      const auto [sigma_a, sigma_s] = medium->optics_at(span.ray.o);
       sigma_t += mean(sigma_a + sigma_s);
     } else if (const auto range = coarse_extent({&medium, 1}, span.ray, last.t0, last.t1)) {
       settled = std::max(settled, range->second);

@@ -17,18 +17,34 @@ void check_near(Rgb a, Rgb b) {
 
 }  // namespace
 
+TEST_CASE("phase functions by name, with their own parameters and no others") {
+  const auto phase = [](const std::string& parameters) {
+    return medium("\"string type\" \"homogeneous\" " + parameters).optics.phase;
+  };
+  CHECK(phase("\"string phase\" \"henyey-greenstein\" \"float g\" .4") == Phase(HenyeyGreenstein{.4f}));
+  CHECK(phase("\"string phase\" \"rayleigh\"") == Phase(Rayleigh{}));
+  CHECK(phase("\"string phase\" \"draine\" \"float g\" .4 \"float alpha\" 3") == Phase(Draine(.4f, 3)));
+  CHECK(phase("\"string phase\" \"draine\"") == Phase(Draine(0, 1)));
+  CHECK(phase("\"string phase\" \"mie\" \"float diameter\" 20") == Phase(Mie(20)));
+  CHECK_THROWS_WITH_AS(phase("\"string phase\" \"mei\""), doctest::Contains("\"mei\" is unknown"), Error);
+  CHECK_THROWS_WITH_AS(phase("\"string phase\" \"rayleigh\" \"float g\" .4"), doctest::Contains("no parameter \"g\""), Error);
+  CHECK_THROWS_WITH_AS(phase("\"string phase\" \"mie\" \"float diameter\" 60"), doctest::Contains("between 0.01 and 50"),
+                       Error);
+  CHECK_THROWS_WITH_AS(phase("\"string phase\" \"draine\" \"float alpha\" -1"), doctest::Contains("between 0 and 1000"), Error);
+}
+
 TEST_CASE("homogeneous: defaults, scale and emission") {
   Medium m = medium("\"string type\" \"homogeneous\"");
   CHECK(m.optics.sigma_a == Rgb(1.0f));
   CHECK(m.optics.sigma_s == Rgb(1.0f));
-  CHECK(m.optics.g == 0);
+  CHECK(m.optics.phase == Phase(HenyeyGreenstein{0}));
   CHECK(m.name == "m");
   m = medium(
       R"("string type" "homogeneous" "rgb sigma_a" [1 2 3] "spectrum sigma_s" [200 2 900 2] "float scale" 10 "float g" -.5
     "rgb Le" [1 2 3] "float Lescale" 2)");
   CHECK(m.optics.sigma_a == Rgb(10, 20, 30));
   check_near(m.optics.sigma_s, Rgb(20.0f));
-  CHECK(m.optics.g == -.5f);
+  CHECK(m.optics.phase == Phase(HenyeyGreenstein{-.5f}));
   check_near(std::get<HomogeneousMedium>(m.kind).Le, {2, 4, 6});
   // A spectrum of emission is scaled to luminance 1, whatever its values.
   CHECK(
@@ -80,7 +96,7 @@ TEST_CASE("rgbgrid: emission is not normalised, as in pbrt") {
   CHECK(g.sigma_s.empty());
   CHECK(g.Le.at(0).r == doctest::Approx(2 * 106.856895));
   CHECK(g.scale == 3);
-  CHECK(m.optics.g == .1f);
+  CHECK(m.optics.phase == Phase(HenyeyGreenstein{.1f}));
   CHECK_CONTAINS(medium_error("\"string type\" \"rgbgrid\""), "neither sigma_a nor sigma_s");
   CHECK_CONTAINS(medium_error("\"string type\" \"rgbgrid\" \"rgb sigma_s\" [1 1 1] \"rgb Le\" [1 1 1]"), "needs \"sigma_a\"");
   CHECK_CONTAINS(medium_error("\"string type\" \"rgbgrid\" \"rgb sigma_s\" [1 1 1 2 2 2]"), "has 2 values");

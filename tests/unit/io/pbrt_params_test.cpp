@@ -73,7 +73,7 @@ TEST_CASE("Attribute gives defaults to later entities and stays within its block
   CHECK(radius(3) == 1);
   CHECK(std::get<PointLight>(scene.lights.at(0).kind).I == Rgb(10, 20, 30));
   CHECK(test::constant(scene, std::get<DiffuseMaterial>(test::last_material(scene).kind).reflectance) == Rgb(.1f, .2f, .3f));
-  CHECK(scene.media.at(0).optics.g == 0.5f);
+  CHECK(scene.media.at(0).optics.phase == Phase(HenyeyGreenstein{0.5f}));
   CHECK(std::get<CheckerboardTexture>(scene.textures.back().kind).mapping.scale.x == 7);
   CHECK_CONTAINS(world_error("Attribute \"shapes\" \"float radius\" 1"), "did you mean \"shape\"?");
 }

@@ -107,6 +107,11 @@ class Walk {
     change(values, longer);
     change(values, {});
   }
+  void visit(Phase& phase) {
+    for (const Phase& other : {Phase(HenyeyGreenstein{0.5f}), Phase(Rayleigh{}), Phase(Draine(0.5f, 1)), Phase(Draine(0.5f, 2)),
+                               Phase(Draine(0.25f, 1)), Phase(Mie(5)), Phase(Mie(6))})
+      change(phase, other);
+  }
   template <typename... Kinds>
   void visit(std::variant<Kinds...>& value) {
     std::visit([this](auto& kind) { this->visit(kind); }, value);

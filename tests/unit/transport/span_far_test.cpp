@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "light/lights.h"
+#include "session/world_parts.h"
 #include "support/sphere_scene.h"
 
 namespace tyndall {

@@ -61,7 +61,8 @@ TEST_CASE("lights are chosen by the surface's lobes and the medium's phase funct
   const Rgb metal = conductor_k(Rgb(0.9f));
   const DielectricLobe rough_glass{1.5f, Ggx(0.2f, 0.2f)};
   PhaseMix forward;
-  forward.add(Rgb(1.0f), 0.8f);
+  const Phase lobe = HenyeyGreenstein{0.8f};
+  forward.add(Rgb(1.0f), lobe);
   struct Case {
     std::string name;
     Vertex vertex;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "session/world_parts.h"
 #include "support/sphere_scene.h"
 #include "transport/direct_light.h"
 

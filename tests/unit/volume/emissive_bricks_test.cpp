@@ -64,7 +64,7 @@ ParticipatingMedium glowing(const VoxelSource& source, const VoxelSource* temper
     return placed;
   };
   data->kind = MediumData::Kind::grid;
-  data->optics = {Rgb{1.0f}, {}, 0};
+  data->optics = {Rgb{1.0f}, {}, {}};
   data->density = place(source);
   data->clip = data->density.grid.support();
   for (int i = 0; i < 3; ++i) {

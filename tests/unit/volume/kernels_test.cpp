@@ -1,7 +1,8 @@
 /// Numeric kernels of src/volume against their promises, at their worst.
 #include "support/adversarial.h"
 #include "volume/grid_ray.h"
-#include "volume/phase_mix.h"
+#include "volume/phase/phase.h"
+#include "volume/phase/phase_mix.h"
 
 using namespace tyndall;
 using namespace tyndall::test;
@@ -14,11 +15,29 @@ TEST_CASE("kernels: phase functions") {
     const bool sound = std::abs(length(s.wi) - 1) < 1e-5f && std::isfinite(s.pdf) && s.pdf > 0;
     return holds(sound && s.pdf == phase.pdf(wo, s.wi), phase.g, wo, s.wi, s.pdf);
   });
+  const auto check = [](const char* name, const auto& draw) {
+    check_kernel(name, [&](Adversary& any) {
+      const Phase phase = draw(any);
+      const Vec3 wo = any.direction();
+      const PhaseSample s = sample(phase, wo, any.square());
+      const bool sound = std::abs(length(s.wi) - 1) < 1e-5f && std::isfinite(s.pdf) && s.pdf > 0;
+      return holds(sound && s.pdf == pdf(phase, wo, s.wi), mean_cosine(phase), wo, s.wi, s.pdf);
+    });
+  };
+  check("Rayleigh", [](Adversary&) { return Rayleigh(); });
+  check("Draine", [](Adversary& any) {
+    const float g = any.between(-1, 1);
+    return Draine(std::clamp(g, -0.9999f, 0.9999f), any.chance() ? 0 : any.between(0, 1000));
+  });
+  check("Mie", [](Adversary& any) { return Mie(any.between(0.01f, Mie::kLargest)); });
   check_kernel("mixture", [](Adversary& any) {
     PhaseMix mix;
     const int media = 1 + static_cast<int>(any.below(3));
-    for (int i = 0; i < media; ++i)
-      mix.add(Rgb(any.positive(20), any.chance() ? any.positive(20) : 0, 1), any.between(-0.99f, 0.99f));
+    std::array<Phase, 3> phases;
+    for (int i = 0; i < media; ++i) {
+      phases[i] = HenyeyGreenstein{any.between(-0.99f, 0.99f)};
+      mix.add(Rgb(any.positive(20), any.chance() ? any.positive(20) : 0, 1), phases[i]);
+    }
     const Vec3 wo = any.direction();
     const Rgb beta(any.positive(20), any.positive(20), any.positive(20));
     const float uc = any.unit();

@@ -76,14 +76,14 @@ TEST_CASE("uniformgrid reads as pbrt's, whatever the transform") {
     uniform.temperature.push_back(rng.uniform() * 6000 - 1000);
   }
   uniform.Le_factor = 0.5f;
-  const MediumOptics optics{{1, 2, 3}, {4, 5, 0.5f}, 0.7f};
+  const MediumOptics optics{{1, 2, 3}, {4, 5, 0.5f}, HenyeyGreenstein{0.7f}};
   const Bounds3 wide{{-1.5f, -0.5f, 1.5f}, {2.5f, 1.5f, 3.5f}};
   for (const Transform& to_world : kTransforms) {
     const ParticipatingMedium medium = built(uniform, to_world, optics);
     CHECK(medium.emissive());
     CHECK(medium.scatters());
     CHECK_FALSE(medium.homogeneous());
-    CHECK(medium.g() == 0.7f);
+    CHECK(medium.phase() == Phase(HenyeyGreenstein{0.7f}));
     double worst = 0, worst_Le = 0;
     int outside = 0;
     for (int i = 0; i < 20000; ++i) {
@@ -160,13 +160,14 @@ TEST_CASE("grids of impossible sizes and values are errors that say so") {
 }
 
 TEST_CASE("a homogeneous medium is everywhere and emits only what it absorbs") {
-  const ParticipatingMedium fog = built(HomogeneousMedium{{1, 2, 3}}, {}, {{0.1f, 0.2f, 0.3f}, {1, 1, 1}, 0.2f});
+  const ParticipatingMedium fog =
+      built(HomogeneousMedium{{1, 2, 3}}, {}, {{0.1f, 0.2f, 0.3f}, {1, 1, 1}, HenyeyGreenstein{0.2f}});
   CHECK(fog.homogeneous());
   CHECK(fog.emissive());
   CHECK(fog.at({1e6f, 0, 0}).Le == Rgb{1, 2, 3});
   CHECK(fog.bounds().contains({-1e30f, 1e30f, 0}));
-  CHECK_FALSE(built(HomogeneousMedium{{1, 2, 3}}, {}, {{0, 0, 0}, {1, 1, 1}, 0}).emissive());
-  CHECK_FALSE(built(HomogeneousMedium{}, {}, {{1, 1, 1}, {0, 0, 0}, 0}).scatters());
+  CHECK_FALSE(built(HomogeneousMedium{{1, 2, 3}}, {}, {{0, 0, 0}, {1, 1, 1}, {}}).emissive());
+  CHECK_FALSE(built(HomogeneousMedium{}, {}, {{1, 1, 1}, {0, 0, 0}, {}}).scatters());
 }
 
 TEST_CASE("cloud: density in [0,1], only inside its box, noise by Perlin's values") {
@@ -175,7 +176,7 @@ TEST_CASE("cloud: density in [0,1], only inside its box, noise by Perlin's value
   CHECK(perlin_noise({3.14f, 42, 7}) == doctest::Approx(0.13691995878400012).epsilon(1e-4));
   CloudMedium cloud;
   cloud.bounds = {{-1, -1, -1}, {1, 1, 1}};
-  const ParticipatingMedium medium = built(cloud, kTransforms[1], {Rgb{1.0f}, Rgb{2.0f}, 0});
+  const ParticipatingMedium medium = built(cloud, kTransforms[1], {Rgb{1.0f}, Rgb{2.0f}, {}});
   Rng rng(4);
   double sum = 0;
   for (int i = 0; i < 5000; ++i) {

@@ -74,7 +74,7 @@ TEST_CASE("pieces tile the ray in all 26 directions, from planes, edges and corn
   const auto source = test::random_voxels(5, {-16, 0, 8});
   Rng rng(1);
   for (const float thickness : {0.01f, 0.3f, 100.f}) {
-    const ParticipatingMedium medium = medium_of(source, {}, {Rgb{thickness}, Rgb{thickness * 2}, 0});
+    const ParticipatingMedium medium = medium_of(source, {}, {Rgb{thickness}, Rgb{thickness * 2}, {}});
     const BrickGrid& grid = medium.data().density.grid;
     std::uint64_t most = 8;
     for (int i = 0; i < 3; ++i) most += 3 * static_cast<std::uint64_t>((grid.support().hi[i] - grid.support().lo[i]) / 8 + 1);
@@ -130,7 +130,7 @@ TEST_CASE("pieces tile rays through rotated, stretched, mirrored and far-off gri
       const double size =
           std::cbrt(std::abs(1 / length(transform.inverse().vector({1, 0, 0})) / length(transform.inverse().vector({0, 1, 0})) /
                              length(transform.inverse().vector({0, 0, 1}))));
-      const ParticipatingMedium medium = medium_of(source, transform, {Rgb{static_cast<float>(0.2 / size)}, Rgb{0.0f}, 0});
+      const ParticipatingMedium medium = medium_of(source, transform, {Rgb{static_cast<float>(0.2 / size)}, Rgb{0.0f}, {}});
       int gaps = 0, violations = 0, capped = 0, missed = 0;
       double difference = 0;
       for (int i = 0; i < 300; ++i) {
@@ -162,9 +162,10 @@ TEST_CASE("pieces tile rays through rotated, stretched, mirrored and far-off gri
 }
 
 TEST_CASE("merged pieces tile the ray, rates and coefficients add") {
-  const auto first = medium_of(test::random_voxels(8, {0, 0, 0}), {}, {Rgb{0.1f, 0.2f, 0.3f}, Rgb{0.1f}, 0.5f});
-  const auto second =
-      medium_of(test::random_voxels(9, {16, -8, 0}), Transform::scale(0.7, 0.7, 0.7), {Rgb{0.4f}, Rgb{0.1f}, -0.5f});
+  const auto first =
+      medium_of(test::random_voxels(8, {0, 0, 0}), {}, {Rgb{0.1f, 0.2f, 0.3f}, Rgb{0.1f}, HenyeyGreenstein{0.5f}});
+  const auto second = medium_of(test::random_voxels(9, {16, -8, 0}), Transform::scale(0.7, 0.7, 0.7),
+                                {Rgb{0.4f}, Rgb{0.1f}, HenyeyGreenstein{-0.5f}});
   const auto fog = test::homogeneous({Rgb{0.01f}, Rgb{0.02f}, 0});
   std::vector<const ParticipatingMedium*> media{&first, &second, &fog};
   Rng rng(3);
@@ -198,14 +199,14 @@ TEST_CASE("merged pieces tile the ray, rates and coefficients add") {
 TEST_CASE("empty space is crossed in few pieces and an empty grid in one") {
   test::OracleSource empty;
   empty.add_leaf({0, 0, 0}, [](auto, auto, auto) { return 0.0f; });
-  const ParticipatingMedium nothing = medium_of(empty, {}, {Rgb{1.0f}, Rgb{1.0f}, 0});
+  const ParticipatingMedium nothing = medium_of(empty, {}, {Rgb{1.0f}, Rgb{1.0f}, {}});
   Rng rng(4);
   CHECK(walk_along<WalkMode::majorant>(nothing, {{-5, 3, 3}, {1, 0, 0}}, 0, kInf, rng).pieces == 1);
 
   test::OracleSource two;  // far apart
   two.add_leaf({0, 0, 0}, [](auto, auto, auto) { return 1.0f; });
   two.add_leaf({1 << 20, 0, 0}, [](auto, auto, auto) { return 1.0f; });
-  const ParticipatingMedium medium = medium_of(two, {}, {Rgb{1.0f}, Rgb{1.0f}, 0});
+  const ParticipatingMedium medium = medium_of(two, {}, {Rgb{1.0f}, Rgb{1.0f}, {}});
   const Tiling tiling = walk_along<WalkMode::majorant>(medium, {{-50, 3.5f, 3.5f}, {1, 0, 0}}, 0, kInf, rng);
   CHECK(tiling.gaps == 0);
   CHECK(tiling.pieces < 70);

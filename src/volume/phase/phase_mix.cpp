@@ -1,4 +1,4 @@
-#include "volume/phase_mix.h"
+#include "volume/phase/phase_mix.h"
 
 #include <algorithm>
 
@@ -12,15 +12,15 @@ Rgb share(Rgb part, Rgb total) {
 
 }  // namespace
 
-void PhaseMix::add(Rgb sigma_s, float g) {
+void PhaseMix::add(Rgb sigma_s, const Phase& phase) {
   if (is_black(sigma_s)) return;
   total_ += sigma_s;
   for (Lobe& lobe : lobes_)
-    if (lobe.g == g) {
+    if (lobe.phase == &phase || *lobe.phase == phase) {
       lobe.sigma_s += sigma_s;
       return;
     }
-  lobes_.push_back({sigma_s, g});
+  lobes_.push_back({sigma_s, &phase});
 }
 
 float PhaseMix::lobe_mass(const Lobe& lobe, Rgb beta) const {
@@ -30,17 +30,17 @@ float PhaseMix::lobe_mass(const Lobe& lobe, Rgb beta) const {
 
 Rgb PhaseMix::eval(Vec3 wo, Vec3 wi) const {
   Rgb sum;
-  for (const Lobe& lobe : lobes_) sum += share(lobe.sigma_s, total_) * HenyeyGreenstein{lobe.g}.pdf(wo, wi);
+  for (const Lobe& lobe : lobes_) sum += share(lobe.sigma_s, total_) * tyndall::pdf(*lobe.phase, wo, wi);
   return sum;
 }
 
 float PhaseMix::pdf(Vec3 wo, Vec3 wi, Rgb beta) const {
-  if (lobes_.size() == 1) return HenyeyGreenstein{lobes_[0].g}.pdf(wo, wi);
+  if (lobes_.size() == 1) return tyndall::pdf(*lobes_[0].phase, wo, wi);
   float sum = 0, mass = 0;
   for (const Lobe& lobe : lobes_) {
     const float m = lobe_mass(lobe, beta);
     mass += m;
-    sum += m * HenyeyGreenstein{lobe.g}.pdf(wo, wi);
+    sum += m * tyndall::pdf(*lobe.phase, wo, wi);
   }
   return mass > 0 ? sum / mass : 0;
 }
@@ -48,7 +48,7 @@ float PhaseMix::pdf(Vec3 wo, Vec3 wi, Rgb beta) const {
 std::optional<PhaseMix::MixSample> PhaseMix::sample(Vec3 wo, Rgb beta, float uc, Vec2 u) const {
   if (lobes_.empty()) return std::nullopt;
   if (lobes_.size() == 1) {
-    const PhaseSample s = HenyeyGreenstein{lobes_[0].g}.sample(wo, u);
+    const PhaseSample s = tyndall::sample(*lobes_[0].phase, wo, u);
     return MixSample{s.wi, share(total_, total_), s.pdf};
   }
   float mass = 0;
@@ -64,14 +64,14 @@ std::optional<PhaseMix::MixSample> PhaseMix::sample(Vec3 wo, Rgb beta, float uc,
     if (rest < m) break;
     rest -= m;
   }
-  const Vec3 wi = HenyeyGreenstein{chosen->g}.sample(wo, u).wi;
+  const Vec3 wi = tyndall::sample(*chosen->phase, wo, u).wi;
   const float density = pdf(wo, wi, beta);
   return MixSample{wi, eval(wo, wi) / density, density};
 }
 
 float PhaseMix::mean_cosine() const {
   float sum = 0;
-  for (const Lobe& lobe : lobes_) sum += lobe.g * mean(share(lobe.sigma_s, total_));
+  for (const Lobe& lobe : lobes_) sum += tyndall::mean_cosine(*lobe.phase) * mean(share(lobe.sigma_s, total_));
   return sum;
 }
 

@@ -5,12 +5,12 @@
 #include <optional>
 
 #include "math/small_vector.h"
-#include "volume/phase.h"
+#include "volume/phase/phase.h"
 
 namespace tyndall {
 
-/// Henyey-Greenstein lobes weighted by the scattering coefficient of their media, per channel:
-/// p(wo, wi) = sum_i sigma_s,i p_i(wo, wi) / sum_i sigma_s,i. Media with the same g share a lobe.
+/// Phase functions weighted by the scattering coefficients of their media, per channel:
+/// p(wo, wi) = sum_i sigma_s,i p_i(wo, wi) / sum_i sigma_s,i. Equal phase functions share a lobe.
 class PhaseMix {
  public:
   struct MixSample {
@@ -20,7 +20,9 @@ class PhaseMix {
   };
 
   PhaseMix() = default;
-  void add(Rgb sigma_s, float g);  ///< zero sigma_s is left out
+  /// `phase` must outlive it.
+  void add(Rgb sigma_s, const Phase& phase);  ///< zero sigma_s is left out
+  void add(Rgb sigma_s, const Phase&& phase) = delete;
   bool empty() const { return lobes_.empty(); }
   std::size_t lobe_count() const { return lobes_.size(); }
 
@@ -39,7 +41,7 @@ class PhaseMix {
  private:
   struct Lobe {
     Rgb sigma_s;
-    float g;
+    const Phase* phase;
   };
   float lobe_mass(const Lobe& lobe, Rgb beta) const;
 
