@@ -4,6 +4,7 @@
 #include "support/agreement.h"
 #include "support/constant_vdb.h"
 #include "support/scene_text.h"
+#include "support/strategies.h"
 
 using namespace tyndall;
 using namespace tyndall::test;
@@ -81,13 +82,13 @@ TEST_CASE("a wispy grid in one piece and as two overlapping halves with differen
 
 TEST_CASE("light strategies") {
   const std::string scene = many_lights();
-  check_all_agree("lights", scene,
-                  {{"tree", {.lights = LightStrategy::tree}},
-                   {"uniform", {.lights = LightStrategy::uniform, .candidates = 8}},
-                   {"power", {.lights = LightStrategy::power, .candidates = 8}},
-                   {"tree-binary", {.lights = LightStrategy::tree_binary}},
-                   {"exhaustive", {.lights = LightStrategy::exhaustive}}},
-                  {.d = pairwise_precision(5)});
+  std::vector<std::pair<std::string, Variant>> variants;
+  for (const LightStrategy lights : every_lights()) {
+    Variant variant{.lights = lights};
+    if (lights == LightStrategy::uniform || lights == LightStrategy::power) variant.candidates = 8;
+    variants.emplace_back(name_of(lights), variant);
+  }
+  check_all_agree("lights", scene, variants, {.d = pairwise_precision(variants.size())});
 }
 
 /// The same with surfaces that favour directions: metal, rough glass and a coat.
@@ -120,14 +121,25 @@ TEST_CASE("splitting, candidates and shadow rays: every pair of settings, and ni
   check_all_agree("resampling", scene, variants);
 }
 
+// Choices of light know a phase function by its mean cosine; weights and estimates by itself.
+TEST_CASE("phase functions, lit along segments, at collisions and by scattered rays") {
+  const std::string lights =
+      emitting_square({-1.2f, 0.8f, 1.4f}, 0.5f, 4) + environment(0.15f) + point_light({1.5f, 2, -1.5f}, 6);
+  for (const std::string& phase : kOtherPhases) {
+    const Coefficients smoke{.sigma_a = {0.2f, 0.1f, 0.3f}, .sigma_s = {1.5f, 1.2f, 1}, .phase = phase};
+    check_all_agree(
+        phase, view(camera()) + lights + diffuse_plane(1.8f, 4, 0.6f) + homogeneous("m", smoke) + medium_box("m", "", kBox),
+        {{"default", {}}, {"vertex", {.media = MediaStrategy::vertex}}, {"both", {.distance = DistanceStrategy::both}}});
+  }
+}
+
 TEST_CASE("transmittance estimators") {
   Coefficients dense = kSmoke;
   dense.sigma_a = kSmoke.sigma_a * 3;
   dense.sigma_s = kSmoke.sigma_s * 3;
   const std::string scene = room() + uniform_grid("m", dense, wispy_grid()) + medium_box("m", "", kBox);
-  check_all_agree("transmittance", scene,
-                  {{"residual", {.transmittance = TransmittanceStrategy::residual}},
-                   {"ratio", {.transmittance = TransmittanceStrategy::ratio}},
-                   {"delta", {.transmittance = TransmittanceStrategy::delta}}},
-                  {.d = pairwise_precision(3)});
+  std::vector<std::pair<std::string, Variant>> variants;
+  for (const TransmittanceStrategy t : every_transmittance())
+    variants.push_back({std::string(name_of(t)), {.transmittance = t}});
+  check_all_agree("transmittance", scene, variants, {.d = pairwise_precision(variants.size())});
 }

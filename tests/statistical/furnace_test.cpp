@@ -6,6 +6,7 @@
 #include "report/block_test.h"
 #include "support/agreement.h"
 #include "support/scene_text.h"
+#include "support/strategies.h"
 #include "support/transport_oracles.h"
 
 using namespace tyndall;
@@ -63,16 +64,24 @@ TEST_CASE("F1: a homogeneous medium, backward scattering, a diffuse white plane 
   check_agrees("F1 with a white plane", scene, {1.0, 1.0, 1.0}, kFurnace);
 }
 
+TEST_CASE("F1: every phase function scatters all that it takes") {
+  for (const std::string& phase : kOtherPhases) {
+    const std::string scene = view(perspective()) + environment(1) +
+                              uniform_grid("m", {.sigma_s = {6, 5, 7}, .phase = phase}, lumpy_grid()) +
+                              medium_box("m", "", kBox);
+    check_agrees("F1 with " + phase, scene, {1.0, 1.0, 1.0}, kFurnace);
+  }
+}
+
 // The weights of scattered rays that hit a light must know how seldom it is chosen among the others.
 TEST_CASE("F1: a white plane in a box of twelve lights, however a light is chosen") {
   const std::string scene =
       view({.eye = {0.1f, 0.2f, 2}, .look = {0.1f, 0.2f, 0}}) + glowing_box() + diffuse_plane(0.1f, 0.5f, 1);
-  using enum LightStrategy;
-  for (const LightStrategy lights : {tree, tree_binary, power, uniform, exhaustive}) {
+  for (const LightStrategy lights : every_lights()) {
     Agreement how{.d = nightly() ? 0.002 : 0.01};
     how.variant.lights = lights;
     check_agrees("F1 in a box of lights, " + std::string(name_of(lights)), scene, {1.0, 1.0, 1.0}, how);
-    if (lights == exhaustive) continue;
+    if (lights == LightStrategy::exhaustive) continue;
     how.variant.candidates = 4;
     check_agrees("F1 in a box of lights, 4 candidates, " + std::string(name_of(lights)), scene, {1.0, 1.0, 1.0}, how);
   }

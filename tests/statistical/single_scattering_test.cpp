@@ -5,6 +5,7 @@
 
 #include "support/agreement.h"
 #include "support/scene_text.h"
+#include "support/strategies.h"
 #include "support/transport_oracles.h"
 
 using namespace tyndall;
@@ -73,9 +74,8 @@ TEST_CASE("the quadrature agrees with the table") {
 // One row by each way of choosing light and distance, the other rows by the default; all by each nightly.
 TEST_CASE("single scattering by each choice of light and distance") {
   using enum DistanceStrategy;
-  for (const MediaStrategy media :
-       {MediaStrategy::vertex, MediaStrategy::closest, MediaStrategy::integral, MediaStrategy::product}) {
-    for (const DistanceStrategy distance : {tracking, equiangular, both, profile}) {
+  for (const MediaStrategy media : every_media()) {
+    for (const DistanceStrategy distance : every_distance()) {
       if (media == MediaStrategy::vertex && distance != tracking) continue;
       Variant variant;
       variant.media = media;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "math/hash.h"
+#include "support/strategies.h"
 #include "support/test_media.h"
 #include "volume/ray_march.h"
 
@@ -22,8 +23,7 @@ struct Line {
   float t0, t1;
 };
 
-constexpr TransmittanceStrategy kStrategies[] = {TransmittanceStrategy::residual, TransmittanceStrategy::ratio,
-                                                 TransmittanceStrategy::delta, TransmittanceStrategy::raymarch};
+const std::vector<TransmittanceStrategy> kStrategies = test::every_transmittance();
 
 /// Largest deviation over channels in standard errors; events rarer than `slack` are beyond the sample.
 double deviation(TransmittanceStrategy strategy, const Line& line, const test::LineIntegrals& exact, int count,

@@ -13,14 +13,14 @@ namespace tyndall::test {
 
 /// What a test changes of the scene's own settings.
 struct Variant {
-  LightStrategy lights = LightStrategy::tree;
-  TransmittanceStrategy transmittance = TransmittanceStrategy::residual;
-  int threads = 0;
-  std::optional<int> candidates{};
-  std::optional<int> shadow_rays{};
-  std::optional<float> splitting{};
-  MediaStrategy media = MediaStrategy::product;
-  DistanceStrategy distance = DistanceStrategy::automatic;
+  LightStrategy lights = RenderSettings{}.lights;
+  TransmittanceStrategy transmittance = RenderSettings{}.transmittance;
+  int threads = RenderSettings{}.threads;
+  std::optional<int> candidates = RenderSettings{}.candidates;
+  std::optional<int> shadow_rays = RenderSettings{}.shadow_rays;
+  std::optional<float> splitting = RenderSettings{}.splitting;
+  MediaStrategy media = RenderSettings{}.media;
+  DistanceStrategy distance = RenderSettings{}.distance;
   EmissionStrategy emission = RenderSettings{}.emission;
   GuidingStrategy guiding = RenderSettings{}.guiding;
   JointStrategy joint = RenderSettings{}.joint;
@@ -39,6 +39,7 @@ class Subject {
   /// so far, as text; empty, as it must be: within that.
   std::string faults() const;
   const Scene& scene() const { return scene_; }
+  const RenderSettings& settings() const { return settings_; }
 
  private:
   Scene scene_;

@@ -5,6 +5,7 @@
 #include "segment_cases.h"
 #include "support/chi_squared.h"
 #include "support/relative.h"
+#include "support/strategies.h"
 
 namespace tyndall {
 namespace {
@@ -41,8 +42,12 @@ SelectionInput mixed_input(std::size_t near, bool sky_partner) {
   return input;
 }
 
-constexpr LightStrategy kStrategies[] = {LightStrategy::uniform, LightStrategy::power, LightStrategy::tree,
-                                         LightStrategy::tree_binary, LightStrategy::cycles_rule};
+/// All that choose: exhaustive takes every light.
+const std::vector<LightStrategy> kStrategies = [] {
+  std::vector<LightStrategy> all = test::every_lights();
+  std::erase(all, LightStrategy::exhaustive);
+  return all;
+}();
 
 std::vector<PointQuery> queries() {
   std::vector<LightBounds> box{test::point_bounds({-1, -1, -1}, 1), test::point_bounds({1, 1, 1}, 1)};
