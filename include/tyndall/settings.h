@@ -11,7 +11,7 @@
 
 namespace tyndall {
 
-/// How one light is chosen for next-event estimation. ALGORITHMS: see README.
+/// How one light is chosen for next-event estimation. Methods: docs/methods.md.
 enum class LightStrategy { uniform, power, exhaustive, tree, tree_binary, cycles_rule };
 /// What stands for a stretch of medium when its light is chosen: a tracked collision, the point of the ray closest to the
 /// lights, the integral of 1/r^2 along it, or that times transmittance, scattering and phase function.

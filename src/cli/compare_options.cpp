@@ -57,8 +57,7 @@ void declare(CLI::App& command, CompareOptions& o) {
   declare_progress(command, o.progress);
   command.add_flag("--quiet", o.quiet, "no progress, notes or table; errors only");
   command.add_flag("--json", o.json, "results.json on stdout too");
-  command.footer(
-      "Options of render hold for all variants and for the reference. What is written: see README, Comparing methods.");
+  command.footer("Options of render hold for all variants and for the reference. What is written: see docs/comparing.md.");
 }
 
 std::string common_options(const CompareOptions& o) {

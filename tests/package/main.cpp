@@ -1,4 +1,4 @@
-// The program in README: a ball under a lamp, by hand.
+// The program in README: a ball under a light, by hand.
 #include <tyndall/io.h>
 #include <tyndall/render.h>
 

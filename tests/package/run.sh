@@ -15,8 +15,10 @@ cd "$scratch"
 build/uses_tyndall
 [ -s ball.exr ] || { echo "the outside program wrote no picture"; exit 1; }
 
-# README shows this very program.
+# README shows this very program, and docs/library.md begins with it.
 sed 1d "$here/main.cpp" >program.txt
-awk '/^```cpp/ { on = 1; next } /^```/ { on = 0 } on' "$here/../../README.md" >readme.txt
-diff program.txt readme.txt || { echo "README's program differs from tests/package/main.cpp"; exit 1; }
+for document in README.md docs/library.md; do
+  awk '/^```cpp/ { on = 1; next } on && /^```/ { exit } on' "$here/../../$document" >shown.txt
+  diff program.txt shown.txt || { echo "$document's program differs from tests/package/main.cpp"; exit 1; }
+done
 
