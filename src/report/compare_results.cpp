@@ -5,6 +5,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "report/compare_verdict.h"
 #include "report/machine.h"
 
 namespace tyndall {
@@ -111,6 +112,7 @@ Json compare_json(const CompareContext& context, const ComparePlan& plan, const 
   j["settings"] = {{"budget", budget_text(plan.budget)}, {"seeds", plan.seeds}, {"width", context.width},
                    {"height", context.height},           {"eps", kRelativeEps}, {"options", context.options},
                    {"command", context.command}};
+  j["verdict"] = compare_verdict(result.variants);
   j["warnings"] = result.warnings;
   j["variants"] = Json::array();
   for (const VariantResult& v : result.variants) j["variants"].push_back(variant_json(v));
@@ -142,6 +144,7 @@ std::string compare_table(const CompareResult& result) {
                         v.seconds, v.samples, v.error.relmse, v.slope ? fmt::format("{:.2f}", v.slope->value) : "-",
                         interval_text(v.efficiency), interval_text(v.efficiency_trimmed));
   }
+  if (const std::string verdict = compare_verdict(result.variants); !verdict.empty()) text += verdict + "\n";
   return text;
 }
 

@@ -122,15 +122,7 @@ const VARIANT_COLUMNS = [
 
 /** The result in one sentence. */
 function headline() {
-  const variants = RESULTS.variants ?? [], [base] = variants;
-  const best = variants.reduce((a, b) => ((b.efficiency?.relative ?? 0) > (a?.efficiency?.relative ?? 0) ? b : a), null);
-  if (!best || variants.length < 2) return null;
-  const lead = [element('strong', {}, best.name), ' is the most efficient'];
-  if (best === base) return element('p', {class: 'headline'}, lead, '.');
-  const path = (field) => variantPath(best, `efficiency.${field}`);
-  return element(
-      'p', {class: 'headline'}, lead, ': ', datum(path('relative'), formatFactor), ' as efficient as ',
-      element('strong', {}, base.name), ' (95 % interval ', datum(path('low')), ' to ', datum(path('high')), ').');
+  return RESULTS.verdict ? element('p', {class: 'headline'}, datum('verdict', formatText)) : null;
 }
 
 function header() {
