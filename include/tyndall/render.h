@@ -67,10 +67,11 @@ World build(Scene scene, const BuildSettings& settings = {});
 
 /// Where a render stands.
 struct Progress {
-  int samples_done = 0;  ///< per pixel
-  double fraction = 0;   ///< of the whole, [0, 1]; with what RenderControl::begin restored
-  double seconds = 0;    ///< since the start, of this process
-  double remaining = 0;  ///< estimated
+  bool preparing = false;  ///< looking at the film: no sample has begun
+  int samples_done = 0;    ///< per pixel
+  double fraction = 0;     ///< of the whole, [0, 1]; with what RenderControl::begin restored
+  double seconds = 0;      ///< since the start, of this process
+  double remaining = 0;    ///< estimated
 };
 
 /// A sample that was not finite and was counted as black.
@@ -94,8 +95,8 @@ struct RenderReport {
 /// n samples is the same however they were grouped.
 class RenderJob {
  public:
-  /// Called by one thread at a time while a pass runs, with the samples a pixel that it has done. Return false to give
-  /// the pass up. Must not throw.
+  /// Called by one thread at a time while a pass runs, with the samples a pixel that it has done, 0 while the first one looks
+  /// at the film beforehand. Return false to give the pass up. Must not throw.
   using PassWatch = std::function<bool(double samples)>;
 
   /// `world` must outlive the job. Of `settings`, `spp`, `time` and `error` are the caller's to keep.
@@ -120,9 +121,10 @@ class RenderJob {
   /// messages. Throws Error (scene), with both values for what differs, and leaves the job as it was.
   void restore(std::string_view bytes, const std::string& name);
 
-  PixelBounds pixels() const;  ///< of the frame, that are rendered
-  int samples() const;         ///< a pixel, so far
-  double seconds() const;      ///< spent in looking at the film beforehand and in advance(); after restore(), as saved
+  PixelBounds pixels() const;        ///< of the frame, that are rendered
+  int samples() const;               ///< a pixel, so far
+  double seconds() const;            ///< spent in advance(), looking at the film beforehand included; after restore(), as saved
+  double preparing_seconds() const;  ///< of these, spent in looking at the film
   /// relMSE that the two replicates of each pixel predict: mean of variance / (mean^2 + 0.01) over pixels and
   /// channels. Infinity below 2 samples.
   double estimated_relmse() const;

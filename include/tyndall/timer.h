@@ -1,4 +1,4 @@
-/// How long things take.
+/// How long things take: the one clock.
 #pragma once
 
 #include <chrono>
@@ -7,7 +7,15 @@ namespace tyndall {
 
 class Timer {
  public:
-  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }  ///< since it was made
+  double seconds() const {
+    return std::chrono::duration<double>(Clock::now() - start_).count();
+  }  ///< since it was made, or lap()
+  /// Seconds likewise; starts anew.
+  double lap() {
+    const double elapsed = seconds();
+    start_ = Clock::now();
+    return elapsed;
+  }
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -13,10 +13,10 @@
 #include "cli/progress_display.h"
 #include "cli/save.h"
 #include "cli/stop_signal.h"
-#include "cli/stopwatch.h"
 #include "report/compare_results.h"
 #include "report/page.h"
 #include "tyndall/io.h"
+#include "tyndall/timer.h"
 
 namespace tyndall::cli {
 namespace {
@@ -53,7 +53,7 @@ Reference make_reference(const World& world, RenderSettings settings, const Comp
 
 CompareResult run_plan(const World& world, const ComparePlan& plan, const Reference& reference, ProgressDisplay& display) {
   display.begin(fmt::format("{} variants, {} seeds", plan.variants.size(), plan.seeds.size()));
-  const Stopwatch watch;
+  const Timer watch;
   const auto progress = [&](double fraction) {
     const double seconds = watch.seconds();
     display.show({.samples_done = 0,

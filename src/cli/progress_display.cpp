@@ -38,17 +38,22 @@ void ProgressDisplay::begin(const std::string& activity) {
 void ProgressDisplay::show(const Progress& p) {
   if (kind_ == "json") {
     const std::string activity = nlohmann::json(activity_.substr(0, activity_.find(':'))).dump();
-    log("{{{}\"samples\":{},\"fraction\":{:.4f},\"seconds\":{:.2f},\"remaining\":{:.2f}}}\n",
-        activity_.empty() ? "" : "\"activity\":" + activity + ",", p.samples_done, p.fraction, p.seconds, p.remaining);
+    log("{{{}{}\"samples\":{},\"fraction\":{:.4f},\"seconds\":{:.2f},\"remaining\":{:.2f}}}\n",
+        activity_.empty() ? "" : "\"activity\":" + activity + ",", p.preparing ? "\"preparing\":true," : "", p.samples_done,
+        p.fraction, p.seconds, p.remaining);
   } else if (kind_ == "bar") {
     const int full = static_cast<int>(std::lround(p.fraction * kBarWidth));
-    const std::string samples = p.samples_done > 0 ? fmt::format("  {} spp", p.samples_done) : "";
+    const std::string samples = p.preparing          ? "  looking at the film"
+                                : p.samples_done > 0 ? fmt::format("  {} spp", p.samples_done)
+                                                     : "";
     log("\r{}[{:=<{}}{: <{}}] {:3.0f}%{}  {} left   ", activity_, "", full, "", kBarWidth - full, 100 * p.fraction, samples,
         duration(p.remaining));
     drawn_ = true;
   } else if (kind_ == "line" && p.seconds - last_line_ >= kLineSeconds) {
     last_line_ = p.seconds;
-    const std::string samples = p.samples_done > 0 ? fmt::format("{} spp, ", p.samples_done) : "";
+    const std::string samples = p.preparing          ? "looking at the film, "
+                                : p.samples_done > 0 ? fmt::format("{} spp, ", p.samples_done)
+                                                     : "";
     log("{}{:.0f}%, {}{} done, {} left\n", activity_, 100 * p.fraction, samples, duration(p.seconds), duration(p.remaining));
   }
 }

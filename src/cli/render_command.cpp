@@ -15,9 +15,9 @@
 #include "cli/room.h"
 #include "cli/save.h"
 #include "cli/stop_signal.h"
-#include "cli/stopwatch.h"
 #include "cli/summary.h"
 #include "tyndall/io.h"
+#include "tyndall/timer.h"
 
 namespace tyndall::cli {
 namespace {
@@ -78,7 +78,7 @@ void save_rendering(const Rendering& rendering, const std::string& output, const
 }
 
 int run_render(const RenderOptions& options) {
-  Stopwatch watch;
+  Timer watch;
   Summary summary;
   SceneFile file = read_scene(options.scene);
   apply(options, file.scene);

@@ -1,11 +1,11 @@
 // From the scene's descriptions to Lights: places every light, loads its images, and sets up the choice among them.
 #include <algorithm>
-#include <chrono>
 #include <map>
 
 #include "light/instance_runs.h"
 #include "light/lights_parts.h"
 #include "tyndall/error.h"
+#include "tyndall/timer.h"
 
 namespace tyndall {
 namespace {
@@ -265,10 +265,9 @@ void Builder::enclose() {
 }
 
 void Builder::add_selector(LightStrategy strategy, SelectionInput input) {
-  const auto start = std::chrono::steady_clock::now();
+  const Timer watch;
   parts_->selectors.push_back(make_selector(strategy, std::move(input)));
-  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-  parts_->selector_stats.push_back({strategy, elapsed.count(), parts_->selectors.back()->memory_bytes()});
+  parts_->selector_stats.push_back({strategy, watch.seconds(), parts_->selectors.back()->memory_bytes()});
 }
 
 /// For renders in which glowing media are found by scattered rays alone.

@@ -14,11 +14,10 @@
 #include <thread>
 
 #include "tyndall/error.h"
+#include "tyndall/timer.h"
 
 namespace tyndall {
 namespace {
-
-using Clock = std::chrono::steady_clock;
 
 constexpr auto kPoll = std::chrono::milliseconds(4);
 constexpr int kCouldNotStart = 127;  // as a shell says it
@@ -26,9 +25,7 @@ constexpr int kCouldNotStart = 127;  // as a shell says it
 struct Child {
   std::size_t index;
   pid_t id;
-  Clock::time_point start;
-
-  double seconds() const { return std::chrono::duration<double>(Clock::now() - start).count(); }
+  Timer running;
 };
 
 /// What a child needs, made before the fork: after it nothing may be allocated.
@@ -65,15 +62,15 @@ Child start(const ChildCommand& command, std::size_t index) {
   const pid_t id = fork();
   if (id < 0) throw Error(Failure::run_time, std::string("no process can be started: ") + std::strerror(errno));
   if (id == 0) become(prepared);
-  return {index, id, Clock::now()};
+  return {index, id, {}};
 }
 
 /// How the child ended; nothing while it runs.
 std::optional<ChildResult> ended(const Child& child) {
   int status = 0;
   if (waitpid(child.id, &status, WNOHANG) != child.id) return std::nullopt;
-  if (WIFSIGNALED(status)) return ChildResult{ChildResult::End::signalled, WTERMSIG(status), child.seconds()};
-  return ChildResult{ChildResult::End::exited, WEXITSTATUS(status), child.seconds()};
+  if (WIFSIGNALED(status)) return ChildResult{ChildResult::End::signalled, WTERMSIG(status), child.running.seconds()};
+  return ChildResult{ChildResult::End::exited, WEXITSTATUS(status), child.running.seconds()};
 }
 
 ChildResult end_by_force(const Child& child, ChildResult::End why) {
@@ -81,14 +78,14 @@ ChildResult end_by_force(const Child& child, ChildResult::End why) {
   int status = 0;
   while (waitpid(child.id, &status, 0) < 0 && errno == EINTR) {
   }
-  return {why, SIGKILL, child.seconds()};
+  return {why, SIGKILL, child.running.seconds()};
 }
 
 /// Result of a child that needs no more waiting.
 std::optional<ChildResult> finished(const Child& child, double timeout, bool stopped) {
   if (auto result = ended(child)) return result;
   if (stopped) return end_by_force(child, ChildResult::End::skipped);
-  if (child.seconds() > timeout) return end_by_force(child, ChildResult::End::timed_out);
+  if (child.running.seconds() > timeout) return end_by_force(child, ChildResult::End::timed_out);
   return std::nullopt;
 }
 

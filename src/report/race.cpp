@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <bit>
-#include <chrono>
 #include <numeric>
 #include <utility>
+
+#include "tyndall/timer.h"
 
 namespace tyndall {
 namespace {
@@ -27,16 +28,17 @@ bool stopped(const RaceControl& control) { return control.stop != nullptr && con
 class Runner {
  public:
   Runner(const World& world, const RenderSettings& settings, const RaceBudget& budget)
-      : job_(world, settings), prepared_(job_.seconds()), budget_(budget) {}
+      : job_(world, settings), budget_(budget) {}
 
   bool done() const { return run_.given_up || samples_left() == 0; }
 
   void turn(const RaceControl& control) {
     const int samples = next_pass();
     const bool first = job_.samples() == 0;
-    pass_start_ = Clock::now();
-    const auto go_on = [&](double) {
-      const bool patient = !first || !budget_.seconds || watch_seconds() < kPatience * *budget_.seconds;
+    pass_timer_ = {};
+    const auto go_on = [&](double samples_done) {
+      const double rendering = pass_timer_.seconds() - job_.preparing_seconds();
+      const bool patient = !first || samples_done == 0 || !budget_.seconds || rendering < kPatience * *budget_.seconds;
       return patient && !stopped(control);
     };
     if (!job_.advance(samples, go_on)) {
@@ -65,10 +67,7 @@ class Runner {
   }
 
  private:
-  using Clock = std::chrono::steady_clock;
-
-  double watch_seconds() const { return std::chrono::duration<double>(Clock::now() - pass_start_).count(); }
-  double a_sample() const { return (job_.seconds() - prepared_) / job_.samples(); }
+  double a_sample() const { return (job_.seconds() - job_.preparing_seconds()) / job_.samples(); }
 
   /// Samples that the budget still holds, to the nearest whole one.
   int samples_left() const {
@@ -88,10 +87,9 @@ class Runner {
   }
 
   RenderJob job_;
-  double prepared_;  ///< the job's clock before its first sample
   RaceBudget budget_;
   RaceRun run_;
-  Clock::time_point pass_start_;
+  Timer pass_timer_;
 };
 
 double mean_fraction(const std::vector<Runner>& runners) {

@@ -1,7 +1,6 @@
 #include "report/regress.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -13,6 +12,7 @@
 #include "report/statistics.h"
 #include "tyndall/error.h"
 #include "tyndall/io.h"
+#include "tyndall/timer.h"
 
 namespace tyndall {
 namespace {
@@ -218,7 +218,8 @@ class SuiteRun {
 
   SuiteResult finish(int jobs) {
     for (const CaseResult& faulty : result_.cases) {
-      if (control_.case_done) control_.case_done(faulty, progress(0, std::max<std::size_t>(runs_.size(), 1), seconds()));
+      if (control_.case_done)
+        control_.case_done(faulty, progress(0, std::max<std::size_t>(runs_.size(), 1), running_.seconds()));
     }
     std::vector<ChildCommand> commands;
     for (const Run& run : runs_) commands.push_back(run.command);
@@ -227,19 +228,16 @@ class SuiteRun {
                             .done = [&](std::size_t i, const ChildResult& child) { run_ended(i, child); },
                             .stop = control_.stop});
     std::sort(result_.cases.begin(), result_.cases.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
-    result_.seconds = seconds();
+    result_.seconds = running_.seconds();
     return std::move(result_);
   }
 
  private:
-  using Clock = std::chrono::steady_clock;
-  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
-
   void run_ended(std::size_t i, const ChildResult& child) {
     Bunch& bunch = bunches_[bunch_of_[i]];
     runs_[i].result = child;
     bunch.faulty = bunch.faulty || fault_of(runs_[i]).status != CaseStatus::pass;
-    const RegressProgress now = progress(++ended_, runs_.size(), seconds());
+    const RegressProgress now = progress(++ended_, runs_.size(), running_.seconds());
     if (control_.run_done) control_.run_done(now);
     if (--bunch.open > 0) return;
     result_.cases.push_back(verdict_.of(bunch));
@@ -253,7 +251,7 @@ class SuiteRun {
   std::vector<std::size_t> bunch_of_;  ///< each run
   std::size_t ended_ = 0;
   SuiteResult result_;
-  Clock::time_point start_ = Clock::now();
+  const Timer running_;
 };
 
 }  // namespace

@@ -60,6 +60,7 @@ std::optional<Progress> PassSchedule::progress(const RenderJob& job, double pass
   last_report_ = now;
   Progress p;
   p.samples_done = job.samples();
+  p.preparing = job.samples() == 0 && pass_samples == 0;
   p.seconds = now;
   // The job's clock stands still until a pass has ended.
   p.fraction = fraction(p.samples_done + pass_samples, job.seconds() + (pass_samples > 0 ? pass_timer_.seconds() : 0));

@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "math/timer.h"
 #include "tyndall/render.h"
+#include "tyndall/timer.h"
 
 namespace tyndall {
 

@@ -1,7 +1,7 @@
 // The loop around a RenderJob: how long it goes on, and who hears of it.
 
-#include "math/timer.h"
 #include "session/pass_schedule.h"
+#include "tyndall/timer.h"
 
 namespace tyndall {
 namespace {

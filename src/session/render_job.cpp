@@ -5,7 +5,6 @@
 #include <mutex>
 
 #include "math/parallel.h"
-#include "math/timer.h"
 #include "session/build_id.h"
 #include "session/checkpoint.h"
 #include "session/film_buffer.h"
@@ -15,6 +14,7 @@
 #include "transport/film_light.h"
 #include "transport/path.h"
 #include "transport/shine_light.h"
+#include "tyndall/timer.h"
 
 namespace tyndall {
 namespace {
@@ -86,15 +86,11 @@ class RenderJob::Impl {
         settings_(resolved(settings, world)),
         selector_(world.built.lights.selector(settings.lights, settings.emission == EmissionStrategy::lights)),
         film_(world.built.scene.film, full_crop(world.built.scene, settings), parse_aovs(settings.aovs)),
-        pool_(settings.threads),
-        film_lamps_(film_lamps(world.built, settings_, film_.crop(), pool_)),
-        film_shine_(film_shine(world.built, settings_, film_.crop(), pool_)),
-        film_edges_(film_edges(world.built, settings_, film_.crop(), pool_)) {
-    seconds_ = preparing_.seconds();
-  }
+        pool_(settings.threads) {}
 
   bool advance(int count, const PassWatch& watch, GivenUp if_given_up) {
     const Timer pass_timer;
+    if (!searched_) search_film(watch);
     RenderPass pass(film_.crop(), count, watch);
     const bool first = samples_ == 0, undo = if_given_up == GivenUp::undone;
     const Counters counters_before = counters_;
@@ -142,6 +138,7 @@ class RenderJob::Impl {
   const PixelBounds& pixels() const { return film_.crop(); }
   int samples() const { return samples_; }
   double seconds() const { return seconds_; }
+  double preparing_seconds() const { return preparing_seconds_; }
 
   RenderReport report() const {
     RenderReport r;
@@ -161,6 +158,22 @@ class RenderJob::Impl {
   }
 
  private:
+  /// What depends on no sample.
+  void search_film(const PassWatch& watch) {
+    const Timer search_timer;
+    const auto alive = [&] {
+      const std::scoped_lock lock(mutex_);
+      if (watch) watch(0);
+    };
+    const FilmSearch search{world_.built, settings_, film_.crop(), pool_, alive};
+    alive();
+    film_lamps_ = film_lamps(search);
+    film_shine_ = film_shine(search);
+    film_edges_ = film_edges(search);
+    searched_ = true;
+    preparing_seconds_ = search_timer.seconds();
+  }
+
   /// What a pixel's samples seek on the film.
   struct FilmLights {
     PixelLamps lamps;
@@ -267,12 +280,13 @@ class RenderJob::Impl {
     if (brightest > film.max_component) record.scale_radiance(film.max_component / brightest);
   }
 
-  const Timer preparing_;
   const World::Parts& world_;
   RenderSettings settings_;
   const LightSelector& selector_;
   FilmBuffer film_;
   ThreadPool pool_;
+  bool searched_ = false;
+  double preparing_seconds_ = 0;
   FilmLamps film_lamps_;
   FilmShine film_shine_;
   FilmEdges film_edges_;
@@ -297,6 +311,7 @@ void RenderJob::restore(std::string_view bytes, const std::string& name) { impl_
 PixelBounds RenderJob::pixels() const { return impl_->pixels(); }
 int RenderJob::samples() const { return impl_->samples(); }
 double RenderJob::seconds() const { return impl_->seconds(); }
+double RenderJob::preparing_seconds() const { return impl_->preparing_seconds(); }
 double RenderJob::estimated_relmse() const { return impl_->estimated_relmse(); }
 RenderReport RenderJob::report() const { return impl_->report(); }
 Image RenderJob::image() const { return impl_->image(); }

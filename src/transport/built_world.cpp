@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "math/timer.h"
 #include "transport/media/camera_media.h"
+#include "tyndall/timer.h"
 
 namespace tyndall {
 namespace {

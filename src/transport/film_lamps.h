@@ -26,11 +26,12 @@ class FilmReach {
  public:
   /// `finest`: pixels below which positions mean nothing.
   FilmReach(Vec2 filter_radius, float finest);
+  FilmReach() = default;
   Vec2 draw(Vec2 at, Vec2 u) const;
   float pdf(Vec2 at, Vec2 x) const;  ///< 1/pixels^2
 
  private:
-  float least_, most_;  ///< pixels
+  float least_ = 0, most_ = 0;  ///< pixels
 };
 
 /// The lamps that may be drawn for one pixel, and positions around them.
@@ -66,6 +67,7 @@ class FilmLamps {
     /// Whether the filter of one of the pixels may see that film position. Never, for filters too wide to look for lamps.
     bool sees(Vec2 at) const;
   };
+  FilmLamps() = default;
   FilmLamps(const View& view, std::vector<FilmLamp> lamps);
   /// Those that the filter of pixel (x, y) sees.
   PixelLamps of(int x, int y) const;

@@ -69,9 +69,10 @@ std::optional<FilmLamp> film_lamp(const BuiltWorld& world, const std::vector<Pla
 
 }  // namespace
 
-FilmLamps film_lamps(const BuiltWorld& world, const RenderSettings& settings, const PixelBounds& pixels, ThreadPool& pool) {
-  const FilmLamps::View view{pixels, world.scene.filter.radius, world.camera.film_rounding()};
-  const auto places = is_wanted(world, settings) ? places_with_lamps(world) : std::vector<Place>();
+FilmLamps film_lamps(const FilmSearch& search) {
+  const BuiltWorld& world = search.world;
+  const FilmLamps::View view{search.pixels, world.scene.filter.radius, world.camera.film_rounding()};
+  const auto places = is_wanted(world, search.settings) ? places_with_lamps(world) : std::vector<Place>();
   if (places.empty()) return {view, {}};
   const std::size_t count = world.scene.lights.size();  // the first of all, points and spots among them
   const auto look = [&](LightId light) -> std::optional<FilmLamp> {
@@ -79,7 +80,7 @@ FilmLamps film_lamps(const BuiltWorld& world, const RenderSettings& settings, co
     const auto at = p ? world.camera.film_position(*p) : std::nullopt;
     return at && view.sees(*at) ? film_lamp(world, places, light, *at) : std::nullopt;
   };
-  return {view, gather_lights(count, pool, look)};
+  return {view, gather_lights(count, search.pool, look)};
 }
 
 Rgb film_light(const LightContext& context, const PixelLamps& lamps, Vec2 center, Sampler sampler) {

@@ -5,15 +5,15 @@
 /// by lamp weighed by MIS against what the path's own ray from the camera gathers.
 #pragma once
 
-#include "math/parallel.h"
 #include "transport/film_lamps.h"
+#include "transport/film_search.h"
 #include "transport/joint_ray.h"
 
 namespace tyndall {
 
-/// The lamps to be drawn for pixels of `pixels`: points and spots within boxes of media. None where settings or the camera do
+/// The lamps to be drawn for the pixels: points and spots within boxes of media. None where settings or the camera do
 /// not have it: only rays from a pinhole are drawn.
-FilmLamps film_lamps(const BuiltWorld& world, const RenderSettings& settings, const PixelBounds& pixels, ThreadPool& pool);
+FilmLamps film_lamps(const FilmSearch& search);
 
 /// Unbiased estimate, for the pixel at `center`, of the share of lamps' light that FilmRay::own_share does not leave to the
 /// filter's samples. `lamps`, the pixel's, must not be empty.

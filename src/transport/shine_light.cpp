@@ -119,25 +119,28 @@ class ShineEstimate {
 
 }  // namespace
 
-FilmShine film_shine(const BuiltWorld& world, const RenderSettings& settings, const PixelBounds& pixels, ThreadPool& pool) {
-  if (!is_wanted(world, settings) || !similarity_scale(world.camera.to_world().matrix())) return {};
-  const FilmShine::View view{pixels, world.scene.filter.radius};
+FilmShine film_shine(const FilmSearch& search) {
+  const BuiltWorld& world = search.world;
+  if (!is_wanted(world, search.settings) || !similarity_scale(world.camera.to_world().matrix())) return {};
+  const FilmShine::View view{search.pixels, world.scene.filter.radius};
   const std::size_t count = world.lights.first_volume();  // before them are all that instances do not share
   const auto look = [&](LightId light) {
     const auto spot = spot_of(world, light);
     return spot && view.wants(*spot) ? spot : std::nullopt;
   };
-  const auto spots = gather_lights(count, pool, look);
+  const auto spots = gather_lights(count, search.pool, look);
   return spots.size() > kMostSpots ? FilmShine() : FilmShine(view, spots);
 }
 
-FilmEdges film_edges(const BuiltWorld& world, const RenderSettings& settings, const PixelBounds& pixels, ThreadPool& pool) {
-  const FilmEdges::View view{pixels, world.scene.filter.radius};
-  if (!is_wanted(world, settings) || !(std::max(view.filter_radius.x, view.filter_radius.y) <= FilmShine::kWidestFilter))
+FilmEdges film_edges(const FilmSearch& search) {
+  const BuiltWorld& world = search.world;
+  const FilmEdges::View view{search.pixels, world.scene.filter.radius};
+  if (!is_wanted(world, search.settings) || !(std::max(view.filter_radius.x, view.filter_radius.y) <= FilmShine::kWidestFilter))
     return {};
   const PixelBounds all = view.around();
   std::vector<float> brightness(all.size());
-  pool.for_each(static_cast<std::size_t>(all.height()), 1, [&](std::size_t row) {
+  search.pool.for_each(static_cast<std::size_t>(all.height()), 1, [&](std::size_t row) {
+    search.alive();
     const int y = all.y0 + static_cast<int>(row);
     for (int x = all.x0; x < all.x1; ++x) {
       const Ray ray = world.camera.ray({static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f}, {0.5f, 0.5f});

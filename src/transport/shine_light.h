@@ -6,20 +6,20 @@
 /// Both are weighed by MIS, surface by surface.
 #pragma once
 
-#include "math/parallel.h"
 #include "transport/film_edges.h"
+#include "transport/film_search.h"
 #include "transport/film_shine.h"
 #include "transport/light_context.h"
 
 namespace tyndall {
 
-/// Surfaces to aim at for pixels of `pixels`: shining primitives that stand for themselves, not shared by instances. None where
+/// Surfaces to aim at for the pixels: shining primitives that stand for themselves, not shared by instances. None where
 /// settings or the camera do not have it: only rays of a pinhole that is not distorted are aimed.
-FilmShine film_shine(const BuiltWorld& world, const RenderSettings& settings, const PixelBounds& pixels, ThreadPool& pool);
+FilmShine film_shine(const FilmSearch& search);
 
-/// Pixels of `pixels` that look through several film positions. None where settings or the camera do not have it: only pinholes
+/// Pixels that look through several film positions. None where settings or the camera do not have it: only pinholes
 /// do.
-FilmEdges film_edges(const BuiltWorld& world, const RenderSettings& settings, const PixelBounds& pixels, ThreadPool& pool);
+FilmEdges film_edges(const FilmSearch& search);
 
 /// How a pixel's samples look at shining surfaces.
 struct ShineView {

@@ -55,6 +55,7 @@ TEST_CASE("the time that a running pass takes counts before it has ended") {
   PassSchedule schedule(settings, false);
   std::optional<Progress> during;
   job.advance(schedule.next_pass(job), [&](double samples) {
+    if (samples == 0) return true;  // it looks at the film
     const auto progress = schedule.progress(job, samples);
     if (progress) during = progress;
     return true;
@@ -63,6 +64,26 @@ TEST_CASE("the time that a running pass takes counts before it has ended") {
   CHECK(job.samples() == 1);
   CHECK(during->samples_done == 0);
   CHECK(during->fraction > 1e-3);  // the share of the samples is 1e-6
+}
+
+TEST_CASE("a render that looks at the film before its first sample shows that it does") {
+  const World world = test::world_of(test::sphere_scene(16, 16), {.threads = 1});
+  const RenderSettings settings{.spp = 2, .threads = 1};
+  RenderJob job(world, settings);
+  PassSchedule schedule(settings, false);
+  std::optional<Progress> first;
+  job.advance(schedule.next_pass(job), [&](double samples) {
+    if (!first) first = schedule.progress(job, samples);
+    return true;
+  });
+  REQUIRE(first);
+  CHECK(first->preparing);
+  CHECK(first->fraction == 0);
+  CHECK(job.preparing_seconds() > 0);
+  CHECK(job.preparing_seconds() < job.seconds());
+  PassSchedule later(settings, false);
+  later.next_pass(job);
+  CHECK_FALSE(later.progress(job, 0)->preparing);
 }
 
 }  // namespace

@@ -1,0 +1,19 @@
+/// What is looked for on the film before the first sample.
+#pragma once
+
+#include <functional>
+
+#include "math/parallel.h"
+#include "transport/built_world.h"
+
+namespace tyndall {
+
+struct FilmSearch {
+  const BuiltWorld& world;
+  const RenderSettings& settings;
+  PixelBounds pixels;  ///< of the frame, that are rendered
+  ThreadPool& pool;
+  std::function<void()> alive;  ///< called now and then, by any thread; what takes long shows that it goes on
+};
+
+}  // namespace tyndall
