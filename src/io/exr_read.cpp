@@ -209,8 +209,10 @@ std::atomic<int> most_threads{kUsefulThreads};  ///< OpenEXR's pool is one for t
 int exr_threads(std::size_t values) {
   constexpr std::size_t kSmall = 1 << 21;
   const int wanted = std::min(static_cast<int>(std::thread::hardware_concurrency()), most_threads.load());
+  // Asking makes the pool. Made by the first task, in memory that there is not, it would leave who waits for the task waiting.
+  const int there = Imf::globalThreadCount();
   if (values < kSmall || wanted <= 1) return 0;
-  if (Imf::globalThreadCount() < wanted) Imf::setGlobalThreadCount(wanted);
+  if (there < wanted) Imf::setGlobalThreadCount(wanted);
   return wanted;
 }
 
