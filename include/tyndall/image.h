@@ -1,6 +1,7 @@
 /// Float images with named channels: what a render gives, and what an image file holds.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -50,6 +51,12 @@ struct Image {
   int height() const { return data.height(); }
   Channel& add_channel(std::string name);               ///< zero-filled; returns the new channel
   const Channel* find(std::string_view channel) const;  ///< null when absent
+  /// Null when absent, or not of that type.
+  template <typename T>
+  const T* attribute(const std::string& name) const {
+    const auto found = attributes.find(name);
+    return found == attributes.end() ? nullptr : std::get_if<T>(&found->second);
+  }
   Rgb rgb(int x, int y) const;  ///< R G B (or Y) at data-window-relative x, y; throws Error when the image has neither
 };
 

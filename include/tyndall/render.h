@@ -18,9 +18,9 @@ namespace tyndall {
 
 struct BuildSettings {
   std::vector<LightStrategy> lights{LightStrategy::tree};  ///< those that will be rendered with
-  bool fire = false;      ///< glowing media can be sought as lights: what EmissionStrategy::lights needs
-  bool sanitize = false;  ///< NaN and infinite voxels become 0 instead of an error
-  int threads = 0;        ///< 0: all cores
+  bool volume_lights = false;  ///< media that emit can be sampled as lights: what EmissionStrategy::lights needs
+  bool sanitize = false;       ///< NaN and infinite voxels become 0 instead of an error
+  int threads = 0;             ///< 0: all cores
   /// Bytes: a scene that is estimated to need more, film and volumes included, is refused before anything is built.
   std::size_t max_memory = std::numeric_limits<std::size_t>::max();
 };
@@ -91,7 +91,7 @@ struct RenderReport {
   std::vector<BadSample> bad_samples;  ///< the first 16
 };
 
-/// A render that its caller advances: to interleave several, or to look at the picture on the way. The image after
+/// A render that its caller advances: to interleave several, or to look at the picture in between. The image after
 /// n samples is the same however they were grouped.
 class RenderJob {
  public:
@@ -136,7 +136,7 @@ class RenderJob {
   std::unique_ptr<Impl> impl_;
 };
 
-/// A hand on a running render.
+/// Control of a running render.
 struct RenderControl {
   /// Called a few times a second by one thread at a time, which waits for it; may be empty. Must not throw.
   std::function<void(const Progress&)> progress{};
@@ -163,6 +163,6 @@ struct Rendering {
 /// threads or time (but for the number of samples when `settings.time` is set). Throws Error (usage) as RenderJob does.
 Rendering render(const World& world, const RenderSettings& settings, const RenderControl& control = {});
 
-std::string_view version();  ///< "0.1.0"
+std::string_view version();  ///< "0.2.0"
 
 }  // namespace tyndall

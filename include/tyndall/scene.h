@@ -192,7 +192,7 @@ struct PointLight {
   Rgb I;          ///< W/sr
 };
 struct SpotLight {
-  Transform to_world;                ///< light at the origin, shining along +z
+  Transform to_world;                ///< light at the origin, emitting along +z
   Rgb I;                             ///< on the axis
   float cone_angle_degrees = 30;     ///< half angle where it reaches 0
   float falloff_start_degrees = 25;  ///< half angle where it begins to fall, pbrt's smoothstep

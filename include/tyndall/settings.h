@@ -8,31 +8,32 @@
 #include <vector>
 
 #include "tyndall/image.h"
+#include "tyndall/slice.h"
 
 namespace tyndall {
 
 /// How one light is chosen for next-event estimation. Methods: docs/methods.md.
 enum class LightStrategy { uniform, power, exhaustive, tree, tree_binary, cycles_rule };
-/// What stands for a stretch of medium when its light is chosen: a tracked collision, the point of the ray closest to the
-/// lights, the integral of 1/r^2 along it, or that times transmittance, scattering and phase function.
+/// What stands for a segment of a ray in media when its light is chosen: a tracked collision, the point of the ray closest to
+/// the lights, the integral of 1/r^2 along it, or that times transmittance, scattering and phase function.
 enum class MediaStrategy { vertex, closest, integral, product };
-/// How the distance at which a ray's light is gathered is sampled: at tracked collisions, equi-angular toward the light
-/// [Kulla and Fajardo 2012], both with MIS, or equi-angular times a coarse profile of the medium. `automatic`: profile;
-/// with MediaStrategy::vertex, which knows no other, tracking. MediaStrategy::product then chooses lights as vertex does where
-/// they all are far from a dense stretch.
+/// How the distance at which a ray's light is gathered is sampled: at tracked collisions, equi-angular toward the light [Kulla
+/// and Fajardo 2012], both with MIS, or equi-angular times a coarse profile of the medium. `automatic`: profile; with
+/// MediaStrategy::vertex, which knows no other, tracking. MediaStrategy::product then chooses lights as vertex does where they
+/// all are far from a dense segment.
 enum class DistanceStrategy { automatic, tracking, equiangular, both, profile };
-/// How the glow of media reaches what it lights: by scattered rays that happen to pass through it, or by next-event
-/// estimation toward it as well, with MIS. The second needs a grid, whose bricks are then lights among the others; it pays
-/// where small fires light surfaces, not where smoke that scatters the glow fills the picture.
+/// How the volume emission of media reaches what it illuminates: by scattered rays that happen to pass through it, or by
+/// next-event estimation toward it as well, with MIS. The second needs a grid, whose bricks are then lights among the others;
+/// it pays where small flames illuminate surfaces, not where smoke that scatters their light fills the picture.
 enum class EmissionStrategy { paths, lights };
-/// Where paths go from the surface that they meet first: as it scatters, or also toward grids and clouds that glow, with MIS.
-/// `automatic`: the latter with MediaStrategy::product, the former with what stands for other programs' methods. Homogeneous
-/// media draw no paths, and paths of one event need none.
+/// Where paths go from the first surface: as it scatters, or also toward grids and clouds that scatter or emit much light, with
+/// MIS. `automatic`: the latter with MediaStrategy::product, the former with what stands for other programs' methods. Not
+/// toward homogeneous media, and not in single scattering.
 enum class GuidingStrategy { automatic, off, media };
-/// Whether rays are also drawn close to point and spot lights in media, with MIS: a collision aims the next one near lights
-/// that shine on it, and a pinhole's pixel takes film positions near the images of those that its filter sees. The pixel also
-/// aims at small shining surfaces that it sees, in media or not. `automatic`: they are with MediaStrategy::product, and not
-/// with what stands for other programs' methods. LightStrategy::exhaustive has no part in it.
+/// Whether rays are also drawn close to point and spot lights in media, with MIS: a collision draws the next one near lights
+/// that reach it, and a pinhole's pixel takes film positions near the images of those that its filter covers. The pixel also
+/// aims at small emissive surfaces that it sees, in media or not. `automatic`: they are with MediaStrategy::product, and not
+/// with what stands for other programs' methods. Not with LightStrategy::exhaustive.
 enum class JointStrategy { automatic, off, points };
 /// Estimator of transmittance along shadow rays.
 enum class TransmittanceStrategy { residual, ratio, delta, raymarch };
@@ -43,20 +44,19 @@ struct RenderSettings {
   /// relMSE (mean of variance / (mean^2 + 0.01), from the render's own replicates) to stop below; looked at when the
   /// samples are 64, 128, 256 ...
   std::optional<double> error{};
-  int max_depth = 5;  ///< scattering events a path, counted as pbrt's volpath; >= 0
+  int max_depth = 5;  ///< bounces a path, counted as pbrt's volpath; >= 0
   std::uint64_t seed = 0;
   int threads = 0;                             ///< 0: all cores
   LightStrategy lights = LightStrategy::tree;  ///< one that the World was built with
-  /// Lights chosen at a vertex or along a stretch of medium, >= 0; 0: as many as splitting makes clusters, one without a
-  /// tree. Exhaustive takes all lights and traces all. Unset: 2, where a surface favours directions 4, along stretches
-  /// of medium 3. Paths of one event (max_depth 1) take 8, along media 16.
+  /// Candidates at a vertex or along a segment in media, >= 0; 0: as many as splitting makes clusters, one without a tree.
+  /// Exhaustive takes all lights and traces all. Unset: 2, where a surface favours directions 4, along segments in media 3.
+  /// Single scattering (max_depth 1) takes 8, along media 16.
   std::optional<int> candidates{};
-  /// Of the candidates, are traced, >= 0; 0: every one. Unset: 2, paths of one event all or most.
+  /// Of the candidates, are traced, >= 0; 0: every one. Unset: 2, in single scattering all or most.
   std::optional<int> shadow_rays{};
-  /// Clusters of the light tree that are predicted worse than this are split, in [0, 1]; 0: none, 1: down to single
-  /// lights. Up to 15 clusters are made, or as many as there are candidates if those are more; with 0 candidates there is
-  /// no limit. No part in strategies without a wide tree. Unset: 0.5 where there are 8 candidates or more, or no limit; 0
-  /// elsewhere.
+  /// Clusters of the light tree that are predicted worse than this are split, in [0, 1]; 0: none, 1: down to single lights. Up
+  /// to 15 clusters are made, or as many as there are candidates if those are more; with 0 candidates there is no limit. Not
+  /// used by strategies without a wide tree. Unset: 0.5 where there are 8 candidates or more, or no limit; 0 elsewhere.
   std::optional<float> splitting{};
   MediaStrategy media = MediaStrategy::product;
   DistanceStrategy distance = DistanceStrategy::automatic;
@@ -66,6 +66,8 @@ struct RenderSettings {
   TransmittanceStrategy transmittance = TransmittanceStrategy::raymarch;
   std::vector<std::string> aovs{};  ///< names from aov_names()
   std::optional<PixelBounds> crop{};
+  /// Of the samples only these, to be merged with the other slices. `spp` are those of all slices; `time` is that of each.
+  std::optional<SliceChoice> slice{};
   bool reproducible = false;  ///< leave times and dates out of the image header
 };
 

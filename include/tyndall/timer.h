@@ -7,9 +7,8 @@ namespace tyndall {
 
 class Timer {
  public:
-  double seconds() const {
-    return std::chrono::duration<double>(Clock::now() - start_).count();
-  }  ///< since it was made, or lap()
+  /// Since it was made, or lap().
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
   /// Seconds likewise; starts anew.
   double lap() {
     const double elapsed = seconds();

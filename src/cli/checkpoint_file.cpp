@@ -20,8 +20,9 @@ bool CheckpointFile::resume(RenderJob& job, const RenderSettings& limits) const 
     throw Error(Failure::scene,
                 fmt::format("{}: holds {}; give {}, or remove it, or leave out --resume, to begin anew", path_, holds, give));
   };
-  if (job.samples() > limits.spp) {
-    refuse(fmt::format("{} samples a pixel, more than the {} asked for", job.samples(), limits.spp),
+  const int wanted = sample_range(limits).count;
+  if (job.samples() > wanted) {
+    refuse(fmt::format("{} samples a pixel, more than the {} asked for", job.samples(), wanted),
            fmt::format("--spp {} or more", job.samples()));
   }
   // The time counts from the beginning of the unbroken render. One that was cut off after its last pass holds a little more

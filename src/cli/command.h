@@ -7,12 +7,13 @@
 
 namespace tyndall::cli {
 
-void add_render(CLI::App& app, int& exit_code);
 void add_info(CLI::App& app, int& exit_code);
 void add_check(CLI::App& app, int& exit_code);
 void add_merge(CLI::App& app, int& exit_code);
-/// `command_line`: what the report states as the command that made it.
+/// `command_line`: what was typed, for slices and reports to say.
+void add_render(CLI::App& app, int& exit_code, const std::string& command_line);
 void add_compare(CLI::App& app, int& exit_code, const std::string& command_line);
+void add_status(CLI::App& app, int& exit_code);
 void add_example(CLI::App& app, int& exit_code);
 void add_diff(CLI::App& app, int& exit_code);
 void add_regress(CLI::App& app, int& exit_code);

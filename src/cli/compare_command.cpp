@@ -28,9 +28,9 @@ World build_for(Scene scene, const ComparePlan& plan, const RenderSettings& base
                          .sanitize = o.picture.sanitize,
                          .threads = base.threads,
                          .max_memory = memory_limit(o.max_memory)};
-  settings.fire = base.emission == EmissionStrategy::lights;
+  settings.volume_lights = base.emission == EmissionStrategy::lights;
   for (const CompareVariant& v : plan.variants) {
-    settings.fire = settings.fire || v.settings.emission == EmissionStrategy::lights;
+    settings.volume_lights = settings.volume_lights || v.settings.emission == EmissionStrategy::lights;
     auto& known = settings.lights;
     if (std::find(known.begin(), known.end(), v.settings.lights) == known.end()) known.push_back(v.settings.lights);
   }

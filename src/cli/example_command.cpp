@@ -66,7 +66,7 @@ void add_example(CLI::App& app, int& exit_code) {
                    "of smoke-lights' lights, triangle (in a few binary PLY files) or point (a line of text each) [triangle]; "
                    "--shape point")
       ->check(CLI::IsMember({"triangle", "point"}));
-  command->add_option("--max-depth", a->options.max_depth, "scattering events a path, at most [see --list]; --max-depth 8");
+  command->add_option("--max-depth", a->options.max_depth, "bounces a path, at most [see --list]; --max-depth 8");
   command->add_option("--resolution", a->resolution, "frame size in pixels [640x360]; --resolution 1280x720");
   command->add_option("--seed", a->options.seed, "of everything random in the scene [0]; --seed 7")->check(whole_number());
   command->footer("Examples and their defaults:\n" + list_text());

@@ -25,13 +25,14 @@ std::string command_line(int argc, char** argv) {
 int run(int argc, char** argv) {
   CLI::App app("Tyndall renders smoke, cloud and fire lit by many lights.", "tyndall");
   app.set_version_flag("--version", "tyndall " + std::string(tyndall::version()));
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);
   app.footer(kExitCodes);
   int exit_code = 0;
-  tyndall::cli::add_render(app, exit_code);
+  tyndall::cli::add_render(app, exit_code, command_line(argc, argv));
   tyndall::cli::add_info(app, exit_code);
   tyndall::cli::add_check(app, exit_code);
   tyndall::cli::add_merge(app, exit_code);
+  tyndall::cli::add_status(app, exit_code);
   tyndall::cli::add_compare(app, exit_code, command_line(argc, argv));
   tyndall::cli::add_example(app, exit_code);
   tyndall::cli::add_diff(app, exit_code);
@@ -43,6 +44,7 @@ int run(int argc, char** argv) {
     tyndall::cli::log("tyndall: {}; see tyndall --help\n", e.what());
     return static_cast<int>(tyndall::Failure::usage);
   }
+  if (app.get_subcommands().empty()) tyndall::cli::print_text(app.help());
   return exit_code;
 }
 

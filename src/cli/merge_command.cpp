@@ -1,13 +1,21 @@
 #include <fmt/core.h>
 
+#include <chrono>
 #include <filesystem>
+#include <optional>
+#include <thread>
 
 #include "cli/command.h"
 #include "cli/log.h"
+#include "cli/merge_inputs.h"
+#include "cli/merge_report.h"
 #include "cli/output_paths.h"
 #include "cli/save.h"
+#include "cli/stop_signal.h"
+#include "cli/validators.h"
 #include "report/merge.h"
 #include "tyndall/error.h"
+#include "tyndall/timer.h"
 
 namespace tyndall::cli {
 namespace {
@@ -16,6 +24,7 @@ struct MergeOptions {
   std::vector<std::string> slices;
   std::string output;
   MergeSettings settings;
+  std::optional<double> error, watch;
   bool quiet = false;
 };
 
@@ -25,36 +34,84 @@ std::string attribute_text(const Image& image, const std::string& name) {
   return number ? std::to_string(*number) : std::get<std::string>(value);
 }
 
+void report(const Merged& merged, const MergeOptions& options) {
+  const Image& image = merged.image;
+  if (!options.quiet) {
+    log("{}: {} x {} pixels at {}, {} from {} image(s), {} samples a pixel, seed {}\n", options.output, image.width(),
+        image.height(), image.data.x0, image.data.y0, merged.images, attribute_text(image, "tyndall/samples"),
+        attribute_text(image, "tyndall/seed"));
+  }
+  if (!options.quiet || !merged.complete()) log_text(as_text(merged, options.error));
+}
+
+Merged merge_once(const MergeOptions& options, const std::vector<std::string>& files) {
+  Merged merged = merge_slices(files, options.settings);
+  save_image(merged.image, options.output);
+  report(merged, options);
+  return merged;
+}
+
+/// Again whenever something has come, until all slices are there.
+int merge_again_and_again(const MergeOptions& options) {
+  constexpr auto kLook = std::chrono::milliseconds(100);  // for a stop
+  catch_stop_signals("stopping; the picture of what has come stays\n");
+  MergeInputs seen;
+  for (;;) {
+    MergeInputs inputs = merge_inputs(options.slices, options.output);
+    if (inputs.any_there() && inputs != seen) {
+      try {
+        if (merge_once(options, inputs.paths).complete()) return 0;
+      } catch (const Error& e) {
+        if (e.failure() != Failure::scene) throw;
+        log("tyndall: {}; waiting for a change\n", e.what());
+      }
+      seen = std::move(inputs);
+    }
+    const Timer waiting;
+    while (waiting.seconds() < *options.watch) {
+      if (stop_requested()) return stop_exit_code();
+      std::this_thread::sleep_for(kLook);
+    }
+  }
+}
+
 int run_merge(const MergeOptions& options) {
   if (std::filesystem::path(options.output).extension() != ".exr") {
     throw Error(Failure::usage, "output " + options.output + " is not understood; give a name that ends in .exr");
   }
   check_writable(options.output);
-  const Image image = merge_slices(options.slices, options.settings);
-  save_image(image, options.output);
-  if (!options.quiet) {
-    log("{}: {} x {} pixels at {}, {} from {} image(s), {} samples a pixel, seed {}\n", options.output, image.width(),
-        image.height(), image.data.x0, image.data.y0, options.slices.size(), attribute_text(image, "tyndall/samples"),
-        attribute_text(image, "tyndall/seed"));
-  }
-  return 0;
+  if (options.watch) return merge_again_and_again(options);
+  const bool complete = merge_once(options, merge_inputs(options.slices, options.output).paths).complete();
+  return complete ? 0 : static_cast<int>(Failure::incomplete);
 }
 
 }  // namespace
 
 void add_merge(CLI::App& app, int& exit_code) {
-  auto* command = app.add_subcommand("merge", "join renders of one scene: other seeds, other crops, or both");
+  auto* command = app.add_subcommand("merge", "join renders of one scene: slices, other seeds, other crops");
   command->footer(
       "Pixels are averaged by their sample counts. Z, P and Zvol stay means over the samples that hit something, exactly:\n"
       "renders count those in SurfaceCount and VolumeCount. Variance becomes that of the joined mean, with its degrees of\n"
       "freedom in Dof. Slices must have the same scene hash, frame and channels; one seed may cover a pixel only once.\n"
       "The order of slices does not matter, and a merged image can be merged again. Exit code 3: they do not go together.\n"
+      "All slices of one render (render --slice) give the image of the whole, bit for bit. When some are missing or damaged\n"
+      "those that came are merged, the others named with the commands that render them, and the exit code is 7.\n"
       "Example: tyndall merge seed1.exr seed2.exr -o both.exr");
   auto options = std::make_shared<MergeOptions>();
-  command->add_option("slices", options->slices, "images that tyndall render or merge wrote, .exr")->required();
+  command->add_option("slices", options->slices, "images that tyndall render or merge wrote, .exr, and folders of them")
+      ->required();
   command->add_option("-o,--output", options->output, "image to write, .exr; -o whole.exr")->required();
   command->add_flag("--fill-black", options->settings.fill_black,
                     "pixels that no slice holds become black, with SampleCount 0, instead of an error");
+  command
+      ->add_option("--error", options->error,
+                   "relMSE that is wanted: the summary says how many samples more it takes [none]; --error 0.001")
+      ->check(positive());
+  command
+      ->add_option("--watch", options->watch,
+                   "seconds between looks: the picture of the slices that have come is written again and again, until all are "
+                   "there [none]; --watch 30")
+      ->check(positive());
   command->add_flag("--quiet", options->quiet, "no summary; errors only");
   command->callback([options, &exit_code] { exit_code = run_merge(*options); });
 }

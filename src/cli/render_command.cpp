@@ -1,3 +1,4 @@
+#include <filesystem>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -32,7 +33,7 @@ void check_outputs(const RenderOptions& options, const Scene& scene, const std::
 World build_for(const RenderOptions& options, Scene scene) {
   const RenderSettings& settings = scene.settings;
   const BuildSettings how{.lights = {settings.lights},
-                          .fire = settings.emission == EmissionStrategy::lights,
+                          .volume_lights = settings.emission == EmissionStrategy::lights,
                           .sanitize = options.picture.sanitize,
                           .threads = settings.threads,
                           .max_memory = memory_limit(options.max_memory)};
@@ -77,7 +78,25 @@ void save_rendering(const Rendering& rendering, const std::string& output, const
   if (remove_checkpoint) remove_checkpoint();
 }
 
-int run_render(const RenderOptions& options) {
+/// What was rendered before need not be rendered again: an array of jobs can be submitted as often as you like.
+bool is_there(const std::string& output, const World& world, const RenderSettings& settings) {
+  std::error_code absent;
+  if (!settings.slice || !std::filesystem::exists(output, absent)) return false;
+  try {
+    return holds_slice(read_image(output), world, settings);
+  } catch (const Error&) {
+    return false;  // damaged: it is rendered anew
+  }
+}
+
+/// A slice says how it was made, so that the command for others can be told; one of a picture that is not all there is none.
+void finish_slice(Rendering& rendering, const std::string& output, const std::string& command_line) {
+  if (rendering.report.unrendered > 0)
+    throw Error(Failure::incomplete, output + ": not written: the slice was stopped before every pixel had a sample");
+  rendering.image.attributes["tyndall/command"] = command_line;
+}
+
+int run_render(const RenderOptions& options, const std::string& command_line) {
   Timer watch;
   Summary summary;
   SceneFile file = read_scene(options.scene);
@@ -97,9 +116,14 @@ int run_render(const RenderOptions& options) {
   summary.build_seconds = watch.lap();
   if (!options.quiet) log_text(notes_text(options.scene, file.warnings, summary.build));
 
+  if (options.resume && is_there(summary.output, world, settings)) {
+    if (!options.quiet) log("{}: this slice is there already; nothing to do\n", summary.output);
+    return 0;
+  }
   if (reference) reference->require_fit(world, settings, {settings.seed});
   if (reference) companions.errors.emplace(std::move(*reference), options.error_log);
-  const Rendering rendering = render_with(companions, world, settings, options);
+  Rendering rendering = render_with(companions, world, settings, options);
+  if (settings.slice) finish_slice(rendering, summary.output, command_line);
   summary.render = rendering.report;
   summary.width = rendering.image.width();
   summary.height = rendering.image.height();
@@ -115,11 +139,11 @@ int run_render(const RenderOptions& options) {
 
 }  // namespace
 
-void add_render(CLI::App& app, int& exit_code) {
+void add_render(CLI::App& app, int& exit_code, const std::string& command_line) {
   auto* command = app.add_subcommand("render", "render a scene to an image");
   auto options = std::make_shared<RenderOptions>();
   declare(*command, *options);
-  command->callback([options, &exit_code] { exit_code = run_render(*options); });
+  command->callback([options, command_line, &exit_code] { exit_code = run_render(*options, command_line); });
 }
 
 }  // namespace tyndall::cli

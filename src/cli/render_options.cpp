@@ -73,6 +73,15 @@ void set_samples(const RenderOptions& options, RenderSettings& settings) {
   if (!options.spp && (options.time || options.error)) settings.spp = std::numeric_limits<int>::max();
 }
 
+void set_slice(const RenderOptions& options, RenderSettings& settings) {
+  if (options.slice.empty()) return;
+  const auto numbers = integers(options.slice, '/');
+  if (numbers.size() != 2) bad("--slice", options.slice, "I/N, such as 3/16");
+  settings.slice = SliceChoice{numbers[0], numbers[1]};
+  if (!options.reference.empty()) throw Error(Failure::usage, "--slice has no --error-log: a part's error is not the whole's");
+  sample_range(settings);  // throws for what cannot be
+}
+
 }  // namespace
 
 void declare(CLI::App& command, MethodOptions& o) {
@@ -85,7 +94,7 @@ void declare(CLI::App& command, MethodOptions& o) {
   }
   command
       .add_option("--candidates", o.candidates,
-                  "lights chosen at a vertex or along a stretch of medium and looked at without visibility; 0: one for each "
+                  "lights chosen at a vertex or along a segment and looked at without visibility; 0: one for each "
                   "cluster that --splitting makes [the Integrator's, else 3 along media, 4 on glossy surfaces and 2 on others, "
                   "but not more than there are lights; more with --max-depth 1]; --candidates 8")
       ->check(CLI::Range(0, 4096));
@@ -106,7 +115,8 @@ void declare(CLI::App& command, PictureOptions& o) {
   command.add_option("--crop", o.crop, "pixels x0,x1,y0,y1 to render, ends excluded [the Film's]; --crop 0,480,0,270");
   command.add_option("--resolution", o.resolution, "frame size in pixels [the Film's]; --resolution 960x540");
   command
-      .add_option("--max-depth", o.max_depth, "scattering events a path, at most [the Integrator's, else 5]; --max-depth 16")
+      .add_option("--max-depth", o.max_depth,
+                  "bounces a path, at most, counted as pbrt's volpath does [the Integrator's, else 5]; --max-depth 16")
       ->check(CLI::Range(0, 1 << 20));
   command.add_flag("--sanitize", o.sanitize, "NaN and infinite voxels become 0 instead of an error");
 }
@@ -143,6 +153,10 @@ void declare(CLI::App& command, RenderOptions& o) {
                   "stop when the estimated relMSE, mean of variance / (mean^2 + 0.01), is below this; looked at when the "
                   "samples are 64, 128, 256 ... [none]; --error 0.001")
       ->check(positive());
+  command.add_option(
+      "--slice", o.slice,
+      "only the I-th of N slices of the samples, of which --spp is the number of all; tyndall merge adds them up to the "
+      "same image, bit for bit [all samples]; --slice 3/16");
   command.add_option("--threads", o.threads, "threads [0: one a core]; --threads 2")->check(CLI::Range(0, 4096));
   command.add_option("--seed", o.seed, "of the random numbers [0]; --seed 7")->check(whole_number());
   declare(command, o.picture);
@@ -198,6 +212,7 @@ void apply(const RenderOptions& o, Scene& scene) {
   if (o.threads) s.threads = *o.threads;
   if (o.seed) s.seed = *o.seed;
   s.reproducible = s.reproducible || o.reproducible;
+  set_slice(o, s);
   apply(o.methods, s);
   apply(o.picture, scene);
   if (!o.aovs.empty()) s.aovs = names_in(o.aovs);
@@ -220,6 +235,7 @@ std::string output_path(const RenderOptions& options, const Scene& scene) {
   }
   const std::string ending = ending_of(path);
   if (ending != ".exr" && ending != ".png") bad("output", path, "a name that ends in .exr or .png");
+  if (ending == ".png" && scene.settings.slice) bad("output", path, "a name that ends in .exr: a slice holds exact sums");
   return path;
 }
 

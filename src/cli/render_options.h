@@ -34,7 +34,7 @@ struct RenderOptions {
   std::optional<int> spp, threads;
   std::optional<double> time, error, checkpoint, max_memory;
   std::optional<std::uint64_t> seed;
-  std::string reference, error_log, aovs, progress = "auto";
+  std::string reference, error_log, aovs, slice, progress = "auto";
   bool reproducible = false, quiet = false, json = false, resume = false;
 
   bool keeps_checkpoints() const { return checkpoint || resume; }

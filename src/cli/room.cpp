@@ -27,12 +27,13 @@ std::uint64_t channels_of(const Scene& scene) { return 4 + 4 * scene.settings.ao
 
 std::uint64_t largest_image(const Scene& scene, const std::string& path) {
   if (fs::path(path).extension() == ".png") return 3 * pixels_of(scene) + kHeader;
-  return sizeof(float) * channels_of(scene) * pixels_of(scene) + kHeader;
+  const std::uint64_t sums = scene.settings.slice ? 3 * (3 + channels_of(scene)) : 0;
+  return sizeof(float) * (channels_of(scene) + sums) * pixels_of(scene) + kHeader;
 }
 
 /// The film's sums: of colour once for the even and once for the odd samples.
 std::uint64_t largest_checkpoint(const Scene& scene) {
-  return sizeof(double) * (3 + channels_of(scene)) * pixels_of(scene) + kHeader;
+  return (sizeof(double) + sizeof(float)) * (3 + channels_of(scene)) * pixels_of(scene) + kHeader;
 }
 
 /// Free on the disk of `path`, and what stands there now and will be replaced.

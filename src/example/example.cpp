@@ -18,7 +18,7 @@ const std::vector<Entry>& entries() {
   constexpr auto kNone = std::nullopt;
   static const std::vector<Entry> list{
       {{"glossy-lights", "coloured lights over metal of six roughnesses", 10000, kNone, kNone, 5}, make_glossy_lights},
-      {{"mesh-light-fog", "a glowing knot in fog: one mesh of many emissive triangles", 20000, 1.0, kNone, 16},
+      {{"mesh-light-fog", "an emissive knot in fog: one mesh of many emissive triangles", 20000, 1.0, kNone, 16},
        make_mesh_light_fog},
       {{"ceiling", "a Cornell box with small lights all over its ceiling", 10000, kNone, kNone, 5}, make_ceiling},
       {{"smoke-lights", "a plume of smoke with lights around and inside it", 10000, 1.0, LampShape::triangle, 16},

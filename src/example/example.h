@@ -20,7 +20,7 @@ struct ExampleOptions {
   std::optional<std::int64_t> lights{};  ///< how many, [1, 10 000 000]
   std::optional<double> density{};       ///< factor on the medium's density, [0, 1000]
   std::optional<LampShape> shape{};
-  std::optional<int> max_depth{};  ///< scattering events a path, >= 0
+  std::optional<int> max_depth{};  ///< bounces a path, >= 0
   int width = 640, height = 360;   ///< pixels
   std::uint64_t seed = 0;          ///< of everything random in the scene
 };

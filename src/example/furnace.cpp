@@ -24,7 +24,7 @@ void add_medium_ball(PbrtText& text, std::string_view name, std::string_view med
 
 std::vector<ExampleFile> make_furnace(const ExampleSettings& s) {
   PbrtText text = scene_head(s, {.eye = {0, 0, -9}, .look = {0, 0, 0}, .fov_degrees = 30});
-  text << "# An infinite light, half of it hidden by a dome that shines alike, so that both kinds of light are sampled.\n"
+  text << "# An infinite light, half of it hidden by a dome of the same radiance, so that both kinds of light are sampled.\n"
        << "LightSource \"infinite\" \"rgb L\" [1 1 1]\nAttributeBegin\n";
   add_emission(text, Rgb(1.0f));
   text << "  ReverseOrientation\n  Shape \"sphere\" \"float radius\" 40 \"float zmin\" 0\nAttributeEnd\n# Surfaces.\n";

@@ -13,7 +13,7 @@ namespace tyndall {
 
 struct Lamp {
   Vec3 position;
-  Vec3 normal{0, -1, 0};  ///< unit; where a triangle shines
+  Vec3 normal{0, -1, 0};  ///< unit; the side to which a triangle emits
   int color = 0;          ///< index into the palette
   float share = 0;        ///< of all lamps' power
 };

@@ -1,4 +1,4 @@
-/// Figure 2 of Conty Estevez and Kulla: one emissive mesh of many triangles in a participating medium. A glowing trefoil
+/// Figure 2 of Conty Estevez and Kulla: one emissive mesh of many triangles in a participating medium. An emissive trefoil
 /// knot stands in a cage of slats, which cut its light into shafts. Its tube is open toward the viewer, who sees its dark
 /// inside: the edges of a bright mesh make noise that would drown what the scene is to show.
 #include <cmath>
@@ -48,7 +48,7 @@ TriangleMesh knot(std::size_t triangles, Rng& rng) {
   return mesh;
 }
 
-/// Without the triangles that shine toward the viewer.
+/// Without the triangles that emit toward the viewer.
 void shade_from(Vec3 eye, TriangleMesh& mesh) {
   std::vector<std::uint32_t> kept;
   for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <charconv>
 #include <cstring>
@@ -33,9 +34,22 @@ std::string folder_of(const std::string& path) {
   return folder.empty() ? "." : folder;
 }
 
-/// "/a/.plume.exr.": what the names of temporary files for /a/plume.exr begin with; then comes the process, a number, ".part".
+/// Of this machine, in letters that file names take. Folders are shared by machines that count processes each for itself.
+std::string host_name() {
+  constexpr std::size_t kLongest = 40;
+  char name[256] = "";
+  if (::gethostname(name, sizeof name - 1) != 0) name[0] = '\0';
+  std::string host = std::string(name).substr(0, kLongest);
+  for (char& c : host) {
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '-';
+  }
+  return host;
+}
+
+/// "/a/.plume.exr.node7.": what the names of this machine's temporary files for /a/plume.exr begin with; then comes the
+/// process, a number, ".part".
 fs::path temporary_prefix(const std::string& target) {
-  return fs::path(folder_of(target)) / ("." + fs::path(target).filename().string() + ".");
+  return fs::path(folder_of(target)) / ("." + fs::path(target).filename().string() + "." + host_name() + ".");
 }
 
 /// Who made the temporary file `name`, "PREFIX1234.0.part"; nothing for another file.

@@ -34,8 +34,8 @@ class AtomicFile {
   bool committed_ = false;
 };
 
-/// Removes the temporary files of AtomicFile for `path` whose processes were killed before they could. Failures are
-/// ignored.
+/// Removes the temporary files of AtomicFile for `path` whose processes, on this machine, were killed before they could.
+/// Failures are ignored.
 void remove_abandoned_files(const std::string& path);
 
 }  // namespace tyndall

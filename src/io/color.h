@@ -43,7 +43,7 @@ struct ConductorRgb {
 };
 /// eta and k such that each channel's reflectance at normal incidence is the colour of the spectral reflectance
 /// under D65. Averaging eta and k themselves would not give that, since Fresnel's formula is not linear in them:
-/// eta is the averaged one, and k follows from the reflectance (eta gives way where no k >= 0 fits).
+/// eta is the averaged one, and k follows from the reflectance (eta is changed where no k >= 0 fits).
 ConductorRgb conductor_rgb(const Spectrum& eta, const Spectrum& k);
 
 enum class ColorSpaceId { srgb, rec2020, aces2065_1, dci_p3 };

@@ -50,7 +50,7 @@ Spectrum from_file(const State& state, const Param& p) {
   return from_pairs(p, numbers);
 }
 
-/// Colours of names and temperatures are kept: a million lamps of one temperature are integrated once.
+/// Colours of names and temperatures are kept: a million lights of one temperature are integrated once.
 template <typename Make>
 Rgb cached(State& state, const std::string& key, Make make) {
   const auto it = state.spectrum_colors.find(key);

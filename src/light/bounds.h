@@ -1,4 +1,4 @@
-/// What the light tree knows of a light, or of a cluster of them: where, which way, how much.
+/// What the light tree knows of a light, or of a cluster of them: position, directions, power.
 #pragma once
 
 #include "light/cone.h"
@@ -16,14 +16,14 @@ struct LightBounds {
   bool two_sided = false;
 };
 
-/// What selection reckons a colour by: the mean magnitude of its channels, 0 for black alone.
+/// The scalar that selection uses for a colour: the mean magnitude of its channels, 0 for black alone.
 inline double strength(Rgb c) { return (std::abs(double(c.r)) + std::abs(double(c.g)) + std::abs(double(c.b))) / 3; }
 
 /// Bounds of both clusters together. Of a two-sided pair an axis may be turned round if that narrows the cone.
 LightBounds bounds_union(const LightBounds& a, const LightBounds& b);
 void expand(LightBounds& a, const LightBounds& b);  ///< a = bounds_union(a, b)
 
-/// Solid angle of the normals plus the cosine-weighted skirt of their emission, in [0, 4 pi]:
+/// Solid angle of the normals plus the cosine-weighted falloff of their emission, in [0, 4 pi]:
 /// the orientation measure of the surface area orientation heuristic [Conty Estevez and Kulla 2018, eq. 1].
 double orientation_measure(const LightBounds& bounds);
 

@@ -1,4 +1,4 @@
-/// A light as the wide tree's construction sees it.
+/// A light as the construction of the wide tree stores it.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,8 @@
 
 namespace tyndall {
 
-/// A light while the tree is built, lengths in the tree's unit: fourteen words, so that two loads of eight bring all
-/// that splits look at.
+/// A light while the tree is built, lengths in the tree's unit: fourteen words, so that two loads of eight read all that splits
+/// need.
 struct BuildLight {
   float low[3], minus_high[3];  ///< box
   float axis[3];

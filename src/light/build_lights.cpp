@@ -270,7 +270,7 @@ void Builder::add_selector(LightStrategy strategy, SelectionInput input) {
   parts_->selector_stats.push_back({strategy, watch.seconds(), parts_->selectors.back()->memory_bytes()});
 }
 
-/// For renders in which glowing media are found by scattered rays alone.
+/// For renders in which media that emit are found by scattered rays alone.
 void Builder::add_selectors_of_surfaces(SelectionInput input) {
   if (parts_->volumes.empty()) return;
   const std::size_t first = parts_->lights.size() - parts_->volumes.size();

@@ -1,4 +1,4 @@
-/// What is known of a cluster of lights: bounds of where and which way, and how the power is spread within.
+/// What is known of a cluster of lights: bounds of positions and directions, and how the power is distributed.
 #pragma once
 
 #include <cstdint>

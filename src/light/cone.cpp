@@ -25,7 +25,7 @@ DirectionCone cone_union(const DirectionCone& a, const DirectionCone& b) {
   const DirectionCone& narrow = a.theta >= b.theta ? b : a;
   if (wide.full() || wide.axis == narrow.axis) return wide;
 
-  // The common case at little cost: cos(k) is at most its series cut after a positive term.
+  // The common case cheaply: cos(k) is at most its series cut after a positive term.
   const float k2 = (wide.theta - narrow.theta) * (wide.theta - narrow.theta);
   const float cos_bound = 1 - k2 / 2 * (1 - k2 / 12 * (1 - k2 / 30 * (1 - k2 / 56)));
   if (dot(wide.axis, narrow.axis) >= cos_bound + 2e-6f) return wide;

@@ -38,7 +38,7 @@ class SpotEmitter {
   Rgb intensity() const { return I_; }
   Vec3 position() const { return position_; }
   LightBounds bounds() const;  ///< without intensity
-  /// All directions that it shines into, everything when the transform distorts it.
+  /// All directions that it emits into, everything when the transform distorts it.
   DirectionCone beam() const { return core_.full() ? core_ : DirectionCone::around(core_.axis, end_); }
 
  private:
@@ -47,7 +47,7 @@ class SpotEmitter {
   Rgb I_;
   float start_, end_;  ///< half angles where the falloff begins and ends, radians
   float cos_start_, cos_end_;
-  DirectionCone core_;  ///< where it shines fully; everything when the transform distorts it
+  DirectionCone core_;  ///< where its intensity is full; everything when the transform distorts it
 };
 
 class DistantEmitter {

@@ -27,7 +27,7 @@ struct Emission {
   Rgb L;
   Rgb mean;  ///< of L times the image, over the image
   std::optional<float> power;
-  float power_per_radiosity = 1;  ///< the image's mean luminance: what `power` is reckoned by
+  float power_per_radiosity = 1;  ///< the image's mean luminance, which `power` is divided by
   bool two_sided = false;
   std::optional<std::uint32_t> image;
   std::optional<TextureId> alpha;

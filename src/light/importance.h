@@ -1,4 +1,4 @@
-/// How much light a point can get from a cluster: the heuristic behind every choice, and a strict test for none.
+/// How much light a point can get from a cluster: the heuristic behind every choice, and a strict test for zero.
 ///
 /// All arithmetic is in double precision: no distance of floats under- or overflows when squared, and scaling the scene
 /// changes nothing. Zero is returned only where no light of the cluster can contribute (with a margin for the rounding

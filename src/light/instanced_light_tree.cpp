@@ -150,10 +150,10 @@ std::size_t InstancedLightTree::memory_bytes() const {
 }
 
 using Point = InstancedLightTree::Localized<PointQuery>;
-using Stretch = InstancedLightTree::Localized<Segment>;
+using Range = InstancedLightTree::Localized<Segment>;
 template std::optional<InstancedLightTree::Choice> InstancedLightTree::descend(NodeRef, const Point&, double) const;
-template std::optional<InstancedLightTree::Choice> InstancedLightTree::descend(NodeRef, const Stretch&, double) const;
+template std::optional<InstancedLightTree::Choice> InstancedLightTree::descend(NodeRef, const Range&, double) const;
 template double InstancedLightTree::ascend(NodeRef, NodeRef, const Point&) const;
-template double InstancedLightTree::ascend(NodeRef, NodeRef, const Stretch&) const;
+template double InstancedLightTree::ascend(NodeRef, NodeRef, const Range&) const;
 
 }  // namespace tyndall

@@ -1,10 +1,10 @@
-/// The wide light tree of a scene in which objects that emit light stand many times: a top tree over the scene's own lights
-/// and the instances, each a cluster, and one tree for each object that all its instances share. A query is taken into
-/// the object's space on the way down, where importance is the same up to a factor, since instances only turn, mirror,
-/// scale evenly and move what they show.
+/// The wide light tree of a scene in which objects that emit light stand many times: a top tree over the scene's own lights and
+/// the instances, each a cluster, and one tree for each object that all its instances share. During the descent a query is
+/// taken into the object's space, where importance is the same up to a factor, since instances only turn, mirror, scale evenly
+/// and move what they show.
 ///
-/// Clusters are numbered as if every instance had nodes of its own, after those of the top tree. The root of an object's
-/// tree, as a cluster, is the instance's leaf in the top tree: there the way up goes on.
+/// Clusters are numbered as if every instance had nodes of its own, after those of the top tree. The root of an object's tree,
+/// as a cluster, is the instance's leaf in the top tree: there the ascent goes on.
 #pragma once
 
 #include <type_traits>

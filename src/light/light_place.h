@@ -1,4 +1,4 @@
-/// Where a light is and where it shines, as much of it as choosing a distance along a ray can use.
+/// Position and directions of a light, as much of it as choosing a distance along a ray can use.
 #pragma once
 
 #include <optional>
@@ -11,10 +11,10 @@ namespace tyndall {
 struct LightPlace {
   std::optional<Vec3> center;  ///< nothing: at infinity
   float radius = 0;            ///< of a sphere around it
-  /// Unit normal of a flat light, whose plane `center` is in; zero: it is not flat. It shines on that side, or on both.
+  /// Unit normal of a flat light, whose plane `center` is in; zero: it is not flat. It emits to that side, or to both.
   Vec3 normal{};
   bool two_sided = false;
-  /// What a light without extent shines into.
+  /// The beam of a light without extent.
   DirectionCone beam = DirectionCone::everything();
 
   bool flat() const { return normal != Vec3{}; }
@@ -29,8 +29,8 @@ struct RayPart {
   double begin, end;  ///< may be infinite
 };
 
-/// Where light of it may arrive on the line of a ray with unit direction: in front of a flat one, in the beam of a spot. Wider
-/// by what rounding may do to a point of the ray; all of the line for lights that shine everywhere.
+/// Where light of it may arrive on the line of a ray with unit direction: in front of a flat one, in the beam of a spot light.
+/// Wider by what rounding may do to a point of the ray; all of the line for lights that emit everywhere.
 RayPart lit_part(const LightPlace& light, const Ray& ray);
 
 }  // namespace tyndall

@@ -44,7 +44,7 @@ class LightTree {
   };
 
   LightTree() = default;
-  /// `lights` is reordered on the way and empty afterwards. Equal input gives an equal tree.
+  /// `lights` is reordered, and empty afterwards. Equal input gives an equal tree.
   explicit LightTree(std::vector<TreeLight> lights, ChildRule rule = ChildRule::proportional);
 
   struct Choice {

@@ -29,7 +29,7 @@ struct LightSample {
   Rgb L;                ///< radiance that arrives when nothing is in between; delta lights: irradiance facing them
   float pdf;            ///< 1/sr; 1 for delta lights
   bool delta;           ///< no scattered ray can find it
-  bool volume = false;  ///< a glowing medium: the light is all along wi, and L a guess at it
+  bool volume = false;  ///< a medium that emits: the light is all along wi, and L an approximation
 };
 
 /// What the render side knows of an emissive primitive that its ray hit.
@@ -51,7 +51,7 @@ struct LightBuildOptions {
   std::vector<LightStrategy> strategies{LightStrategy::tree};  ///< a selector is built for each
   const Textures* textures = nullptr;        ///< read for the alpha of emissive shapes; null: opaque. Must outlive the lights
   int threads = 0;                           ///< to build with; 0: one a core
-  std::span<const VolumeEmitter> volumes{};  ///< pieces of glowing media; their ids are consecutive
+  std::span<const VolumeEmitter> volumes{};  ///< pieces of media that emit; their ids are consecutive
 };
 
 /// For the summary of a build.
@@ -84,12 +84,11 @@ class Lights {
   bool empty() const { return size() == 0; }
   /// How many lights sample() with an MIS partner gives anything of: not of even skies, which are left to the partner.
   std::size_t sought() const;
-  /// Throws Error (usage) for a strategy that the lights were not built with. `with_volumes`: glowing media are chosen too.
+  /// Throws Error (usage) for a strategy that the lights were not built with. `with_volumes`: media that emit are chosen too.
   const LightSelector& selector(LightStrategy strategy, bool with_volumes = true) const;
   std::span<const SelectorStats> selectors() const;  ///< in the order asked for
 
-  /// A direction from `p` toward the light. Nothing when it cannot contribute there, and for volumes: theirs are found
-  /// by who knows the medium.
+  /// A direction from `p` toward the light. Nothing when it cannot contribute there, and for volumes: theirs need the medium.
   /// `mis_partner`: scattered rays, weighted by MIS, find environments too; they are then sampled by what exceeds
   /// their mean [Karlik et al. 2019], which leaves the rest to the partner. Without one use false.
   std::optional<LightSample> sample(LightId light, Vec3 p, Vec2 u, bool mis_partner) const;
@@ -108,9 +107,9 @@ class Lights {
   LightId first_volume() const;
   double power(LightId light) const;  ///< W, mean of the channels
   LightPlace place(LightId light) const;
-  /// Where a point or spot light stands; nothing for any other. The scene's light sources, these among them, are the first.
+  /// Position of a point or spot light; nothing for any other. The scene's light sources, these among them, are the first.
   std::optional<Vec3> point(LightId light) const;
-  /// Encloses all lights of surfaces and points; empty where all are at infinity. Glowing media are not in it.
+  /// Encloses all lights of surfaces and points; empty where all are at infinity. Media that emit are not in it.
   const Bounds3& near_box() const;
   const Bounds3& point_box() const;  ///< of point and spot lights alone
   const LightStats& stats() const;

@@ -23,7 +23,7 @@ struct Lights::Parts {
   };
 
   double power(LightId light) const;  ///< W, mean of the channels; 0: it can never contribute
-  /// Lights of instances come last, and are found by who knows the instances.
+  /// Lights of instances come last, and are found through the instances.
   Reference find(LightId light) const { return light < lights.size() ? lights[light] : Reference{Kind::instanced, 0, 0}; }
 
   std::vector<Reference> lights;

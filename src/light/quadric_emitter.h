@@ -16,7 +16,7 @@ class QuadricEmitter {
   QuadricEmitter(const Shape& shape, const Transform& to_world, bool opaque);
 
   double area() const { return area_; }
-  /// Largest area of a projection, roughly: what its intensity is reckoned by.
+  /// Largest area of a projection, roughly: what its intensity is computed from.
   double projected_area() const { return projected_area_; }
   EmitterExtent extent() const;
   LightPlace place() const;  ///< flat for disks

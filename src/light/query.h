@@ -9,7 +9,7 @@
 
 namespace tyndall {
 
-/// Scene::lights in order, then the primitives of emissive shapes, of glowing media, of emissive instances.
+/// Scene::lights in order, then the primitives of emissive shapes, of media that emit, of emissive instances.
 using LightId = std::uint32_t;
 
 /// A lobe of microfacets about the surface's normal n: light from wi is scattered by facets whose normals are along
@@ -48,10 +48,10 @@ struct SelectedLight {
   float pmf;
 };
 
-/// A light that a vertex looks at; over all its candidates it does so `tries` times on average.
+/// A light that a vertex draws as a candidate; `n_pmf` is n * pmf, the mean number of candidates that are it.
 struct LightCandidate {
   LightId light;
-  float tries;
+  float n_pmf;
 };
 using LightCandidates = SmallVector<LightCandidate, 8>;
 

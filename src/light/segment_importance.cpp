@@ -9,8 +9,8 @@ constexpr double kHalfPi = 1.57079632679489661923;
 
 /// Points on rays are floats: off by this share of their largest coordinate.
 constexpr double kPointRounding = 3e-7;
-/// As near to the line as this share of the distance from the segment's begin, for lights right there of its length,
-/// all lights count the same: rays are not known better, and the integral of 1 / r^2 has to end somewhere.
+/// As near to the line as this share of the distance from the segment's begin, for lights right there of its length, all lights
+/// count the same: rays are not known better, and the integral of 1 / r^2 has to be finite.
 constexpr double kNearest = 1e-6;
 /// A cluster of radius r blurs the phase function as lights of this variance about its centre, over r^2.
 constexpr double kBlur = 0.3;

@@ -1,5 +1,5 @@
-/// How much of the light that media scatter along a segment may come from a cluster: the counterpart of importance.h
-/// for a stretch of a ray.
+/// How much of the light that media scatter along a segment may come from a cluster: the counterpart of importance.h for a
+/// segment of a ray.
 ///
 /// All arithmetic is in double precision. Zero is returned only where no point of the segment can get light of the
 /// cluster (with a margin for points and normals in floats), never by rounding; and no value is infinite, even where a
@@ -20,7 +20,7 @@ struct Segment {
     double begin, end;     ///< along the ray; `end` may be infinite
     double scattering;     ///< relative to the bin with the most, > 0
     double sigma, escape;  ///< as in SegmentProfile
-    /// Transmittance of `distance` on the way toward a light.
+    /// Transmittance over `distance` toward a light.
     double transmittance(double distance) const { return sigma > 0 ? std::exp(-std::min(sigma * distance, escape)) : 1; }
   };
 

@@ -1,5 +1,5 @@
-/// The question put to light selection by a stretch of a ray through media: which light matters to the light that is
-/// scattered along it.
+/// The question put to light selection by a segment of a ray through media: which light matters to the light that is scattered
+/// along it.
 #pragma once
 
 #include <array>
@@ -12,13 +12,12 @@ namespace tyndall {
 /// What media do along a segment and around it, in a few bins: nothing finer than a choice of lights can use. Only
 /// weights the choice; no estimate is made from it.
 struct SegmentProfile {
-  /// In smoke of depth 1 to 50 with 1 and 8 events, 8 of them have 0.98 to 1.11 of the relMSE without the worst 0.1 %, at 1.03
-  /// to 1.07 times the instructions; 2 have 1.13 of it for small triangles, at 0.97.
+  /// With fewer, choices are worse; more cost more than they save (docs/measurements.md).
   static constexpr int kBins = 4;
   std::array<float, kBins + 1> edge{};    ///< distances along the ray, increasing; the last may be infinite
   std::array<float, kBins> scattering{};  ///< mean of sigma_s x transmittance from the origin over the bin, >= 0
-  std::array<float, kBins> sigma{};       ///< mean extinction on the way from the bin toward lights, 1/length
-  std::array<float, kBins> escape{};      ///< optical depth at most on that way (the medium ends); may be infinite
+  std::array<float, kBins> sigma{};       ///< mean extinction from the bin toward lights, 1/length
+  std::array<float, kBins> escape{};      ///< optical depth at most toward lights (the medium ends); may be infinite
   float g = 0;                            ///< mean cosine of the phase function, Henyey-Greenstein
 };
 

@@ -72,10 +72,10 @@ LightCandidates LightSelector::draw(const LightCut& cut, const SegmentQuery& que
   return one_by_one(*this, cut, query, u);
 }
 
-float LightSelector::expected(const LightCut& cut, const PointQuery& query, LightId light) const {
+float LightSelector::n_pmf(const LightCut& cut, const PointQuery& query, LightId light) const {
   return exhaustive() ? 1.0f : cut[0].candidates * pmf(query, light);
 }
-float LightSelector::expected(const LightCut& cut, const SegmentQuery& query, LightId light) const {
+float LightSelector::n_pmf(const LightCut& cut, const SegmentQuery& query, LightId light) const {
   return exhaustive() ? 1.0f : cut[0].candidates * pmf(query, light);
 }
 

@@ -26,19 +26,19 @@ class LightSelector {
   virtual std::optional<SelectedLight> select(const PointQuery& query, double u) const = 0;
   /// Probability that select() gives `light`; exhaustive: 1.
   virtual float pmf(const PointQuery& query, LightId light) const = 0;
-  /// The clusters that a vertex draws its candidates from. Unless a strategy can tell better: all lights as one.
+  /// The clusters that a vertex draws its candidates from. Unless a strategy has finer ones: all lights as one.
   virtual LightCut cut(const PointQuery& query, const CutSettings& settings) const;
   /// All candidates of the query's cut by one number as of select(); fewer where no light is known to contribute.
   virtual LightCandidates draw(const LightCut& cut, const PointQuery& query, double u) const;
-  /// How often the candidates of the cut are `light`, on average; exhaustive: 1.
-  virtual float expected(const LightCut& cut, const PointQuery& query, LightId light) const;
+  /// n * pmf of `light` over the candidates of the cut; exhaustive: 1.
+  virtual float n_pmf(const LightCut& cut, const PointQuery& query, LightId light) const;
 
   // The same for a segment of a ray through media: a light is chosen for all that the segment scatters.
   virtual std::optional<SelectedLight> select(const SegmentQuery& query, double u) const = 0;
   virtual float pmf(const SegmentQuery& query, LightId light) const = 0;
   virtual LightCut cut(const SegmentQuery& query, const CutSettings& settings) const;
   virtual LightCandidates draw(const LightCut& cut, const SegmentQuery& query, double u) const;
-  virtual float expected(const LightCut& cut, const SegmentQuery& query, LightId light) const;
+  virtual float n_pmf(const LightCut& cut, const SegmentQuery& query, LightId light) const;
 
   /// Callers loop over all lights, each with pmf 1, in place of select().
   virtual bool exhaustive() const { return false; }
@@ -57,9 +57,9 @@ struct SelectionInput {
 
 /// Whether a strategy looks at `near` and `far`.
 bool uses_bounds(LightStrategy strategy);
-/// Frees what it has read of `input`: pass a copy where it is needed again. LightStrategy::tree keeps the lights of
-/// objects once; the others reckon with those of every instance on its own: uniform and power with 16 bytes each (40 while
-/// they are built), binary trees with about 110 (170).
+/// Frees what it has read of `input`: pass a copy where it is needed again. LightStrategy::tree keeps the lights of objects
+/// once; the others store those of every instance on its own: uniform and power with 16 bytes each (40 while they are built),
+/// binary trees with about 110 (170).
 std::unique_ptr<const LightSelector> make_selector(LightStrategy strategy, SelectionInput input);
 
 }  // namespace tyndall

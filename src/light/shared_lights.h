@@ -1,4 +1,4 @@
-/// Lights that all instances of an object have in common, as far as the choice among them goes.
+/// Lights that all instances of an object have in common, as far as the choice among them is concerned.
 #pragma once
 
 #include <vector>

@@ -32,7 +32,7 @@ SplitMeasure measure_at(const Cluster& cluster, double distance, double radius) 
 /// Of exp(-x) for x uniform on an interval of this length: x / 2 coth(x / 2) - 1.
 double transmittance_cv2(double depth) { return depth > 1e-3 ? 0.5 * depth / std::tanh(0.5 * depth) - 1 : depth * depth / 12; }
 
-/// Optical depth of a stretch of the way from the segment to a cluster, at the place `t`.
+/// Optical depth from the segment's place `t` toward a cluster, over a length.
 double depth_of(const WideSegment& segment, double t, double stretch) {
   for (int i = 0; i < segment.bins; ++i) {
     const WideSegment::Bin& bin = segment.bin[static_cast<std::size_t>(i)];

@@ -1,4 +1,4 @@
-/// How much the lights of a cluster may differ in what they contribute: what adaptive splitting goes by.
+/// How much the lights of a cluster may differ in what they contribute: the measure of adaptive splitting.
 #pragma once
 
 #include "light/cluster.h"

@@ -17,8 +17,8 @@ bool in_plane(const RoundedPoint& p, const Vec3d& a, const Vec3d& n, double n2) 
   return height * height <= least * least * n2;
 }
 
-/// Seen from so far that points uniform in area are nearly uniform in solid angle: the angle under which its longest
-/// edges are seen is below a fifth. Spherical geometry, ten times as dear, would gain nothing.
+/// Seen from so far that points uniform in area are nearly uniform in solid angle: the angle under which its longest edges are
+/// seen is below a fifth. Spherical geometry is much more expensive and would gain nothing (docs/measurements.md).
 bool far_off(const Vec3d& a, const Vec3d& e1, const Vec3d& e2) { return std::max(dot(e1, e1), dot(e2, e2)) < 0.04 * dot(a, a); }
 
 /// 1/sr, of the direction to a point `x` uniform over the triangle with n = e1 x e2, twice its area long.

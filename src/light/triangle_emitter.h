@@ -21,8 +21,8 @@ class TriangleEmitter {
   Bounds3 box(std::uint32_t i) const;
   LightPlace place(std::uint32_t i) const;
 
-  /// Uniform in solid angle; uniform in area where the triangle is far off, which comes to the same and is ten times as
-  /// fast, and where it is too small or `p` too near its own plane.
+  /// Uniform in solid angle; uniform in area, which is faster, where the triangle is far off, which comes to the same, and
+  /// where it is too small or `p` too near its own plane.
   std::optional<EmitterSample> sample(std::uint32_t i, const RoundedPoint& p, Vec2 u) const;
   /// 1/sr, of the direction from `p` to `hit` on the triangle.
   float pdf(std::uint32_t i, const RoundedPoint& p, const RoundedPoint& hit) const;

@@ -1,4 +1,4 @@
-/// A piece of a glowing medium, as far as lights know it: its points and directions are for those who know the medium.
+/// A piece of a medium that emits, as far as lights know it: its points and directions need the medium.
 #pragma once
 
 #include "light/bounds.h"
@@ -9,7 +9,7 @@ struct VolumeEmitter {
   Bounds3 box;
   float intensity;  ///< W/sr, mean of the channels: int sigma_a Le dV, comparable with a point light's I
 
-  /// Shines from everywhere to everywhere.
+  /// Emits from everywhere to everywhere.
   LightBounds bounds() const {
     return {.box = box, .normals = DirectionCone::everything(), .theta_e = kPi / 2, .intensity = intensity, .two_sided = false};
   }

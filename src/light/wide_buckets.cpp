@@ -92,7 +92,7 @@ Measures all_measures(const Sides& sides, int rows, float scale) {
 using Grids = std::array<BucketGrid, 3>;
 using Buckets = std::array<std::array<Bucket, kBuckets>, 3>;
 
-/// Every how manyeth light is looked at.
+/// The step between the lights that are looked at.
 std::size_t stride(Range lights) { return (lights.size() + kSample - 1) / kSample; }
 
 Grids make_grids(Range lights) {

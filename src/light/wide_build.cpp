@@ -1,6 +1,6 @@
 // Construction of the wide light tree in two passes. The first divides the lights, top-down, and notes only how many go
 // to each child; the second knows from that where every node lies and fills them in bottom-up. At the top of the tree
-// the nodes of a level are divided in parallel, then the subtrees below: the result does not depend on who does what.
+// the nodes of a level are divided in parallel, then the subtrees below: the result does not depend on the threads.
 #include <algorithm>
 #include <cassert>
 

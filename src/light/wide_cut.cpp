@@ -11,7 +11,7 @@ namespace {
 
 using NodeRef = WideLightTree::NodeRef;
 
-/// The children of two nodes: what more cost, they did not gain where it was measured.
+/// The children of two nodes: more clusters cost more than they gained (docs/measurements.md).
 constexpr int kClusters = 15;
 
 /// Sums of these are finite.
@@ -27,7 +27,7 @@ struct Open {
 
 using Clusters = SmallVector<Open, 16>;
 
-/// How unlike the lights of each child are to a segment.
+/// How much the lights of each child differ in what they contribute to a segment.
 ChildSpread child_spread(const WideNode& node, const WideSegment& segment) {
   ChildSpread spread;
   for (int i = 0; i < WideNode::kWidth; ++i) {

@@ -12,7 +12,7 @@ namespace tyndall {
 struct Arrival {
   Vector8 toward;       ///< to the mean of the lights: unit, or shorter where they lie all around
   Float8 variance;      ///< of their directions
-  Float8 cosine;        ///< reckoned with on the normal's side or the other, in (0, 1]
+  Float8 cosine;        ///< of incidence, on the normal's side or the other, in (0, 1]
   Float8 above, below;  ///< heights over the tangent plane of the uppermost and the lowest corner
 };
 

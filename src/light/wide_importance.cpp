@@ -7,15 +7,14 @@ namespace {
 
 /// In cosines, for the receiver's plane.
 constexpr float kSlack = 4e-6f;
-/// Of the largest cosine at which light can arrive, a cluster is reckoned with at least this share.
+/// Of the largest cosine at which light can arrive, at least this share is used for a cluster.
 constexpr float kShareOfReceived = 0.3f;
 
 }  // namespace
 
-// The bounds of the paper decide whether a cluster can contribute at all. How much is reckoned from the mean of its
-// lights: distance^2 to it plus half their variance, and the cosines there with a share of the bounds. That leaves a
-// third to a sixth of the variance of the bounds alone (tests/benchmark). Flattened, since GCC calls the library's
-// small functions one by one otherwise.
+// The bounds of the paper decide whether a cluster can contribute at all. How much is estimated from the mean of its lights:
+// distance^2 to it plus half their variance, and the cosines there with a share of the bounds; the variance is less than by the
+// bounds alone (docs/measurements.md). Flattened, since GCC calls the library's small functions one by one otherwise.
 [[gnu::flatten]] ChildImportance child_importance(const WideNode& node, const WideQuery& query) {
   const Places8 at(node, query.p);
   const Vector8& d = at.center;

@@ -13,11 +13,11 @@ inline constexpr float kEmissionSlack = 2e-4f;
 inline constexpr float kWider = 1 + 4e-6f;
 /// Squared distances below this have lost their bits: the point counts as inside.
 inline constexpr float kTooNear = 1e-33f;
-/// Of the largest cosine of emission that is possible, a cluster is reckoned with at least this share.
+/// Of the largest cosine of emission that is possible, at least this share is used for a cluster.
 inline constexpr float kShareOfEmission = 0.15f;
 /// Factors never fall below this unless the test says "none": at the rim a cosine may round to 0 or below.
 inline constexpr float kLeastLaneFactor = 1e-3f;
-/// What light that may contribute is worth at least.
+/// Least value for light that may contribute.
 inline constexpr float kLeastImportance = 1e-37f;
 
 struct Vector8 {
@@ -61,7 +61,7 @@ struct Places8 {
   }
 };
 
-/// Which ways the children's light goes.
+/// Directions into which the children's lights emit.
 struct Emission8 {
   Vector8 axis;  ///< in steps
   Mask8 two_sided, directed;
@@ -85,7 +85,7 @@ struct Emission8 {
   }
   /// No light goes there.
   Mask8 none(Float8 cosine_beyond) const { return directed && cosine_beyond <= cos_e - kEmissionSlack; }
-  /// What is reckoned with, from the cosine `ahead` at the lights' mean and the bound: the wider the cone, the less its
+  /// What is used, from the cosine `ahead` at the lights' mean and the bound: the wider the cone, the less its
   /// axis says.
   Float8 likely(Float8 ahead, Float8 bound) const {
     const Float8 narrow = 0.5f + 0.5f * cos_o;

@@ -1,9 +1,9 @@
 /// The light tree that renders use: eight children a node, evaluated at once, one decision among all of them
 /// [Conty Estevez and Kulla, "Importance Sampling of Many Lights with Adaptive Tree Splitting", HPG 2018, widened].
 ///
-/// A child is chosen with P_i = I_i / sum I. Once in 2^20 times a light is chosen by its number instead, so that each of
-/// n lights that may contribute owns at least 2^-20 / n of the range of u: none is out of reach of u's bits, however weak
-/// the others make it look.
+/// A child is chosen with P_i = I_i / sum I. Once in 2^20 times a light is chosen by its number instead, so that each of n
+/// lights that may contribute owns at least 2^-20 / n of the range of u: none is out of reach of u's bits, however small its
+/// importance.
 ///
 /// Lengths are kept in a unit, a power of two, in which no coordinate of a light exceeds 1: squares neither over- nor
 /// underflow single precision, and scaling the scene by a power of two changes no probability.
@@ -30,9 +30,9 @@ class WideLightTree {
   static constexpr NodeRef kAll = 0xffffffff;
 
   WideLightTree() = default;
-  /// Equal input gives an equal tree for any number of threads (0: one a core). `lights` is freed on the way.
+  /// Equal input gives an equal tree for any number of threads (0: one a core). `lights` is freed during the build.
   explicit WideLightTree(std::vector<TreeLight> lights, int threads = 0) : WideLightTree(std::move(lights), {}, threads) {}
-  /// Some leaves are whole clusters, to be looked into by who knows them: a TreeLight of number kCluster + i has the count
+  /// Some leaves are whole clusters, descended into by the caller: a TreeLight of number kCluster + i has the count
   /// and the moments of clusters[i].
   static constexpr LightId kCluster = 0x40000000;
   WideLightTree(std::vector<TreeLight> lights, std::span<const Cluster> clusters, int threads);
@@ -93,7 +93,7 @@ class WideLightTree {
     NodeRef top;
     double u;
   };
-  /// The same for many draws at once, which takes half the time: choices[i] is that of draws[i].
+  /// The same for many draws at once, in less time: choices[i] is that of draws[i].
   void select_below(std::span<const Draw> draws, const WideQuery& query, std::span<std::optional<Choice>> choices) const;
   void select_below(std::span<const Draw> draws, const WideSegment& query, std::span<std::optional<Choice>> choices) const;
   /// Probability of select_below(top) giving the light of `leaf`, which is below `top`.
@@ -122,7 +122,7 @@ class WideLightTree {
 
  private:
   friend class WideTreeBuilder;
-  /// A draw on its way down.
+  /// A draw during its descent.
   struct Descent {
     NodeRef top, ref;
     double u, chance;

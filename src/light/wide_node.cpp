@@ -12,7 +12,7 @@ constexpr float kLeastNormal = std::numeric_limits<float>::min();
 /// The nearest integer of x / step, for x within [-1, 1].
 int steps(double x, double step) { return static_cast<int>(std::floor(std::clamp(x, -1.0, 1.0) / step + 0.5)); }
 
-/// A cosine in steps, on the side of the wider angle. A whole step stands for the rounding on the way here.
+/// A cosine in steps, on the side of the wider angle. A whole step allows for rounding in what led here.
 std::int16_t widened(double cosine) {
   return static_cast<std::int16_t>(std::floor(std::clamp(cosine - 2e-7, -1.0, 1.0) / WideNode::kStep));
 }

@@ -43,7 +43,7 @@ struct alignas(64) WideNode {
     return static_cast<std::size_t>(std::count_if(intensity, intensity + kWidth, [](auto i) { return i != 0; }));
   }
   bool leaf(int i) const { return flags[i] & kLeaf; }
-  /// Tells the processor that the descent comes here.
+  /// Prefetches a node of the descent.
   void prefetch() const {
     for (std::size_t line = 0; line < offsetof(WideNode, count); line += 64)
       __builtin_prefetch(reinterpret_cast<const char*>(this) + line);

@@ -13,9 +13,8 @@ constexpr float kPointRounding = 3e-7f, kDistanceRounding = 5e-7f;
 constexpr float kNearestToBegin2 = 1e-12f;
 /// Standard deviation of the lights' positions along one axis, over that along all three.
 constexpr float kOneAxis = 0.57735027f;
-// What lights spread by v about their mean, along each axis, do to what is reckoned at the mean. Measured
-// (tests/benchmark): without the first the variance in dense media is threefold, without the second that of forward
-// scattering is half as much again.
+// How the spread v of the lights about their mean, along each axis, changes what is estimated at the mean. Without the first
+// the variance in dense media is higher, without the second that of forward scattering (docs/measurements.md).
 constexpr float kNearer = 3;        ///< transmittance: as of that many sigma v nearer, ...
 constexpr float kNearerAtMost = 2;  ///< ... but not of more standard deviations
 constexpr float kBlur = 3;          ///< mean cosine of the phase function: less by that many v / r^2
@@ -48,7 +47,7 @@ struct Passage8 {
   Passage8(const Vector8& place, const Vector8& d) : along(dot(place, d)), foot(d * along - place), h2(dot(foot, foot)) {}
 };
 
-/// Largest cosine of the angle between the axis and the way to a point of the segment; see largest_cosine().
+/// Largest cosine of the angle between the axis and the direction to a point of the segment; see largest_cosine().
 Float8 largest_cosine(const Emission8& emission, const Passage8& pass, const Vector8& d, Float8 from, Float8 till) {
   const Float8 a = emission.along(pass.foot), b = emission.along(d);
   const auto at = [&](Float8 s) { return emission.folded(a + s * b) * fast_rsqrt(at_least(pass.h2 + s * s, kTooNear)); };
@@ -56,7 +55,7 @@ Float8 largest_cosine(const Emission8& emission, const Passage8& pass, const Vec
   return max(max(at(from), at(till)), at(min(max(stationary, from), till)));
 }
 
-/// What is reckoned of the emission toward the place `s` of the line.
+/// The emission toward the place `s` of the line, as estimated.
 struct Toward8 {
   const Emission8& emission;
   bool any;              ///< is directed
@@ -204,9 +203,8 @@ WideSegment WideSegment::from_segment(const Segment& s, double to_unit, Vec3d mi
   return w;
 }
 
-// As for points, bounds decide whether a cluster can contribute at all, and how much is reckoned from the mean of its
-// lights: their variance across the line adds to the squared distance, the cosines are those at the mean with a share
-// of the bounds.
+// As for points, bounds decide whether a cluster can contribute at all, and how much is estimated from the mean of its lights:
+// their variance across the line adds to the squared distance, the cosines are those at the mean with a share of the bounds.
 [[gnu::flatten]] ChildImportance child_importance(const WideNode& node, const WideSegment& segment) {
   const Places8 at(node, segment.p);
   const Vector8 d = splat8(segment.d);
@@ -221,7 +219,7 @@ WideSegment WideSegment::from_segment(const Segment& s, double to_unit, Vec3d mi
   const Float8 sin_u = min(seen * fast_rsqrt(at_least(r2, kTooNear)), Float8(1.0f));
   const Angle8 theta_u{sqrt(1 - sin_u * sin_u), sin_u};
 
-  // The least angle that the axis makes with the way to a point of the segment, less normals' cone and sphere.
+  // The least angle between the axis and the direction to a point of the segment, less normals' cone and sphere.
   const Emission8 emission(node);
   const Float8 cosine = min(largest_cosine(emission, pass, d, from, till), Float8(1.0f));
   const Float8 cos_beyond = emission.cosine_beyond(Angle8::of(cosine, 1 + kCosineRounding), theta_u, 1.0f);

@@ -1,4 +1,4 @@
-/// A segment of a ray as the wide tree is asked about it, and the importance of eight clusters for it at once.
+/// A segment of a ray as the wide tree's query, and the importance of eight clusters for it at once.
 #pragma once
 
 #include <array>

@@ -25,7 +25,7 @@ LightCut WideSelector<Tree>::split(const Query& query, int candidates, float spl
   LightCut cut;
   if (share.near > 0) cut = wide_cut(tree(), query, {candidates, splitting});
   if (!(share.far > 0)) return cut;
-  const double far_share = cut.empty() ? 1 : share.far;  // the tree as a whole may promise what none of its lights keeps
+  const double far_share = cut.empty() ? 1 : share.far;  // the tree as a whole may have importance where none of its lights has
   if (candidates > 0) {
     for (LightCluster& c : cut) c.candidates *= static_cast<float>(share.near);
   }
@@ -47,11 +47,11 @@ template <typename Query>
 LightCandidates WideSelector<Tree>::draw_all(const LightCut& cut, const Query& query, double u) const {
   LightCandidates drawn;
   SmallVector<WideLightTree::Draw, 16> draws;
-  SmallVector<float, 16> tries;
+  SmallVector<float, 16> n;
   for_each_candidate(cut, u, [&](int, const LightCluster& cluster, double below) {
     if (cluster.ref != kFarCluster) {
       draws.push_back({cluster.ref, below});
-      tries.push_back(cluster.candidates);
+      n.push_back(cluster.candidates);
     } else if (const auto choice = far().select(query, below)) {
       drawn.push_back({choice->light, static_cast<float>(choice->pmf * cluster.candidates)});
     }
@@ -61,7 +61,7 @@ LightCandidates WideSelector<Tree>::draw_all(const LightCut& cut, const Query& q
   tree().select_below(std::span<const WideLightTree::Draw>(draws.data(), draws.size()), tree().localize(query),
                       std::span(choices.data(), choices.size()));
   for (std::size_t i = 0; i < draws.size(); ++i) {
-    if (choices[i]) drawn.push_back({choices[i]->light, static_cast<float>(choices[i]->pmf * tries[i])});
+    if (choices[i]) drawn.push_back({choices[i]->light, static_cast<float>(choices[i]->pmf * n[i])});
   }
   return drawn;
 }
@@ -69,7 +69,7 @@ LightCandidates WideSelector<Tree>::draw_all(const LightCut& cut, const Query& q
 /// Up from the leaf to the cluster of the cut that holds it.
 template <typename Tree>
 template <typename Query>
-double WideSelector<Tree>::expected_near(const LightCut& cut, const Query& query, std::uint32_t leaf) const {
+double WideSelector<Tree>::n_pmf_near(const LightCut& cut, const Query& query, std::uint32_t leaf) const {
   for (auto ref = leaf;; ref = tree().parent_of(ref)) {
     if (const LightCluster* c = find(cut, ref)) return c->candidates * tree().pmf_below(ref, leaf, tree().localize(query));
     if (ref == WideLightTree::kAll) return 0;
@@ -78,10 +78,10 @@ double WideSelector<Tree>::expected_near(const LightCut& cut, const Query& query
 
 template <typename Tree>
 template <typename Query>
-float WideSelector<Tree>::tries(const LightCut& cut, const Query& query, LightId light) const {
+float WideSelector<Tree>::n_pmf_of_all(const LightCut& cut, const Query& query, LightId light) const {
   const std::uint32_t slot = this->slot_of(light);
   if (slot == this->kDark) return 0;
-  if (slot < this->kFar) return static_cast<float>(expected_near(cut, query, slot));
+  if (slot < this->kFar) return static_cast<float>(n_pmf_near(cut, query, slot));
   const LightCluster* c = find(cut, kFarCluster);
   return c ? static_cast<float>(c->candidates * far().pmf(query, slot - this->kFar)) : 0.0f;
 }
@@ -96,12 +96,12 @@ LightCandidates WideSelector<Tree>::draw(const LightCut& cut, const SegmentQuery
 }
 
 template <typename Tree>
-float WideSelector<Tree>::expected(const LightCut& cut, const PointQuery& query, LightId light) const {
-  return tries(cut, query, light);
+float WideSelector<Tree>::n_pmf(const LightCut& cut, const PointQuery& query, LightId light) const {
+  return n_pmf_of_all(cut, query, light);
 }
 template <typename Tree>
-float WideSelector<Tree>::expected(const LightCut& cut, const SegmentQuery& query, LightId light) const {
-  return tries(cut, Segment(query), light);
+float WideSelector<Tree>::n_pmf(const LightCut& cut, const SegmentQuery& query, LightId light) const {
+  return n_pmf_of_all(cut, Segment(query), light);
 }
 
 template class WideSelector<WideLightTree>;

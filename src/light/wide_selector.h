@@ -15,8 +15,8 @@ class WideSelector final : public TreeSelector<Tree> {
   LightCut cut(const SegmentQuery& query, const CutSettings& settings) const override;
   LightCandidates draw(const LightCut& cut, const PointQuery& query, double u) const override;
   LightCandidates draw(const LightCut& cut, const SegmentQuery& query, double u) const override;
-  float expected(const LightCut& cut, const PointQuery& query, LightId light) const override;
-  float expected(const LightCut& cut, const SegmentQuery& query, LightId light) const override;
+  float n_pmf(const LightCut& cut, const PointQuery& query, LightId light) const override;
+  float n_pmf(const LightCut& cut, const SegmentQuery& query, LightId light) const override;
 
  private:
   template <typename Query>
@@ -24,9 +24,9 @@ class WideSelector final : public TreeSelector<Tree> {
   template <typename Query>
   LightCandidates draw_all(const LightCut& cut, const Query& query, double u) const;
   template <typename Query>
-  double expected_near(const LightCut& cut, const Query& query, std::uint32_t leaf) const;
+  double n_pmf_near(const LightCut& cut, const Query& query, std::uint32_t leaf) const;
   template <typename Query>
-  float tries(const LightCut& cut, const Query& query, LightId light) const;
+  float n_pmf_of_all(const LightCut& cut, const Query& query, LightId light) const;
 
   using TreeSelector<Tree>::far;
   using TreeSelector<Tree>::tree;

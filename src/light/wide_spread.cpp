@@ -8,7 +8,7 @@ namespace {
 /// Within this many standard deviations of its mean a cluster is taken to hold the point.
 constexpr float kInside = 1.5f;
 
-/// Where a lobe is seen within this many of its widths, widened by the cluster, its shape makes the lights unlike.
+/// Where a lobe is seen within this many of its widths, widened by the cluster, its shape makes contributions differ.
 constexpr float kReach2 = 4;
 
 /// Second moment over the square of the first, of a lobe over a cluster that widens it.

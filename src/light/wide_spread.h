@@ -1,4 +1,4 @@
-/// How unlike the lights of each of a node's children are in what they contribute.
+/// How much the lights of each of a node's children differ in what they contribute.
 #pragma once
 
 #include <array>

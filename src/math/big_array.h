@@ -12,8 +12,8 @@
 
 namespace tyndall {
 
-/// Uninitialised at first, so that threads may fill it page by page. Large ones ask for large pages, which spare most
-/// of the time for page faults and address translation.
+/// Uninitialised at first, so that threads may fill it page by page. Large arrays ask for large pages, against page faults and
+/// the cost of address translation.
 template <typename T>
 class BigArray {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -30,7 +30,7 @@ class BigArray {
     data_.reset(static_cast<T*>(std::aligned_alloc(alignment, (rounded + alignment - 1) / alignment * alignment)));
     if (!data_) throw std::bad_alloc();
 #ifdef MADV_HUGEPAGE
-    if (large) madvise(data_.get(), rounded / kPage * kPage, MADV_HUGEPAGE);  // a wish: its failure changes nothing
+    if (large) madvise(data_.get(), rounded / kPage * kPage, MADV_HUGEPAGE);  // a hint: its failure changes nothing
 #endif
   }
 

@@ -1,4 +1,4 @@
-/// The one door to the thread library.
+/// The only interface to the thread library.
 #pragma once
 
 #ifdef TYNDALL_STD_THREADS

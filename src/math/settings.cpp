@@ -98,14 +98,14 @@ StrategyAxis axis(std::string_view option, std::string_view about) {
 const std::vector<StrategyAxis>& strategy_axes() {
   static const std::vector<StrategyAxis> axes{
       axis<kLights, &RenderSettings::lights>("lights", "how a light is chosen"),
-      axis<kMedia, &RenderSettings::media>("media", "what stands for a stretch of medium when its light is chosen"),
-      axis<kDistances, &RenderSettings::distance>("distance", "how the distance of a scattering event is sampled"),
-      axis<kEmissions, &RenderSettings::emission>("emission", "how the glow of hot media is found"),
+      axis<kMedia, &RenderSettings::media>("media", "what stands for a segment of medium when its light is chosen"),
+      axis<kDistances, &RenderSettings::distance>("distance", "how the distance along a segment is sampled"),
+      axis<kEmissions, &RenderSettings::emission>("emission", "how volume emission is found"),
       axis<kGuidings, &RenderSettings::guiding>(
-          "guiding", "where the surface that a path meets first sends it besides as it scatters: grids and clouds that glow"),
+          "guiding", "whether the surface that a path meets first also sends it toward grids and clouds"),
       axis<kJoints, &RenderSettings::joint>("joint",
                                             "whether collisions in media and pixels also draw rays close to point and spot "
-                                            "lights, and pixels to small shining surfaces"),
+                                            "lights, and pixels toward small emissive surfaces"),
       axis<kTransmittances, &RenderSettings::transmittance>("transmittance", "estimator along shadow rays"),
   };
   return axes;

@@ -1,4 +1,4 @@
-/// Eight numbers at once. The one door to the compiler's SIMD types.
+/// Eight numbers at once. The only interface to the compiler's SIMD types.
 ///
 /// Arithmetic, comparisons, sqrt, min, max, abs and clamp work on each of the eight; choose(m, a, b) is m ? a : b.
 #pragma once

@@ -1,4 +1,4 @@
-/// Functions of eight numbers for weights: a few instructions each, wrong by a few parts in a million, and by the same
+/// Functions of eight numbers for weights: a few instructions each, with errors of a few parts in a million that are the same
 /// on every processor.
 #pragma once
 

@@ -9,9 +9,8 @@
 
 namespace tyndall {
 
-/// Eight lanes of 64 bits, each mixed with full avalanche after every word it takes, so that changes of a few bits
-/// (signs, exponents, neighbouring values) do not cancel. The value depends on the bytes alone, not on how they were
-/// cut into calls. Several GB/s on one core.
+/// Eight lanes of 64 bits, each mixed with full avalanche after every word it takes, so that changes of a few bits (signs,
+/// exponents, neighbouring values) do not cancel. The value depends on the bytes alone, not on how they were cut into calls.
 class StreamHash {
  public:
   StreamHash();

@@ -47,7 +47,7 @@ bool all_finite(const Matrix& m) {
   return true;
 }
 
-/// The bottom row becomes exactly 0 0 0 1; rounding dust of exporters is forgiven, a projection is not.
+/// The bottom row becomes exactly 0 0 0 1; rounding errors of exporters are forgiven, a projection is not.
 Matrix affine(const Matrix& m) {
   const double w = m[3][3];
   const double dust = 1e-6 * std::abs(w);

@@ -18,9 +18,7 @@ struct CautiousBlock {
 /// Where a few pixels carry the noise of a block, Welch's test then reports 20 standard errors. Two measures:
 /// - the variance of a block is at least a quarter of the mean over it and its eight neighbours;
 /// - its degrees of freedom are not more than those of the pixels that carry its noise, found from all four replicates.
-/// Measured: of 1,000 pairs of renders with a silhouette, 8 spp, at family level 1e-3, 18 raise an alarm without the two
-/// and 1 with them (tests/statistical/alarm_rate_test.cpp); of 610 pairs of 49 scenes of one feature each, some
-/// long-tailed, at 8 against 8 and 256 against 16 spp, 6 and 0. An eighth instead of a quarter did as well.
+/// What they do to false alarms: docs/measurements.md. An eighth instead of a quarter did as well.
 /// Price: a block that is quieter than its neighbours is tested as if its standard error were at least half of theirs.
 /// Equal samples make a difference symmetric, and a firefly enlarges its own error: these need no measure.
 std::vector<CautiousBlock> cautious_block_test(const MeanImage& a, const MeanImage& b, int size);

@@ -89,7 +89,7 @@ std::optional<ChildResult> finished(const Child& child, double timeout, bool sto
   return std::nullopt;
 }
 
-/// Children on their way; none outlives the list of them, also when a callback throws.
+/// Children that run; none outlives the list of them, also when a callback throws.
 struct Running {
   std::vector<Child> list;
 

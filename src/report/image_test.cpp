@@ -12,8 +12,8 @@ namespace tyndall {
 namespace {
 
 /// Uniformity is judged by the smallest twentieth of p-values: differences of blocks that are hit or miss have few values,
-/// so that larger p-values come in lumps, and small ones are rather too rare. Largest part measured, in renders of 2 to
-/// 16 spp and up to 1920 x 1080 and in noise of ones and zeros: 0.054 +- 0.008; hence a little is allowed.
+/// so that larger p-values come in lumps, and small ones are rather too rare. A little more than a twentieth is allowed, for
+/// what was measured (docs/measurements.md, false alarms).
 constexpr double kSmall = 0.05, kSmallAllowed = 0.06;
 /// Blocks of fewer degrees of freedom hardly ever have small p-values, and would dilute those of the others.
 constexpr double kUniformityDof = 8;

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "report/merge_sum.h"
+#include "report/metrics.h"
 #include "report/slice.h"
 #include "tyndall/error.h"
 #include "tyndall/io.h"
@@ -63,8 +64,7 @@ Image read_pixels(const Slice& slice) {
 std::string listed(const std::vector<Slice>& slices, const std::string& name, const std::string& separator) {
   std::set<std::string> values;
   for (const Slice& slice : slices) {
-    const auto found = slice.header.attributes.find(name);
-    const auto* text = found == slice.header.attributes.end() ? nullptr : std::get_if<std::string>(&found->second);
+    const auto* text = slice.header.attribute<std::string>(name);
     if (!text) return {};
     for (std::size_t at = 0; at <= text->size();) {
       const std::size_t end = std::min(text->find(separator, at), text->size());
@@ -81,10 +81,11 @@ void merge_times(const std::vector<Slice>& slices, Image& image) {
   double seconds = 0;
   std::string latest;
   for (const Slice& slice : slices) {
-    const auto time = slice.header.attributes.find("tyndall/renderTime"), date = slice.header.attributes.find("tyndall/date");
-    if (time == slice.header.attributes.end() || date == slice.header.attributes.end()) return;  // --reproducible
-    if (const double* s = std::get_if<double>(&time->second)) seconds += *s;
-    if (const std::string* d = std::get_if<std::string>(&date->second)) latest = std::max(latest, *d);
+    const auto* time = slice.header.attribute<double>("tyndall/renderTime");
+    const auto* date = slice.header.attribute<std::string>("tyndall/date");
+    if (!time || !date) return;  // --reproducible
+    seconds += *time;
+    latest = std::max(latest, *date);
   }
   image.attributes["tyndall/renderTime"] = seconds;
   image.attributes["tyndall/date"] = latest;
@@ -99,14 +100,21 @@ Attribute samples_attribute(const Image& image) {
   return range.str();
 }
 
-void merge_attributes(const std::vector<Slice>& slices, Image& image) {
-  image.attributes = slices.front().header.attributes;
+/// Those that all slices agree in, but for what only slices have.
+std::map<std::string, Attribute> common_attributes(const std::vector<Slice>& slices) {
+  auto attributes = slices.front().header.attributes;
+  std::erase_if(attributes, [](const auto& a) { return is_slice_attribute(a.first); });
   for (const Slice& slice : slices) {
-    std::erase_if(image.attributes, [&](const auto& a) {
+    std::erase_if(attributes, [&](const auto& a) {
       const auto found = slice.header.attributes.find(a.first);
       return found == slice.header.attributes.end() || found->second != a.second;
     });
   }
+  return attributes;
+}
+
+void merge_attributes(const std::vector<Slice>& slices, Image& image) {
+  image.attributes = common_attributes(slices);
   std::vector<SliceSource> sources;
   std::set<std::uint64_t> seeds;
   for (const Slice& slice : slices) {
@@ -123,26 +131,100 @@ void merge_attributes(const std::vector<Slice>& slices, Image& image) {
   merge_times(slices, image);
 }
 
-}  // namespace
-
-Image merge_slices(const std::vector<std::string>& paths, const MergeSettings& settings) {
+/// Those that can be read. Among slices of one render the others are left out; elsewhere the first failure stands.
+std::vector<Slice> read_headers(const std::vector<std::string>& paths, std::vector<std::string>& left_out) {
   std::vector<Slice> slices;
-  for (const std::string& path : paths) slices.push_back(read_slice(path));
-  require_mergeable(slices);
+  std::optional<Error> failure;
+  for (const std::string& path : paths) {
+    try {
+      slices.push_back(read_slice(path));
+    } catch (const Error& e) {
+      if (!failure) failure = e;
+      left_out.emplace_back(e.what());
+    }
+  }
+  const bool parts = std::any_of(slices.begin(), slices.end(), [](const Slice& s) { return s.part.has_value(); });
+  if (failure && !parts) throw Error(*failure);
+  return slices;
+}
+
+Image weighted_mean(const std::vector<Slice>& slices, const MergeSettings& settings) {
   const PixelBounds box = box_around(slices);
   if (!settings.fill_black) require_covered(slices, box);
-
-  // Sums in an order that depends on the slices alone. No two have equal sources: their samples would count twice.
-  std::sort(slices.begin(), slices.end(),
-            [](const Slice& a, const Slice& b) { return sources_text(a.sources) < sources_text(b.sources); });
   MergeSum sum(box, slices.front().header);
   for (const Slice& slice : slices) sum.add(read_pixels(slice), slice.sources.front().samples);
-
   Image image = sum.result();
   image.display = slices.front().header.display;
   image.chromaticities = slices.front().header.chromaticities;
   merge_attributes(slices, image);
   return image;
+}
+
+/// Adds what can be read as it was written; the rest moves from `slices` to `left_out`.
+SliceSum exact_sum(std::vector<Slice>& slices, std::vector<std::string>& left_out) {
+  SliceSum sum(slices.front().header, slices.front().path);
+  std::erase_if(slices, [&](const Slice& slice) {
+    try {
+      sum.add(read_pixels(slice), slice.path);
+      return false;
+    } catch (const Error& e) {
+      left_out.emplace_back(e.what());
+      return true;
+    }
+  });
+  if (slices.empty()) throw Error(Failure::scene, left_out.front());
+  return sum;
+}
+
+SliceTally tally_of(const std::vector<Slice>& slices) {
+  const SliceInfo& first = *slices.front().part;
+  SliceTally tally{first.choice.count, first.total, {}, {}, first.choice};
+  std::set<int> whole;
+  for (const Slice& slice : slices) {
+    if (slice.part->complete()) whole.insert(slice.part->choice.index);
+  }
+  for (int i = 1; i <= tally.count; ++i) {
+    if (!whole.contains(i)) tally.missing.push_back(i);
+  }
+  if (const auto* command = slices.front().header.attribute<std::string>("tyndall/command")) tally.command = *command;
+  return tally;
+}
+
+/// The picture of slices of one render.
+void add_up(std::vector<Slice>& slices, Merged& merged) {
+  const SliceSum sum = exact_sum(slices, merged.left_out);
+  merged.slices = tally_of(slices);
+  merged.relmse = sum.estimated_relmse();
+  const bool whole = sum.samples() == merged.slices->total;
+  merged.image = sum.image(!whole);
+  if (whole) {
+    merged.image.attributes = common_attributes(slices);
+    merged.image.attributes["tyndall/samples"] = sum.samples();
+    merge_times(slices, merged.image);
+  } else {
+    merge_attributes(slices, merged.image);
+  }
+}
+
+}  // namespace
+
+Merged merge_slices(const std::vector<std::string>& paths, const MergeSettings& settings) {
+  Merged merged;
+  std::vector<Slice> slices = read_headers(paths, merged.left_out);
+  require_mergeable(slices);
+  // Sums in an order that depends on the slices alone. No two have equal sources: their samples would count twice.
+  std::sort(slices.begin(), slices.end(),
+            [](const Slice& a, const Slice& b) { return sources_text(a.sources) < sources_text(b.sources); });
+  if (are_of_one_render(slices)) {
+    add_up(slices, merged);
+  } else {
+    if (!merged.left_out.empty()) throw Error(Failure::scene, merged.left_out.front());
+    merged.image = weighted_mean(slices, settings);
+    const auto has = [&](const char* channel) { return merged.image.find(channel) != nullptr; };
+    if (has("Variance.R") && has("Variance.G") && has("Variance.B")) merged.relmse = estimated_relmse(merged.image);
+  }
+  merged.images = slices.size();
+  return merged;
 }
 
 }  // namespace tyndall

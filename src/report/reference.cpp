@@ -11,12 +11,6 @@ namespace {
 
 constexpr int kFewestSamples = 16;  ///< of a reference, whatever time it has: its variance must mean something
 
-template <typename T>
-const T* attribute(const Image& image, const std::string& name) {
-  const auto it = image.attributes.find(name);
-  return it == image.attributes.end() ? nullptr : std::get_if<T>(&it->second);
-}
-
 std::string box(const PixelBounds& b) {
   return std::to_string(b.x0) + "," + std::to_string(b.x1) + "," + std::to_string(b.y0) + "," + std::to_string(b.y1);
 }
@@ -57,7 +51,7 @@ void Reference::require_fit(const World& world, const RenderSettings& settings, 
     refuse("has the pixels " + box(image.data) + " where the render has " + box(pixels) +
            "; give the reference's --resolution and --crop");
   }
-  const auto* hash = attribute<std::string>(image, "tyndall/sceneHash");
+  const auto* hash = image.attribute<std::string>("tyndall/sceneHash");
   if (hash && *hash != world.scene_hash(settings)) {
     refuse("is of another scene (" + *hash + ", this one is " + world.scene_hash(settings) +
            "); render it from this scene with the same --max-depth");
@@ -77,8 +71,8 @@ Reference read_reference(const std::string& path) {
   r.source = path;
   require_sound(r.image, path);
   r.has_variance = r.image.find("Variance.R") && r.image.find("Variance.G") && r.image.find("Variance.B");
-  if (const int* samples = attribute<int>(r.image, "tyndall/samples")) r.samples = *samples;
-  if (const auto* seed = attribute<std::string>(r.image, "tyndall/seed")) r.seed = *seed;
+  if (const int* samples = r.image.attribute<int>("tyndall/samples")) r.samples = *samples;
+  if (const auto* seed = r.image.attribute<std::string>("tyndall/seed")) r.seed = *seed;
   r.has_variance = r.has_variance && r.samples != 1;  // one sample says nothing of its variance
   if (r.has_variance) r.relmse = estimated_relmse(r.image);
   return r;

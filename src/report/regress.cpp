@@ -193,7 +193,7 @@ RegressProgress progress(std::size_t done, std::size_t all, double seconds) {
   return {fraction, seconds, done > 0 ? seconds * (1 - fraction) / fraction : 0};
 }
 
-/// A suite on its way.
+/// A suite that is being run.
 class SuiteRun {
  public:
   SuiteRun(const RegressSuite& suite, const RegressSettings& settings, const RegressControl& control)

@@ -21,9 +21,7 @@ float rounded_up(double value) {
 }
 
 int count_in(const Image& image, const char* key) {
-  const auto found = image.attributes.find(key);
-  if (found == image.attributes.end()) return 0;
-  const int* count = std::get_if<int>(&found->second);
+  const int* count = image.attribute<int>(key);
   return count != nullptr ? *count : 0;
 }
 

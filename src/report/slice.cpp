@@ -15,11 +15,9 @@ namespace {
 
 template <typename T>
 const T& attribute(const std::string& path, const Image& header, const std::string& name) {
-  const auto found = header.attributes.find(name);
-  if (found == header.attributes.end()) {
+  if (const T* value = header.attribute<T>(name)) return *value;
+  if (!header.attributes.contains(name))
     fail(path, "has no attribute " + name + "; only images that tyndall render or merge wrote as .exr can be merged");
-  }
-  if (const T* value = std::get_if<T>(&found->second)) return *value;
   fail(path, "attribute " + name + " is not what Tyndall writes; render the slice again");
 }
 
@@ -28,10 +26,12 @@ std::optional<SliceSource> parse_source(std::istream& text) {
   std::string seed, samples, crop;
   char comma[3];
   text >> seed >> s.seed >> samples >> s.samples >> crop;
+  if (crop == "from") text >> s.first >> crop;
   text >> s.crop.x0 >> comma[0] >> s.crop.x1 >> comma[1] >> s.crop.y0 >> comma[2] >> s.crop.y1;
   const bool words = seed == "seed" && samples == "samples" && crop == "crop";
   const bool commas = text && std::all_of(comma, comma + 3, [](char c) { return c == ','; });
-  if (!words || !commas || s.samples < 1 || s.crop.x0 >= s.crop.x1 || s.crop.y0 >= s.crop.y1) return std::nullopt;
+  if (!words || !commas || s.samples < 1 || s.first < 0 || s.crop.x0 >= s.crop.x1 || s.crop.y0 >= s.crop.y1)
+    return std::nullopt;
   return s;
 }
 
@@ -50,7 +50,7 @@ std::vector<SliceSource> parse_sources(const std::string& path, const std::strin
   return sources;
 }
 
-std::vector<SliceSource> sources_of(const std::string& path, const Image& header) {
+std::vector<SliceSource> sources_of(const std::string& path, const Image& header, const std::optional<SliceInfo>& part) {
   if (header.attributes.contains("tyndall/slices")) {
     return parse_sources(path, attribute<std::string>(path, header, "tyndall/slices"), header.data);
   }
@@ -58,7 +58,8 @@ std::vector<SliceSource> sources_of(const std::string& path, const Image& header
   const std::string& seed = attribute<std::string>(path, header, "tyndall/seed");
   const int samples = attribute<int>(path, header, "tyndall/samples");
   std::istringstream text("seed " + seed + " samples " + std::to_string(samples) + " crop " + crop_text(header.data));
-  const auto source = parse_source(text);
+  auto source = parse_source(text);
+  if (source && part) source->first = part->range.first;
   if (!source) fail(path, "attributes tyndall/seed and tyndall/samples are damaged; render the slice again");
   return {*source};
 }
@@ -66,9 +67,10 @@ std::vector<SliceSource> sources_of(const std::string& path, const Image& header
 }  // namespace
 
 Slice read_slice(const std::string& path) {
-  Slice slice{path, read_exr_header(path), {}, {}};
+  Slice slice{path, read_exr_header(path), {}, {}, {}};
   slice.scene_hash = attribute<std::string>(path, slice.header, "tyndall/sceneHash");
-  slice.sources = sources_of(path, slice.header);
+  slice.part = slice_info(slice.header, path);
+  slice.sources = sources_of(path, slice.header, slice.part);
   return slice;
 }
 
@@ -79,14 +81,14 @@ std::string crop_text(const PixelBounds& c) {
 std::string sources_text(std::vector<SliceSource> sources) {
   std::sort(sources.begin(), sources.end(), [](const SliceSource& a, const SliceSource& b) {
     const auto key = [](const SliceSource& s) {
-      return std::tie(s.seed, s.crop.y0, s.crop.x0, s.crop.y1, s.crop.x1, s.samples);
+      return std::tie(s.seed, s.crop.y0, s.crop.x0, s.crop.y1, s.crop.x1, s.first, s.samples);
     };
     return key(a) < key(b);
   });
   std::string text;
   for (const SliceSource& s : sources) {
-    text += (text.empty() ? "seed " : "; seed ") + std::to_string(s.seed) + " samples " + std::to_string(s.samples) + " crop " +
-            crop_text(s.crop);
+    text += (text.empty() ? "seed " : "; seed ") + std::to_string(s.seed) + " samples " + std::to_string(s.samples) +
+            (s.first > 0 ? " from " + std::to_string(s.first) : "") + " crop " + crop_text(s.crop);
   }
   return text;
 }

@@ -86,25 +86,44 @@ void require_new_files(const std::vector<Slice>& slices) {
 void require_new_samples(const std::vector<Slice>& slices) {
   struct Rendered {
     const Slice* slice;
-    PixelBounds crop;
+    const SliceSource* source;
+  };
+  const auto share_samples = [](const SliceSource& a, const SliceSource& b) {
+    return a.first < std::int64_t{b.first} + b.samples && b.first < std::int64_t{a.first} + a.samples;
   };
   std::map<std::uint64_t, std::vector<Rendered>> by_seed;
   for (const Slice& slice : slices) {
     for (const SliceSource& source : slice.sources) {
       for (const Rendered& other : by_seed[source.seed]) {
-        const PixelBounds both = intersection(source.crop, other.crop);
-        if (both.width() <= 0 || both.height() <= 0) continue;
+        const PixelBounds both = intersection(source.crop, other.source->crop);
+        if (both.width() <= 0 || both.height() <= 0 || !share_samples(source, *other.source)) continue;
         fail(slice, "seed " + std::to_string(source.seed) + " is in " + other.slice->path + " too and both hold pixels " +
                         crop_text(both) + ": the same samples would count twice; render one of them with another --seed");
       }
-      by_seed[source.seed].push_back({&slice, source.crop});
+      by_seed[source.seed].push_back({&slice, &source});
     }
   }
 }
 
 }  // namespace
 
-bool is_shared_channel(const std::string& name) { return name != "SampleCount" && !name.starts_with("Dof."); }
+bool is_shared_channel(const std::string& name) {
+  return name != "SampleCount" && !name.starts_with("Dof.") && !name.starts_with("Sum.");
+}
+
+bool are_of_one_render(const std::vector<Slice>& slices) {
+  const auto text = [](const Slice& slice, const char* name) -> std::string {
+    const auto* value = slice.header.attribute<std::string>(name);
+    return value ? *value : "";
+  };
+  const Slice& first = slices.front();
+  return std::all_of(slices.begin(), slices.end(), [&](const Slice& s) {
+    const auto same = [&](const char* name) { return text(s, name) == text(first, name); };
+    return s.part && first.part && s.part->choice.count == first.part->choice.count && s.part->total == first.part->total &&
+           s.part->timed == first.part->timed && s.header.data == first.header.data && same("tyndall/seed") &&
+           same("tyndall/options") && same("tyndall/aov") && same("software");
+  });
+}
 
 void require_mergeable(const std::vector<Slice>& slices) {
   if (slices.empty()) throw Error(Failure::usage, "there is nothing to merge; name the images");

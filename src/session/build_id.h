@@ -1,4 +1,4 @@
-/// Stands for the program that runs, for files that no other program must take up.
+/// Identifies the running program, for files that no other program may resume.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ struct LoadedLibrary {
   std::string name;  ///< of its file, without folders
   std::string id;
 };
-/// Those that reckon for a picture: Embree, OpenVDB, OpenEXR with Imath, and the C library with its mathematics.
+/// Those that compute the picture: Embree, OpenVDB, OpenEXR with Imath, and the C library with its mathematics.
 std::vector<LoadedLibrary> reckoning_libraries();
 
 /// "version-program-libraries": the version of Tyndall, a hash of the program's file, and one of the names and identities

@@ -10,7 +10,7 @@
 namespace tyndall {
 namespace {
 
-constexpr std::string_view kMagic = "Tyndall checkpoint 1\n";
+constexpr std::string_view kMagic = "Tyndall checkpoint 2\n";
 constexpr std::size_t kHashSize = sizeof(std::uint64_t);
 
 std::uint64_t hash_of(std::string_view bytes) {
@@ -67,7 +67,7 @@ class Reader {
   const std::string& name_;
 };
 
-/// The numbers of `counters`, in the order of the file; one list for both ways.
+/// The numbers of `counters`, in the order of the file; one list for reading and writing.
 template <typename C>
 auto numbers_of(C& c) {
   auto& t = c.tracking;
@@ -115,8 +115,8 @@ void require_same(Reader& in, const CheckpointIdentity& identity) {
 
 }  // namespace
 
-std::string encode_checkpoint(const CheckpointIdentity& identity, const CheckpointState& state, std::span<const double> sums) {
-  Writer out(sums.size_bytes() + 4096);
+std::string encode_checkpoint(const CheckpointIdentity& identity, const CheckpointState& state, const FilmSums& sums) {
+  Writer out(sums.memory_bytes() + 4096);
   out.put_raw(kMagic.data(), kMagic.size());
   out.put(static_cast<std::uint64_t>(identity.size()));
   for (const auto& [what, value] : identity) {
@@ -125,13 +125,16 @@ std::string encode_checkpoint(const CheckpointIdentity& identity, const Checkpoi
   }
   put_state(out, state);
   out.put(static_cast<std::uint64_t>(sums.size()));
-  out.put_raw(sums.data(), sums.size_bytes());
+  out.put_raw(sums.high().data(), sums.high().size_bytes());
+  out.put_raw(sums.low().data(), sums.low().size_bytes());
   return out.finish();
 }
 
-CheckpointState decode_checkpoint(std::string_view bytes, const std::string& name, const CheckpointIdentity& identity,
-                                  std::span<double> sums) {
-  Reader in(bytes, name);
+namespace {
+
+/// What stands between the magic and the checksum, which fits.
+Reader body_of(std::string_view bytes, const std::string& name) {
+  const Reader in(bytes, name);
   if (!bytes.starts_with(kMagic)) in.fail("is no checkpoint of this program; name the output that it was made for");
   std::uint64_t stored = 0;
   if (bytes.size() < kMagic.size() + kHashSize) in.fail("is a damaged checkpoint; remove it to begin anew");
@@ -140,13 +143,33 @@ CheckpointState decode_checkpoint(std::string_view bytes, const std::string& nam
   if (stored != hash_of(content))
     in.fail("is a damaged checkpoint: its content does not fit its checksum; remove it to begin anew");
 
-  Reader body(content.substr(kMagic.size()), name);
+  return {content.substr(kMagic.size()), name};
+}
+
+}  // namespace
+
+CheckpointSummary peek_checkpoint(std::string_view bytes, const std::string& name) {
+  Reader body = body_of(bytes, name);
+  CheckpointSummary summary;
+  const auto count = body.get<std::uint64_t>();
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const std::string_view what = body.get_text(), value = body.get_text();
+    summary.identity.emplace_back(what, value);
+  }
+  summary.state = get_state(body);
+  return summary;
+}
+
+CheckpointState decode_checkpoint(std::string_view bytes, const std::string& name, const CheckpointIdentity& identity,
+                                  FilmSums& sums) {
+  Reader body = body_of(bytes, name);
   require_same(body, identity);
   CheckpointState state = get_state(body);
   if (body.get<std::uint64_t>() != sums.size()) body.fail("is a checkpoint of another frame; remove it to begin anew");
-  const std::string_view values = body.take(sums.size_bytes());
+  const std::string_view high = body.take(sums.high().size_bytes()), low = body.take(sums.low().size_bytes());
   if (!body.at_end()) body.fail("is a damaged checkpoint; remove it to begin anew");
-  std::memcpy(sums.data(), values.data(), values.size());
+  std::memcpy(sums.high().data(), high.data(), high.size());
+  std::memcpy(sums.low().data(), low.data(), low.size());
   return state;
 }
 

@@ -1,12 +1,12 @@
 /// A render's state as bytes: to be kept in a file and taken up again, by the same program for the same picture only.
 #pragma once
 
-#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "session/film_sums.h"
 #include "transport/counters.h"
 
 namespace tyndall {
@@ -22,12 +22,19 @@ struct CheckpointState {
 };
 
 /// Ends in a hash of all that goes before it.
-std::string encode_checkpoint(const CheckpointIdentity& identity, const CheckpointState& state, std::span<const double> sums);
+std::string encode_checkpoint(const CheckpointIdentity& identity, const CheckpointState& state, const FilmSums& sums);
 
 /// The state; the film's sums go to `sums`, which are left alone on failure. `name` stands for the file in messages.
 /// Throws Error (scene) for bytes that are no checkpoint or damaged, and for a part of `identity` that differs, with both
 /// values.
 CheckpointState decode_checkpoint(std::string_view bytes, const std::string& name, const CheckpointIdentity& identity,
-                                  std::span<double> sums);
+                                  FilmSums& sums);
+
+/// What a checkpoint says of itself, whatever it belongs to. Throws as decode_checkpoint does.
+struct CheckpointSummary {
+  CheckpointIdentity identity;
+  CheckpointState state;
+};
+CheckpointSummary peek_checkpoint(std::string_view bytes, const std::string& name);
 
 }  // namespace tyndall

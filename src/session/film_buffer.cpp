@@ -1,6 +1,7 @@
 #include "session/film_buffer.h"
 
 #include <algorithm>
+#include <array>
 
 #include "tyndall/error.h"
 #include "tyndall/settings.h"
@@ -30,12 +31,10 @@ std::size_t sums_of(Aov aov) {
 
 bool is_light(Aov aov) { return aov >= Aov::surface_direct; }
 
-void add3(double* sum, float x, float y, float z, float weight) {
-  sum[0] += static_cast<double>(x) * weight;
-  sum[1] += static_cast<double>(y) * weight;
-  sum[2] += static_cast<double>(z) * weight;
+std::string sum_channel(std::size_t number, std::size_t part) {
+  constexpr std::array kParts{".high", ".mid", ".low"};
+  return "Sum." + std::to_string(number) + kParts[part];
 }
-void add3(double* sum, Rgb c, float weight) { add3(sum, c.r, c.g, c.b, weight); }
 
 std::string name_of_aov(Aov aov) { return std::string(aov_names()[static_cast<std::size_t>(aov)]); }
 
@@ -58,73 +57,79 @@ std::vector<Aov> parse_aovs(const std::vector<std::string>& names) {
   return aovs;
 }
 
+std::string aov_list(const std::vector<std::string>& names) {
+  std::string list;
+  for (const Aov aov : parse_aovs(names)) list += (list.empty() ? "" : ",") + name_of_aov(aov);
+  return list;
+}
+
 FilmBuffer::FilmBuffer(const Film& film, PixelBounds crop, std::vector<Aov> aovs)
     : film_(film), crop_(crop), aovs_(std::move(aovs)), stride_(kFirstAov) {
   for (const Aov aov : aovs_) {
     offsets_.push_back(stride_);
     stride_ += sums_of(aov);
   }
-  sums_.assign(static_cast<std::size_t>(crop.width()) * crop.height() * stride_, 0.0);
+  sums_ = FilmSums(crop.size() * stride_);
 }
 
 bool FilmBuffer::wants(Aov aov) const { return std::find(aovs_.begin(), aovs_.end(), aov) != aovs_.end(); }
 
-std::vector<double> FilmBuffer::copy(const PixelBounds& tile) const {
+FilmSums FilmBuffer::copy(const PixelBounds& tile) const {
   const std::size_t row = static_cast<std::size_t>(tile.width()) * stride_;
-  std::vector<double> sums;
-  sums.reserve(row * static_cast<std::size_t>(tile.height()));
-  for (int y = tile.y0; y < tile.y1; ++y) {
-    const double* from = pixel(crop_.index(tile.x0, y));
-    sums.insert(sums.end(), from, from + row);
-  }
+  FilmSums sums(tile.size() * stride_);
+  for (int y = tile.y0; y < tile.y1; ++y) sums.copy(sums_, first_of(tile.x0, y), row, tile.index(tile.x0, y) * stride_);
   return sums;
 }
 
-void FilmBuffer::restore(const PixelBounds& tile, const std::vector<double>& sums) {
+void FilmBuffer::restore(const PixelBounds& tile, const FilmSums& sums) {
   const std::size_t row = static_cast<std::size_t>(tile.width()) * stride_;
-  for (int y = tile.y0; y < tile.y1; ++y) {
-    std::copy_n(sums.data() + static_cast<std::size_t>(y - tile.y0) * row, row, pixel(tile.x0, y));
-  }
+  for (int y = tile.y0; y < tile.y1; ++y) sums_.copy(sums, tile.index(tile.x0, y) * stride_, row, first_of(tile.x0, y));
 }
 
 void FilmBuffer::clear(const PixelBounds& tile) {
-  for (int y = tile.y0; y < tile.y1; ++y) std::fill_n(pixel(tile.x0, y), static_cast<std::size_t>(tile.width()) * stride_, 0.0);
+  for (int y = tile.y0; y < tile.y1; ++y) sums_.clear(first_of(tile.x0, y), static_cast<std::size_t>(tile.width()) * stride_);
 }
 
 void FilmBuffer::add(int x, int y, int sample, const PathRecord& record, float weight) {
-  double* sum = pixel(x, y);
-  add3(sum + ((sample & 1) ? kOdd : kEven), record.radiance(), weight);
-  sum[kAlpha] += static_cast<double>(record.alpha) * weight;
-  for (std::size_t i = 0; i < aovs_.size(); ++i) add_aov(aovs_[i], sum + offsets_[i], record, weight);
+  const std::size_t first = first_of(x, y);
+  add3(first + ((sample & 1) ? kOdd : kEven), record.radiance(), weight);
+  sums_.add(first + kAlpha, record.alpha * weight);
+  for (std::size_t i = 0; i < aovs_.size(); ++i) add_aov(aovs_[i], first + offsets_[i], record, weight);
 }
 
-void FilmBuffer::add_aov(Aov aov, double* sum, const PathRecord& r, float weight) const {
+void FilmBuffer::add3(std::size_t first, float x, float y, float z, float weight) {
+  sums_.add(first, x * weight);
+  sums_.add(first + 1, y * weight);
+  sums_.add(first + 2, z * weight);
+}
+
+void FilmBuffer::add_aov(Aov aov, std::size_t first, const PathRecord& r, float weight) {
   switch (aov) {
     case Aov::albedo:
-      return add3(sum, r.albedo, weight);
+      return add3(first, r.albedo, weight);
     case Aov::n:
-      return add3(sum, r.n.x, r.n.y, r.n.z, weight);
+      return add3(first, r.n.x, r.n.y, r.n.z, weight);
     case Aov::transmittance:
-      return add3(sum, r.transmittance, weight);
+      return add3(first, r.transmittance, weight);
     case Aov::surface_direct:
-      return add3(sum, r.surface_direct, weight);
+      return add3(first, r.surface_direct, weight);
     case Aov::surface_indirect:
-      return add3(sum, r.surface_indirect, weight);
+      return add3(first, r.surface_indirect, weight);
     case Aov::volume_direct:
-      return add3(sum, r.volume_direct, weight);
+      return add3(first, r.volume_direct, weight);
     case Aov::volume_indirect:
-      return add3(sum, r.volume_indirect, weight);
+      return add3(first, r.volume_indirect, weight);
     case Aov::emission:
-      return add3(sum, r.emission, weight);
+      return add3(first, r.emission, weight);
     // Positions are means over the samples that have one, unweighted: a filter's negative lobe makes no sense here.
     case Aov::p:
-      if (r.hit_surface) add3(sum, r.p.x, r.p.y, r.p.z, 1), sum[3] += 1;
+      if (r.hit_surface) add3(first, r.p.x, r.p.y, r.p.z, 1), sums_.add(first + 3, 1);
       return;
     case Aov::z:
-      if (r.hit_surface) sum[0] += r.z, sum[1] += 1;
+      if (r.hit_surface) sums_.add(first, r.z), sums_.add(first + 1, 1);
       return;
     case Aov::z_volume:
-      if (r.hit_volume) sum[0] += r.z_volume, sum[1] += 1;
+      if (r.hit_volume) sums_.add(first, r.z_volume), sums_.add(first + 1, 1);
       return;
     case Aov::variance:
     case Aov::sample_count:
@@ -142,12 +147,11 @@ void FilmBuffer::store_color(Image& image, const std::string& prefix, std::size_
   for (const char* suffix : {"R", "G", "B"}) image.add_channel(prefix + suffix);
   const std::size_t pixels = image.channels[first].values.size();
   for (std::size_t i = 0; i < pixels; ++i) {
-    const double* s = pixel(i) + offset;
-    const double* other = pixel(i) + kOdd;  // only the beauty sums come in two halves
-    const double add = offset == kEven ? 1.0 : 0.0;
-    const Rgb c = to_film_space({static_cast<float>((s[0] + add * other[0]) / samples),
-                                 static_cast<float>((s[1] + add * other[1]) / samples),
-                                 static_cast<float>((s[2] + add * other[2]) / samples)});
+    const auto mean = [&](std::size_t k) {
+      const double odd = offset == kEven ? sum(i, kOdd + k) : 0;  // only the beauty sums come in two halves
+      return static_cast<float>((sum(i, offset + k) + odd) / samples);
+    };
+    const Rgb c = to_film_space({mean(0), mean(1), mean(2)});
     for (int k = 0; k < 3; ++k) image.channels[first + k].values[i] = c[k];
   }
 }
@@ -168,13 +172,13 @@ void FilmBuffer::store_variance(Image& image, int samples) const {
   const int odd = samples / 2, even = samples - odd;
   const std::size_t pixels = image.channels[first].values.size();
   for (std::size_t i = 0; i < pixels; ++i) {
-    const double* s = pixel(i);
     Rgb difference;  // in double first: the halves are nearly equal
     for (int k = 0; k < 3; ++k) {
-      difference[k] = static_cast<float>(s[kEven + k] / even - (odd > 0 ? s[kOdd + k] / odd : 0.0));
+      difference[k] = static_cast<float>(sum(i, kEven + static_cast<std::size_t>(k)) / even -
+                                         (odd > 0 ? sum(i, kOdd + static_cast<std::size_t>(k)) / odd : 0.0));
     }
     // E[(a-b)^2] = v/even + v/odd for a variance of v a sample, so the mean of all has (a-b)^2 even odd / samples^2.
-    // A single sample says nothing of its variance; its square stands in as a value that promises nothing.
+    // A single sample has no variance estimate; its square stands in as a pessimistic value.
     const float factor = odd > 0 ? static_cast<float>(even) * odd / (static_cast<float>(samples) * samples) : 1.0f;
     const Rgb d = to_film_space(difference);
     for (int k = 0; k < 3; ++k) image.channels[first + k].values[i] = d[k] * d[k] * factor;
@@ -195,14 +199,48 @@ void FilmBuffer::store_aov(Image& image, Aov aov, std::size_t offset, int sample
   }
   const std::size_t pixels = image.channels[first].values.size();
   for (std::size_t i = 0; i < pixels; ++i) {
-    const double* s = pixel(i) + offset;
+    const auto s = [&](std::size_t k) { return sum(i, offset + k); };
     if (aov == Aov::sample_count) {
       image.channels[first].values[i] = static_cast<float>(samples);
     } else if (vector) {
-      const double count = aov == Aov::n ? samples : std::max(s[3], 1.0);
-      for (int k = 0; k < 3; ++k) image.channels[first + k].values[i] = static_cast<float>(s[k] / count);
+      const double count = aov == Aov::n ? samples : std::max(s(3), 1.0);
+      for (int k = 0; k < 3; ++k)
+        image.channels[first + k].values[i] = static_cast<float>(s(static_cast<std::size_t>(k)) / count);
     } else {
-      image.channels[first].values[i] = static_cast<float>(s[0] / std::max(s[1], 1.0));
+      image.channels[first].values[i] = static_cast<float>(s(0) / std::max(s(1), 1.0));
+    }
+  }
+}
+
+void FilmBuffer::store_sums(Image& image) const {
+  for (std::size_t k = 0; k < stride_; ++k) {
+    std::array<float*, 3> parts;
+    for (std::size_t p = 0; p < 3; ++p) parts[p] = image.add_channel(sum_channel(k, p)).values.data();
+    for (std::size_t i = 0; i < crop_.size(); ++i) {
+      const double sum = sums_.high()[i * stride_ + k];
+      parts[0][i] = static_cast<float>(sum);
+      const double rest = sum - static_cast<double>(parts[0][i]);  // at most 29 bits of a double's 53 are left
+      parts[1][i] = static_cast<float>(rest);
+      parts[2][i] = static_cast<float>(rest - static_cast<double>(parts[1][i]) + sums_.low()[i * stride_ + k]);
+    }
+  }
+}
+
+bool FilmBuffer::has_sums(const Image& image) const {
+  for (std::size_t k = 0; k < stride_; ++k) {
+    for (std::size_t p = 0; p < 3; ++p) {
+      if (!image.find(sum_channel(k, p))) return false;
+    }
+  }
+  return !image.find(sum_channel(stride_, 0));
+}
+
+void FilmBuffer::add_sums(const Image& image) {
+  for (std::size_t k = 0; k < stride_; ++k) {
+    std::array<const float*, 3> parts;
+    for (std::size_t p = 0; p < 3; ++p) parts[p] = image.find(sum_channel(k, p))->values.data();
+    for (std::size_t i = 0; i < crop_.size(); ++i) {
+      for (const float* part : parts) sums_.add(i * stride_ + k, part[i]);
     }
   }
 }
@@ -213,20 +251,20 @@ double FilmBuffer::estimated_relmse(int samples) const {
   halves.data = crop_;
   store_color(halves, "", kEven, samples);
   store_variance(halves, samples);
-  double sum = 0;
+  double total = 0;
   const std::size_t pixels = halves.channels[0].values.size();
   for (std::size_t i = 0; i < pixels; ++i) {
     for (int k = 0; k < 3; ++k) {
       const double mean = halves.channels[k].values[i];
-      sum += halves.channels[3 + k].values[i] / (mean * mean + kRelativeEpsilon);
+      total += halves.channels[3 + k].values[i] / (mean * mean + kRelativeEpsilon);
     }
   }
-  return sum / (3.0 * static_cast<double>(pixels));
+  return total / (3.0 * static_cast<double>(pixels));
 }
 
 void FilmBuffer::store_count(Image& image, const std::string& name, std::size_t offset) const {
   std::vector<float>& values = image.add_channel(name).values;
-  for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(pixel(i)[offset]);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(sum(i, offset));
 }
 
 void FilmBuffer::store_counts(Image& image) const {
@@ -248,7 +286,7 @@ Image FilmBuffer::image(int samples) const {
   store_color(image, "", kEven, samples);
   Channel& alpha = image.add_channel("A");
   for (std::size_t i = 0; i < alpha.values.size(); ++i) {
-    alpha.values[i] = static_cast<float>(pixel(i)[kAlpha] / samples);
+    alpha.values[i] = static_cast<float>(sum(i, kAlpha) / samples);
   }
   for (std::size_t i = 0; i < aovs_.size(); ++i) store_aov(image, aovs_[i], offsets_[i], samples);
   store_counts(image);

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <string>
 #include <vector>
 
+#include "session/film_sums.h"
 #include "transport/path_record.h"
 #include "tyndall/image.h"
 #include "tyndall/scene.h"
@@ -30,9 +30,11 @@ enum class Aov {
 
 /// AOVs by name, once each, in the order of aov_names(). Throws Error (usage) that lists the names for an unknown one.
 std::vector<Aov> parse_aovs(const std::vector<std::string>& names);
+/// And back: "Albedo,Z", whatever the order of `names`.
+std::string aov_list(const std::vector<std::string>& names);
 
-/// Double sums over the pixels of a crop. A pixel is written by one thread at a time, its samples in order, so that
-/// the sums do not depend on threads or on how samples are grouped into passes.
+/// Sums over the pixels of a crop. A pixel is written by one thread at a time; neither threads nor how samples are grouped into
+/// passes, or into jobs, change a sum.
 class FilmBuffer {
  public:
   /// The film rectangle `crop` and the AOVs to gather.
@@ -40,29 +42,38 @@ class FilmBuffer {
 
   bool wants(Aov aov) const;
   const PixelBounds& crop() const { return crop_; }
+  const Film& film() const { return film_; }
 
   /// Add sample number `sample` of pixel (x, y) of the full frame, weighted by the pixel filter.
   void add(int x, int y, int sample, const PathRecord& record, float weight);
 
   /// All sums, pixel by pixel: what a checkpoint keeps.
-  std::span<const double> sums() const { return sums_; }
-  std::span<double> sums() { return sums_; }
+  const FilmSums& sums() const { return sums_; }
+  FilmSums& sums() { return sums_; }
   /// The sums of the pixels of `tile`, which lies in the crop; and back.
-  std::vector<double> copy(const PixelBounds& tile) const;
-  void restore(const PixelBounds& tile, const std::vector<double>& sums);
+  FilmSums copy(const PixelBounds& tile) const;
+  void restore(const PixelBounds& tile, const FilmSums& sums);
   void clear(const PixelBounds& tile);
 
   /// Means of the `samples` samples that every pixel has received, in the film's colour space. Beside P and Z stands
   /// SurfaceCount, beside Zvol VolumeCount: over how many samples their means are, so that renders can be merged.
   Image image(int samples) const;
 
+  /// The exact sums as channels "Sum.N.high", ".mid" and ".low", floats that add up to sum number N; and back, added to those
+  /// here: of an image of the same crop that has_sums().
+  void store_sums(Image& image) const;
+  bool has_sums(const Image& image) const;
+  void add_sums(const Image& image);
+
   /// Mean of variance / (mean^2 + 0.01) over pixels and channels, as the two replicates tell; infinity for samples < 2.
   double estimated_relmse(int samples) const;
 
  private:
-  double* pixel(int x, int y) { return sums_.data() + crop_.index(x, y) * stride_; }
-  const double* pixel(std::size_t index) const { return sums_.data() + index * stride_; }
-  void add_aov(Aov aov, double* sum, const PathRecord& record, float weight) const;
+  std::size_t first_of(int x, int y) const { return crop_.index(x, y) * stride_; }  ///< of a pixel's sums
+  double sum(std::size_t pixel, std::size_t offset) const { return sums_.value(pixel * stride_ + offset); }
+  void add3(std::size_t first, float x, float y, float z, float weight);
+  void add3(std::size_t first, Rgb c, float weight) { add3(first, c.r, c.g, c.b, weight); }
+  void add_aov(Aov aov, std::size_t first, const PathRecord& record, float weight);
   void store_color(Image& image, const std::string& prefix, std::size_t offset, int samples) const;
   void store_ratio(Image& image, const std::string& prefix, std::size_t offset, int samples) const;
   void store_aov(Image& image, Aov aov, std::size_t offset, int samples) const;
@@ -76,7 +87,7 @@ class FilmBuffer {
   std::vector<Aov> aovs_;
   std::vector<std::size_t> offsets_;  ///< of each AOV within a pixel's sums
   std::size_t stride_;
-  std::vector<double> sums_;
+  FilmSums sums_;
 };
 
 }  // namespace tyndall

@@ -14,8 +14,9 @@ std::size_t plan_film(const Scene& scene) {
   const double pixels = pixels_of(scene);
   const double channels = 4 + 4 * static_cast<double>(scene.settings.aovs.size());
   ByteCount sum;
-  sum.add(pixels, 2 * sizeof(double) * (3 + channels));  // twice: a long pass keeps a way back
-  sum.add(pixels, 2 * sizeof(float) * channels);         // the image, and its encoding
+  sum.add(pixels, 2 * (sizeof(double) + sizeof(float)) * (3 + channels));         // twice: a long pass keeps a copy to undo it
+  sum.add(pixels, 2 * sizeof(float) * channels);                                  // the image, and its encoding
+  if (scene.settings.slice) sum.add(pixels, 3 * sizeof(float) * (3 + channels));  // its sums
   return sum.bytes();
 }
 

@@ -24,7 +24,7 @@ bool PassSchedule::good_enough(const RenderJob& job) const {
 }
 
 bool PassSchedule::complete(const RenderJob& job) const {
-  if (job.samples() >= settings_.spp) return true;
+  if (job.samples() >= samples_wanted_) return true;
   if (settings_.time && job.samples() > 0 && job.seconds() >= *settings_.time) return true;
   return good_enough(job);
 }
@@ -41,14 +41,15 @@ int PassSchedule::next_pass(const RenderJob& job) {
     if (settings_.time) budget = std::min(budget, *settings_.time - job.seconds());
     pass = std::clamp(static_cast<int>(budget / std::max(a_sample, 1e-9)), 1, pass);
   }
+  if (settings_.slice) pass = std::max(pass / 2 * 2, 2);  // replicates of as many samples in each
   if (checkpoints_ || settings_.error) pass = std::min(pass, samples_to_next_checkpoint(done));
   // The error falls like 1/samples: good enough to tell how long it will take.
   if (settings_.error && done >= 2 && is_checkpoint(done)) samples_needed_ = done * job.estimated_relmse() / *settings_.error;
-  return std::min(pass, settings_.spp - done);
+  return std::min(pass, samples_wanted_ - done);
 }
 
 double PassSchedule::fraction(double samples, double seconds) const {
-  double fraction = samples / settings_.spp;
+  double fraction = samples / samples_wanted_;
   if (settings_.time) fraction = std::max(fraction, seconds / *settings_.time);
   if (samples_needed_ > 0) fraction = std::max(fraction, samples / std::max<double>(samples_needed_, kFirstErrorCheck));
   return std::min(fraction, 1.0);
@@ -56,7 +57,7 @@ double PassSchedule::fraction(double samples, double seconds) const {
 
 std::optional<Progress> PassSchedule::progress(const RenderJob& job, double pass_samples) {
   const double now = begun_ ? begun_->timer.seconds() : 0;
-  if (!begun_ || (now - last_report_ < kReportSeconds && job.samples() < settings_.spp)) return std::nullopt;
+  if (!begun_ || (now - last_report_ < kReportSeconds && job.samples() < samples_wanted_)) return std::nullopt;
   last_report_ = now;
   Progress p;
   p.samples_done = job.samples();
@@ -64,7 +65,7 @@ std::optional<Progress> PassSchedule::progress(const RenderJob& job, double pass
   p.seconds = now;
   // The job's clock stands still until a pass has ended.
   p.fraction = fraction(p.samples_done + pass_samples, job.seconds() + (pass_samples > 0 ? pass_timer_.seconds() : 0));
-  const double here = p.fraction - fraction(begun_->samples, begun_->seconds);  // what a checkpoint brought took no time here
+  const double here = p.fraction - fraction(begun_->samples, begun_->seconds);  // what a checkpoint restored took no time here
   p.remaining = here > 0 ? now * (1 - p.fraction) / here : 0.0;
   return p;
 }

@@ -14,7 +14,8 @@ namespace tyndall {
 class PassSchedule {
  public:
   /// `checkpoints`: passes end at every power of two.
-  PassSchedule(const RenderSettings& settings, bool checkpoints) : settings_(settings), checkpoints_(checkpoints) {}
+  PassSchedule(const RenderSettings& settings, bool checkpoints)
+      : settings_(settings), samples_wanted_(sample_range(settings).count), checkpoints_(checkpoints) {}
 
   static bool is_checkpoint(int samples) { return samples > 0 && (samples & (samples - 1)) == 0; }
 
@@ -39,6 +40,7 @@ class PassSchedule {
   };
 
   RenderSettings settings_;
+  int samples_wanted_;
   std::optional<Begun> begun_;
   Timer pass_timer_;
   bool checkpoints_;

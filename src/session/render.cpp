@@ -1,6 +1,7 @@
-// The loop around a RenderJob: how long it goes on, and who hears of it.
+// The loop around a RenderJob: how long it goes on, and progress reports.
 
 #include "session/pass_schedule.h"
+#include "session/slice.h"
 #include "tyndall/timer.h"
 
 namespace tyndall {
@@ -27,11 +28,13 @@ class RenderLoop {
     RenderReport report = job_.report();
     report.stopped = stop_requested() && (given_up || !schedule_.complete(job_));
     if (report.stopped && report.unrendered == 0 && control_.save) save();
-    return {job_.image(), std::move(report)};
+    Image image = job_.image();
+    if (report.stopped) mark_stopped(image);
+    return {std::move(image), std::move(report)};
   }
 
  private:
-  /// False: it was given up. Keeping the way back open costs memory, so it is left out where passes are short.
+  /// False: it was given up. Being able to undo the pass costs memory, so it is left out where passes are short.
   bool run_pass(int count) {
     const Timer pass_timer;
     const bool first = job_.samples() == 0;

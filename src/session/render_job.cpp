@@ -10,7 +10,9 @@
 #include "session/film_buffer.h"
 #include "session/image_header.h"
 #include "session/render_pass.h"
+#include "session/resolved_settings.h"
 #include "session/scene_hash.h"
+#include "session/slice.h"
 #include "transport/film_light.h"
 #include "transport/path.h"
 #include "transport/shine_light.h"
@@ -46,37 +48,6 @@ PixelBounds full_crop(const Scene& scene, const RenderSettings& settings) {
   return crop;
 }
 
-void check(const RenderSettings& settings) {
-  if (settings.spp < 1) throw Error(Failure::usage, "spp is " + std::to_string(settings.spp) + "; give 1 or more");
-  if (settings.candidates && *settings.candidates < 0) throw Error(Failure::usage, "candidates is negative; give 0 or more");
-  if (settings.splitting && !(*settings.splitting >= 0 && *settings.splitting <= 1))
-    throw Error(Failure::usage, "splitting must be from 0 to 1");
-  const bool along_spans = settings.distance != DistanceStrategy::automatic && settings.distance != DistanceStrategy::tracking;
-  if (settings.media == MediaStrategy::vertex && along_spans) {
-    throw Error(Failure::usage,
-                "media vertex chooses a light at a collision that has been tracked, so its distance is tracking; "
-                "leave distance out, or choose media closest, integral or product");
-  }
-  if (settings.shadow_rays && *settings.shadow_rays < 0) throw Error(Failure::usage, "shadow rays is negative; give 0 or more");
-  if (settings.max_depth < 0) throw Error(Failure::usage, "max depth is negative; give 0 or more");
-  if (settings.error && !(*settings.error > 0)) throw Error(Failure::usage, "error must be positive; give a relMSE");
-  if (settings.time && !(*settings.time > 0)) throw Error(Failure::usage, "time must be positive; give seconds");
-}
-
-/// With the methods that "auto" stands for.
-RenderSettings resolved(RenderSettings settings, const World::Parts& world) {
-  check(settings);
-  world.built.lights.selector(settings.lights);  // throws when it was not built
-  if (settings.emission == EmissionStrategy::lights && !world.built.has_fire)
-    throw Error(Failure::usage, "the world was not built for emission as lights; set BuildSettings::fire");
-  // What stands for other programs' methods goes on from events as they do.
-  const bool ours = settings.media == MediaStrategy::product;
-  if (settings.guiding == GuidingStrategy::automatic) settings.guiding = ours ? GuidingStrategy::media : GuidingStrategy::off;
-  if (settings.joint == JointStrategy::automatic) settings.joint = ours ? JointStrategy::points : JointStrategy::off;
-  if (settings.media == MediaStrategy::vertex) settings.distance = DistanceStrategy::tracking;
-  return settings;
-}
-
 }  // namespace
 
 class RenderJob::Impl {
@@ -85,7 +56,8 @@ class RenderJob::Impl {
       : world_(world),
         settings_(resolved(settings, world)),
         selector_(world.built.lights.selector(settings.lights, settings.emission == EmissionStrategy::lights)),
-        film_(world.built.scene.film, full_crop(world.built.scene, settings), parse_aovs(settings.aovs)),
+        first_sample_(sample_range(settings).first),
+        film_(world.built.scene.film, full_crop(world.built.scene, settings), film_aovs(settings)),
         pool_(settings.threads) {}
 
   bool advance(int count, const PassWatch& watch, GivenUp if_given_up) {
@@ -111,7 +83,7 @@ class RenderJob::Impl {
       keep_finished(pass);
     } else if (undo) {
       for (std::size_t i = 0; i < pass.tiles(); ++i) {
-        if (!pass.before[i].empty()) film_.restore(pass.tile(i), pass.before[i]);
+        if (pass.before[i].size() > 0) film_.restore(pass.tile(i), pass.before[i]);
       }
       counters_ = counters_before;
     }
@@ -131,6 +103,7 @@ class RenderJob::Impl {
     Image image = film_.image(samples_);
     if (!unrendered_.empty()) mark_unrendered(image);
     write_header(image, world_, settings_, report());
+    if (settings_.slice) add_slice(image, film_, settings_, samples_);
     return image;
   }
 
@@ -167,26 +140,27 @@ class RenderJob::Impl {
     };
     const FilmSearch search{world_.built, settings_, film_.crop(), pool_, alive};
     alive();
-    film_lamps_ = film_lamps(search);
-    film_shine_ = film_shine(search);
+    film_points_ = film_points(search);
+    film_emitters_ = film_emitters(search);
     film_edges_ = film_edges(search);
     searched_ = true;
     preparing_seconds_ = search_timer.seconds();
   }
 
-  /// What a pixel's samples seek on the film.
+  /// What is searched for on the film for a pixel's samples.
   struct FilmLights {
-    PixelLamps lamps;
-    ShineView shine;
+    PixelPoints points;
+    EmitterView emitters;
   };
 
-  /// False: the pass was given up on the way.
+  /// False: the pass was given up.
   bool render_tile(RenderPass& pass, const PixelBounds& pixels, Counters& counters) {
     for (int y = pixels.y0; y < pixels.y1; ++y) {
       if (pass.given_up) return false;
       for (int x = pixels.x0; x < pixels.x1; ++x) {
-        const FilmLights of_pixel{film_lamps_.of(x, y), {film_shine_.of(x, y), film_edges_.at(x, y)}};
-        for (int s = samples_; s < samples_ + pass.count; ++s) render_sample({settings_.seed, x, y, s}, of_pixel, counters);
+        const FilmLights of_pixel{film_points_.of(x, y), {film_emitters_.of(x, y), film_edges_.at(x, y)}};
+        for (int s = samples_; s < samples_ + pass.count; ++s)
+          render_sample({settings_.seed, x, y, first_sample_ + s}, of_pixel, counters);
       }
       pass.tell(pixels.width());
     }
@@ -222,37 +196,36 @@ class RenderJob::Impl {
   /// What must agree for a checkpoint to be taken up: everything that the bits of the picture depend on.
   CheckpointIdentity identity() const {
     const PixelBounds& c = film_.crop();
-    std::string pixels, aovs;
+    std::string pixels;
     for (const int v : {c.x0, c.x1, c.y0, c.y1}) pixels += (pixels.empty() ? "" : ",") + std::to_string(v);
-    for (const Aov aov : parse_aovs(settings_.aovs))
-      aovs += (aovs.empty() ? "" : ",") + std::string(aov_names()[static_cast<std::size_t>(aov)]);
     return {{"scene", scene_hash_text(world_.scene_hash, settings_)},
             {"options", options_text(settings_) + " --seed " + std::to_string(settings_.seed)},
+            {"slice", slice_text(settings_)},
             {"crop", pixels},
-            {"aov", aovs},
+            {"aov", aov_list(settings_.aovs)},
             {"build", build_id()}};
   }
 
   void render_sample(const SampleKey& key, const FilmLights& of_pixel, Counters& counters) {
-    const auto& [lamps, shine] = of_pixel;
+    const auto& [points, emitters] = of_pixel;
     Sampler sampler(key);
     const FilterSampler::Offset offset = world_.built.filter.sample(sampler.next_2d());
     const Vec2 lens = sampler.next_2d();
     const Vec2 center{static_cast<float>(key.x) + 0.5f, static_cast<float>(key.y) + 0.5f};
     const Vec2 on_film{center.x + offset.p.x, center.y + offset.p.y};
-    const FilmRay film_ray(lamps, on_film, offset.pdf);
-    const ShineRay shine_ray(shine, offset.pdf);
+    const FilmRay film_ray(points, on_film, offset.pdf);
+    const EmitterRay emitter_ray(emitters, offset.pdf);
     LightContext context{world_.built, selector_, settings_, sampler, counters};
-    if (!lamps.empty()) context.joint = &film_ray;
-    if (!shine.own_only()) context.shine = &shine_ray;
+    if (!points.empty()) context.joint = &film_ray;
+    if (!emitters.own_only()) context.emitters = &emitter_ray;
     const Path::Limits limits{.max_depth = settings_.max_depth,
                               .want_transmittance = film_.wants(Aov::transmittance),
                               .want_albedo = film_.wants(Aov::albedo)};
-    const Rgb of_lamps = lamps.empty() ? Rgb() : film_light(context, lamps, center, sampler.fork());
-    const Rgb of_shine = shine.own_only() ? Rgb() : shine_light(context, shine, center, sampler.fork());
+    const Rgb of_points = points.empty() ? Rgb() : film_light(context, points, center, sampler.fork());
+    const Rgb of_emitters = emitters.own_only() ? Rgb() : visible_emitters(context, emitters, center, sampler.fork());
     PathRecord record = Path(context, limits, world_.built.camera.ray(on_film, lens)).run();
-    record.volume_direct += of_lamps * (1 / offset.weight);  // the film takes it times that weight
-    record.emission += of_shine * (1 / offset.weight);
+    record.volume_direct += of_points * (1 / offset.weight);  // the film takes it times that weight
+    record.emission += of_emitters * (1 / offset.weight);
     expose(record);
     place(record);
     if (!record.is_finite()) {
@@ -283,12 +256,13 @@ class RenderJob::Impl {
   const World::Parts& world_;
   RenderSettings settings_;
   const LightSelector& selector_;
+  int first_sample_;
   FilmBuffer film_;
   ThreadPool pool_;
   bool searched_ = false;
   double preparing_seconds_ = 0;
-  FilmLamps film_lamps_;
-  FilmShine film_shine_;
+  FilmPoints film_points_;
+  FilmEmitters film_emitters_;
   FilmEdges film_edges_;
   int samples_ = 0;
   double seconds_ = 0;

@@ -1,4 +1,4 @@
-/// One pass of a render over its frame: tiles, who is told how far it is, and what it takes to undo it.
+/// One pass of a render over its frame: tiles, progress, and what it takes to undo it.
 #pragma once
 
 #include <algorithm>
@@ -7,6 +7,7 @@
 #include <mutex>
 #include <vector>
 
+#include "session/film_sums.h"
 #include "tyndall/render.h"
 
 namespace tyndall {
@@ -47,8 +48,8 @@ struct RenderPass {
   std::mutex mutex;
   std::uint64_t pixels_done = 0;
   std::atomic<bool> given_up{false};
-  std::vector<char> finished;               ///< by tile
-  std::vector<std::vector<double>> before;  ///< sums by tile, to undo the pass; empty: not kept
+  std::vector<char> finished;    ///< by tile
+  std::vector<FilmSums> before;  ///< sums by tile, to undo the pass; empty: not kept
 };
 
 }  // namespace tyndall

@@ -47,7 +47,7 @@ World build(Scene scene, const BuildSettings& settings) {
     volume_memory = left_for_volumes(plan, settings.max_memory);
   }
   // Of the scene as it was given, and now and not when an image is written: the files may be gone then. A file that
-  // cannot be read is reported by who uses it, with its place in the scene.
+  // cannot be read is reported where it is used, with its place in the scene.
   std::uint64_t hash = 0;
   std::optional<Error> unread;
   try {

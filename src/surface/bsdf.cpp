@@ -5,7 +5,7 @@ namespace {
 
 constexpr float kMissedByGlass = 0.3f;
 
-/// Shares are of one: what is absorbed makes no difference.
+/// Shares of the lobes sum to one, whatever is absorbed.
 struct HighlightFinder {
   Vec3 wo;  ///< local
   Highlights found{};

@@ -1,4 +1,4 @@
-/// Ray tracing over a scene's shapes: the nearest real surface, and the media boundaries on the way to it.
+/// Ray tracing over a scene's shapes: the nearest real surface, and the media boundaries before it.
 #pragma once
 
 #include <cstddef>
@@ -59,8 +59,8 @@ using Crossings = SmallVector<Crossing, 8>;
 /// neighbours at an edge) count once; what enters and leaves at one t, to rounding, cancels.
 struct Trace {
   std::optional<SurfaceHit> hit;  ///< nearest surface that is not of interface material
-  /// Where the way through media ends: at the hit, or t_max. A boundary that is nearer to the hit than offset_origin() on
-  /// its near side (coplanar with the surface, say) belongs to the far side: the way then ends there, since what happened
+  /// Where the segment through media ends: at the hit, or t_max. A boundary that is nearer to the hit than offset_origin() on
+  /// its near side (coplanar with the surface, say) belongs to the far side: the segment then ends there, since what happened
   /// past it would be on the wrong side of it.
   float t_end;
   Crossings crossings;  ///< of interface boundaries in (t_min, t_end)
@@ -81,7 +81,7 @@ class Geometry {
   /// Alpha is decided by a hash of the ray, so the same ray always meets the same surface.
   Trace trace(const Ray& ray, float t_min, float t_max) const;
 
-  /// The interface boundaries in (t_min, t_max); nothing when a real surface blocks the way.
+  /// The interface boundaries in (t_min, t_max); nothing when a real surface blocks the ray.
   std::optional<Crossings> trace_shadow(const Ray& ray, float t_min, float t_max) const;
 
   /// Every boundary in (t_min, t_max), also those of real surfaces; nothing blocks. To find what holds a point: over a

@@ -1,4 +1,4 @@
-/// How a surface scatters in outline: a cosine lobe and glossy ones. For those who weigh light by where it comes from.
+/// How a surface scatters, roughly: a cosine lobe and glossy ones. For weighting light by the direction it comes from.
 #pragma once
 
 #include <cmath>

@@ -21,7 +21,7 @@ std::uint64_t bits(Vec3 v) {
   return hash(std::bit_cast<std::uint32_t>(v.x), std::bit_cast<std::uint32_t>(v.y), std::bit_cast<std::uint32_t>(v.z));
 }
 
-/// Weight of a technique of density `a` against one of density `b`, squared [Veach 1997].
+/// MIS weight of a technique of density `a` against one of density `b`, squared [Veach 1997].
 float power_heuristic(float a, float b) {
   if (a <= 0) return 0;
   const float ratio = b / a;
@@ -34,13 +34,13 @@ std::optional<BsdfSample> sample_with(const Lobe& lobe, Vec3 wo, Rng& rng, Mode.
   return lobe.sample(wo, uc, {u, v}, mode...);
 }
 
-/// One walk's estimate of the light that enters along wi and leaves along wo after at least one event inside.
-/// Both directions are above the surface. The last step out is found in two ways: along `out`, drawn backwards from
-/// wi, and by chance, through top.eval(); where both can be, they share by the power heuristic.
+/// One walk's estimate of the light that enters along wi and leaves along wo after at least one bounce inside. Both directions
+/// are above the surface. The last step out is sampled by two techniques: along `out`, drawn backwards from wi, and by chance,
+/// through top.eval(); where both are possible, MIS weights them by the power heuristic.
 ///
-/// pbrt-v4 weighs the second way with the density of wi given w instead of that of w given wi. Its two weights then
-/// sum to more than one, and its f() under a rough top is too bright (by 8 % at alpha 0.45) for its own Sample_f().
-/// Ours sum to one, and eval() and sample() agree.
+/// pbrt-v4 weights the second technique with the density of wi given w instead of that of w given wi. Its two weights then sum
+/// to more than one, and its f() under a rough top is too bright for its own Sample_f() (docs/measurements.md). Ours sum to
+/// one, and eval() and sample() agree.
 template <typename Bottom>
 class EvalWalk {
  public:
@@ -55,8 +55,8 @@ class EvalWalk {
   }
 
   Rgb run() {
-    for (int event = 0; alive_ && event < lobe_.coat.max_depth; ++event) {
-      if (walk_.survive(event) == 0 || walk_.w.z == 0) break;
+    for (int bounce = 0; alive_ && bounce < lobe_.coat.max_depth; ++bounce) {
+      if (walk_.survive(bounce) == 0 || walk_.w.z == 0) break;
       switch (walk_.advance()) {
         case Event::scattering:
           at_scattering();
@@ -94,7 +94,7 @@ class EvalWalk {
     if (next) exit_by_chance(smooth ? next->pdf : kInfinity);
   }
 
-  /// The walk's own direction, drawn with density `pdf` (infinite: no other way to find it), goes straight out.
+  /// The walk's own direction, drawn with density `pdf` (infinite: no other technique finds it), goes straight out.
   void exit_by_chance(float pdf) {
     if (!lobe_.top.has_smooth()) return;
     const Rgb f = lobe_.top.eval(-walk_.w, wi_);
@@ -113,13 +113,13 @@ class EvalWalk {
   const LayeredLobe<Bottom>& lobe_;
   Vec3 wi_;
   LayerWalk walk_;
-  std::optional<BsdfSample> out_;  ///< wi refracted into the coat; out_->wi points down, against the light's way out
+  std::optional<BsdfSample> out_;  ///< wi refracted into the coat; out_->wi points down, against the light leaving
   Rgb out_weight_, sum_;           ///< out_weight_: |cos wi| f / pdf of `out_`, without the cosine inside
   bool alive_ = false;
 };
 
-/// The bottom as seen through the coat: directions refracted at the mean plane, a metal's lobe widened by the two
-/// passages through a rough top. Each bends a ray by (eta - 1)/eta of the facet's slope; a half vector halves that.
+/// The bottom as seen through the coat: directions refracted at the mean plane, a metal's lobe widened by the two refractions
+/// through a rough top. Each bends a ray by (eta - 1)/eta of the facet's slope; a half vector halves that.
 float seen_through(const DielectricLobe& top, const ConductorLobe& bottom, Vec3 wo, Vec3 wi) {
   const auto o = refract(wo, {0, 0, 1}, top.eta), i = refract(wi, {0, 0, 1}, top.eta);
   if (!o || !i) return 0;
@@ -166,15 +166,15 @@ std::optional<BsdfSample> LayeredLobe<Bottom>::sample(Vec3 wo, float uc, Vec2 u)
   auto s = top.sample(wo, uc, u);
   if (!s) return std::nullopt;
   bool specular = s->specular;
-  float probability = s->pdf;  // of a path of specular events alone
+  float probability = s->pdf;  // of a path of specular bounces alone
 
   if (s->transmission) {
     Rng rng(hash(coat.seed, bits(wo), bits({uc, u.x, u.y}), 1));
     LayerWalk walk{coat, rng, top.eta, s->wi, s->weight, coat.thickness};
-    // One more step than eval(): the last may only leave. (pbrt-v4 stops one event earlier here than in f().)
-    for (int event = 0;; ++event) {
-      const float survival = walk.survive(event);
-      if (event > coat.max_depth || survival == 0 || walk.w.z == 0) return std::nullopt;
+    // One more step than eval(): the last may only leave. (pbrt-v4 stops one bounce earlier here than in f().)
+    for (int bounce = 0;; ++bounce) {
+      const float survival = walk.survive(bounce);
+      if (bounce > coat.max_depth || survival == 0 || walk.w.z == 0) return std::nullopt;
       const Event what = walk.advance();
       if (what == Event::scattering) {
         walk.scatter();

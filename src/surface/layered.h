@@ -15,7 +15,7 @@ struct Coat {
   float thickness = 0.01f;
   Rgb albedo = {};         ///< [0, 1]; black: absorbs only
   float g = 0;             ///< Henyey-Greenstein mean cosine
-  int max_depth = 10;      ///< events between entering and leaving
+  int max_depth = 10;      ///< bounces between entering and leaving
   int samples = 1;         ///< walks per eval()
   std::uint64_t seed = 0;  ///< of this surface point; the walks hash it with their directions
 };

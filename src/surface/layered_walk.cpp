@@ -37,9 +37,9 @@ LayerWalk::Event LayerWalk::advance() {
   return ahead;
 }
 
-float LayerWalk::survive(int event) {
+float LayerWalk::survive(int bounce) {
   const float power = max_component(beta) * eta * eta;
-  if (event <= 3 || power >= 0.25f) return 1;
+  if (bounce <= 3 || power >= 0.25f) return 1;
   if (!(rng.uniform() < power)) return 0;
   beta = beta / power;
   return power;

@@ -17,10 +17,10 @@ struct LayerWalk {
   Rgb beta;
   float z;
 
-  /// Travel to the next event, through absorption or with a sampled distance when the coat scatters.
+  /// Travel to the next bounce, through absorption or with a sampled distance when the coat scatters.
   Event advance();
-  /// Russian roulette past the fourth event; 0 ends the walk, else the probability it went on with (beta is divided).
-  float survive(int event);
+  /// Russian roulette past the fourth bounce; 0 ends the walk, else the probability it went on with (beta is divided).
+  float survive(int bounce);
   /// A new direction from the phase function; returns its density, 1/sr.
   float scatter();
   float phase(Vec3 direction) const;  ///< density of travelling on along `direction`, 1/sr

@@ -26,7 +26,7 @@ float Ggx::shadowing(Vec3 wo, Vec3 wi) const {
 }
 
 Vec3 Ggx::sample_visible(Vec3 w, Vec2 u) const {
-  // Stretch until the surface is a hemisphere, seen along wh.
+  // Range until the surface is a hemisphere, seen along wh.
   const Vec3 wh = normalize(Vec3{ax_ * w.x, ay_ * w.y, w.z});
   // Perpendicular to wh however near the pole it is: an error here is as large as the lobe of a small alpha.
   const float across = std::hypot(wh.x, wh.y);

@@ -72,8 +72,8 @@ ShapeRoots as_triangles(const ShapeRay& ray, const Corners& p, int facing) {
 
 }  // namespace
 
-// Lines of constant u against the ray [Reshetnikov 2019, Ray Tracing Gems ch. 8]. The number of meetings is then made to
-// agree with the outline's winding, which is exact, so that neighbours that share edges neither leak nor overlap.
+// Lines of constant u against the ray [Reshetov 2019, "Cool Patches", Ray Tracing Gems, ch. 8]. The number of meetings is then
+// made to agree with the outline's winding, which is exact, so that neighbours that share edges neither leak nor overlap.
 ShapeRoots intersect_patch(const ShapeRay& ray, const std::array<Vec3d, 4>& p) {
   const Corners q{p[0] - ray.o, p[1] - ray.o, p[2] - ray.o, p[3] - ray.o};
   std::array<PatchRoot, 2> found{};

@@ -25,7 +25,7 @@ float tamed(float s, TexelImage::Wrap wrap) {
   return wrap == TexelImage::Wrap::repeat ? s - std::floor(s) : std::clamp(s, -1.0f, 2.0f);
 }
 
-/// The two texels along one axis between whose centres a coordinate lies, and how far it is on the way to the second.
+/// The two texels along one axis between whose centres a coordinate lies, and its fraction toward the second.
 struct Taps {
   int first, second;
   float t;

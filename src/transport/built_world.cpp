@@ -60,7 +60,7 @@ Emitters find_emitters(const Scene& scene, const Geometry& geometry, BuildSummar
   return emitters;
 }
 
-/// Boxes of everything a light can shine on: shapes, and media beyond them.
+/// Boxes of everything a light can illuminate: shapes, and media beyond them.
 Bounds3 scene_bounds(const Geometry& geometry, const std::vector<ParticipatingMedium>& media) {
   Bounds3 bounds = geometry.bounds();
   for (const ParticipatingMedium& medium : media) {
@@ -77,25 +77,26 @@ BuiltWorld::BuiltWorld(Scene unit_scene, const BuildSettings& settings, std::siz
       materials(scene, textures),
       geometry(build_geometry(scene, textures, settings.threads, summary)),
       media(build_media(scene, settings, volume_memory, summary)),
-      fire(settings.fire ? FireLights(media, geometry.groups(), scene.camera.medium) : FireLights()),
-      has_fire(settings.fire),
+      volume_lights(settings.volume_lights ? VolumeLights(media, geometry.groups(), scene.camera.medium) : VolumeLights()),
+      has_volume_lights(settings.volume_lights),
       camera(scene.camera, scene.film),
       filter(scene.filter) {
   const Timer watch;
   const Emitters emitters = find_emitters(scene, geometry, summary);
-  const std::vector<VolumeEmitter> volumes = fire.emitters();
+  const std::vector<VolumeEmitter> volumes = volume_lights.emitters();
   lights =
       build_lights(scene, emitters.shapes, scene_bounds(geometry, media),
                    {.strategies = settings.lights, .textures = &textures, .threads = settings.threads, .volumes = volumes});
-  fire.set_first(lights.first_volume());
-  near_lamps = tyndall::near_lamps(media, geometry.groups(), scene.camera.medium, lights, fire);
-  glow = MediaGlow(media, {geometry.groups(), scene.camera.medium, lights, fire, scene_bounds(geometry, media)});
-  for (std::string& note : fire.notes(scene.media)) summary.notes.push_back(std::move(note));
+  volume_lights.set_first(lights.first_volume());
+  light_distances = tyndall::light_distances(media, geometry.groups(), scene.camera.medium, lights, volume_lights);
+  bright_media =
+      BrightMedia(media, {geometry.groups(), scene.camera.medium, lights, volume_lights, scene_bounds(geometry, media)});
+  for (std::string& note : volume_lights.notes(scene.media)) summary.notes.push_back(std::move(note));
   first_light.assign(geometry.placed().size(), kNone);
   for (std::size_t i = 0; i < emitters.placed.size(); ++i) first_light[emitters.placed[i]] = lights.first_light(i);
   summary.lights = lights.size();
   for (const SelectorStats& s : lights.selectors()) summary.light_strategies.push_back({s.strategy, s.seconds, s.memory_bytes});
-  summary.light_bytes = lights.memory_bytes() + fire.memory_bytes();
+  summary.light_bytes = lights.memory_bytes() + volume_lights.memory_bytes();
   summary.light_seconds = watch.seconds();
   camera_media = find_camera_media(scene.camera.medium, camera.center(), geometry);
 }

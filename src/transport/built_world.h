@@ -7,13 +7,13 @@
 #include "surface/geometry.h"
 #include "surface/material.h"
 #include "texture/textures.h"
+#include "transport/bright_media.h"
 #include "transport/camera_ray.h"
-#include "transport/fire_lights.h"
+#include "transport/light_distances.h"
 #include "transport/media/media_state.h"
 #include "transport/media/span_walk.h"
-#include "transport/media_glow.h"
-#include "transport/near_lamps.h"
 #include "transport/pixel_filter.h"
+#include "transport/volume_lights.h"
 #include "tyndall/render.h"
 #include "volume/medium.h"
 
@@ -31,11 +31,11 @@ struct BuiltWorld {
   Materials materials;
   Geometry geometry;
   std::vector<ParticipatingMedium> media;
-  FireLights fire;  ///< empty unless asked for
-  bool has_fire;    ///< it was
+  VolumeLights volume_lights;  ///< empty unless asked for
+  bool has_volume_lights;      ///< whether they were asked for
   Lights lights;
-  NearLamps near_lamps;              ///< where all media are unbounded, or all lamps far, of no place
-  MediaGlow glow;                    ///< empty where all media are homogeneous
+  LightDistances light_distances;    ///< empty where all media are unbounded, or all lights are far
+  BrightMedia bright_media;          ///< empty where all media are homogeneous
   std::vector<LightId> first_light;  ///< by placed shape; kNone where it does not emit
   CameraRays camera;
   FilterSampler filter;
@@ -45,7 +45,7 @@ struct BuiltWorld {
   /// No medium anywhere: nothing of src/volume needs to run.
   bool has_media() const { return !media.empty(); }
   MaterialId material_of(const SurfaceHit& hit) const { return geometry.placed()[hit.shape].shape->material; }
-  /// Whether there are lights that a ray can find, at its end: surfaces that shine, and skies.
+  /// Whether there are lights that a ray can hit: emissive surfaces and environments.
   bool rays_find_lights() const { return lights.stats().emitters > 0 || !lights.infinite().empty(); }
   /// The light that the hit primitive is, if it emits.
   std::optional<LightId> light_of(const SurfaceHit& hit) const {

@@ -30,7 +30,7 @@ Rgb visibility(const LightContext& context, const MediaState& media, Vec3 origin
   if (!world.has_media()) return Rgb(1.0f);
 
   Rng rng = sampler.stream();
-  // Through media the whole way counts: at depth 4 the last 1e-4 of it is 4e-4 of the light.
+  // Through media the whole distance counts: at optical depth 4 the last 1e-4 of it is 4e-4 of the light.
   SpanWalk walk(world.media_context(), media, *crossings, distance);
   const Rgb T = transmittance_along(context, walk, ray, rng);
   context.counters.parity_errors += walk.parity_errors();
@@ -54,7 +54,7 @@ Rgb direct_light(const LightContext& context, const Directions& directions, cons
   if (!context.world.lights.sought() || !vertex.has_smooth()) return {};
   // The density of the candidates stands for the technique: it is known for every direction, unlike the resampled one.
   const auto share = [&](const LightSample& light, LightId id, float density) {
-    if (light.delta) return own_share(context, id);
+    if (light.delta) return path_mis_weight(context, id);
     return mis_weight(density, directions.pdf(light.wi, beta));
   };
   return VertexLight(context, vertex, search, beta, share).estimate(sampler);

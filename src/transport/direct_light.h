@@ -8,8 +8,8 @@
 
 namespace tyndall {
 
-/// Share of the technique with density `a` when one with density `b` could have found the same: the power heuristic
-/// with exponent 2 [Veach 1997], safe for zero, huge and infinite densities.
+/// MIS weight of the technique with density `a` against a competing one with density `b`: the power heuristic with exponent 2
+/// [Veach 1997], safe for zero, huge and infinite densities.
 inline float mis_weight(float a, float b) {
   if (!(b > 0)) return 1;
   if (!(a > 0)) return 0;
@@ -17,20 +17,20 @@ inline float mis_weight(float a, float b) {
   const float ratio = b / a;  // may round to 0 or infinity; both give the right limit
   return 1 / (1 + ratio * ratio);
 }
-/// The same for three.
+/// The same for three techniques.
 inline float mis_weight(float a, float b, float c) {
   if (!(a > 0)) return b > 0 || c > 0 ? 0.0f : 1.0f;
   const float first = b / a, second = c / a;
   return std::isnan(first) || std::isnan(second) ? 0.0f : 1 / (1 + first * first + second * second);
 }
 
-/// Of a shadow ray's media, by `walk`, which is left where nothing more comes through.
+/// Of a shadow ray's media, by `walk`, which is left where nothing more gets through.
 Rgb transmittance_along(const LightContext& context, SpanWalk& walk, const Ray& ray, Rng& rng);
 
-/// Fraction of light that gets through media and past surfaces over `distance` from `origin` along `wi`.
+/// Transmittance and visibility over `distance` from `origin` along `wi`.
 Rgb visibility(const LightContext& context, const MediaState& media, Vec3 origin, Vec3 wi, float distance, Sampler& sampler);
 
-/// How lights are sought at one vertex: direct_light goes by it, and MIS must know it when a scattered ray hits one.
+/// How lights are sampled at one vertex: direct_light uses it, and MIS must know it when a scattered ray hits one.
 struct LightSearch {
   PointQuery query;
   LightCut cut;
@@ -38,9 +38,9 @@ struct LightSearch {
 };
 LightSearch light_search(const LightContext& context, const Vertex& vertex);
 
-/// Unbiased estimate of the light scattered at `vertex` toward the path, weighted by MIS against scattered rays that
-/// hit emitters. Lights are chosen and looked at without visibility; of these some are traced, resampled by their
-/// contribution (resampling.h); light_counts.h says how many.
+/// Unbiased estimate of the light scattered at `vertex` toward the path, weighted by MIS against scattered rays that hit
+/// emitters. Candidates are chosen and evaluated without visibility; some are traced, resampled by their contribution
+/// (resampling.h); light_counts.h says how many.
 /// Multiply by the throughput `beta`, which is passed for the densities only.
 Rgb direct_light(const LightContext& context, const Directions& directions, const LightSearch& search, Rgb beta);
 

@@ -1,18 +1,18 @@
-/// Where a path goes from a vertex: as it scatters there, and from the surface met first also toward media that glow.
+/// The direction of a path at a vertex: by the scattering function, and at the first surface also guided toward bright media.
 #pragma once
 
 #include <optional>
 
-#include "transport/glow_directions.h"
 #include "transport/light_context.h"
+#include "transport/media_directions.h"
 #include "transport/vertex.h"
 
 namespace tyndall {
 
-/// Path guiding by a mixture of densities [Vorba et al. 2014], by what is known of the scene instead of what was learned.
+/// Path guiding by a mixture of densities [Vorba et al. 2014], from what is known of the scene instead of learned.
 class Directions {
  public:
-  /// Of the event that context.event counts.
+  /// For bounce number context.bounce.
   Directions(const LightContext& context, const Vertex& vertex);
 
   const Vertex& vertex() const { return vertex_; }
@@ -21,11 +21,13 @@ class Directions {
   std::optional<ScatterSample> sample(Rgb beta, float uc, Vec2 u) const;
 
  private:
-  float mixed(float guided, float scattered) const { return (1 - glow_->share()) * scattered + glow_->share() * guided; }
-  std::optional<ScatterSample> toward_glow(Rgb beta, float u, Vec2 on_cone) const;
+  float mixed(float guided, float scattered) const {
+    return (1 - toward_media_->share()) * scattered + toward_media_->share() * guided;
+  }
+  std::optional<ScatterSample> toward_media(Rgb beta, float u, Vec2 on_cone) const;
 
   const Vertex& vertex_;
-  std::optional<GlowDirections> glow_;
+  std::optional<MediaDirections> toward_media_;
 };
 
 }  // namespace tyndall

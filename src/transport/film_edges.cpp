@@ -7,7 +7,7 @@
 namespace tyndall {
 namespace {
 
-/// Of the brighter of two pixels, that tells them apart: more than shading does, less than another lamp.
+/// Relative to the brighter of two pixels: more than shading varies, less than another light does.
 constexpr float kLeastContrast = 0.1f;
 
 /// The darkest and the brightest of some pixels.

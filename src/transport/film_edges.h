@@ -1,7 +1,7 @@
-/// Pixels in which a shining surface begins or ends, as the camera sees it.
+/// Pixels that contain the outline of an emissive surface, as the camera sees it.
 ///
-/// There one of the filter's samples meets the surface and the next does not: in a picture of bright lamps that is most of the
-/// noise.
+/// There one of the filter's samples hits the surface and the next does not: in a picture of bright emitters that is most of
+/// the noise.
 #pragma once
 
 #include <vector>
@@ -21,7 +21,7 @@ class FilmEdges {
   };
 
   FilmEdges() = default;
-  /// `brightness`: of what shines at the center of each pixel of `view.around()`, row by row, in any unit.
+  /// `brightness`: of the directly visible emission at the center of each pixel of `view.around()`, row by row, in any unit.
   FilmEdges(const View& view, const std::vector<float>& brightness);
   bool at(int x, int y) const { return !edges_.empty() && edges_[pixels_.index(x, y)]; }
 

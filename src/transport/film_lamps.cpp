@@ -7,10 +7,9 @@
 namespace tyndall {
 namespace {
 
-/// Pixels. Whoever filters more widely has no use for a peak.
+/// Pixels. For wider filters the peak does not matter.
 constexpr float kWidestFilter = 32;
-/// Of the filter's radius. Farther from lamps its own samples do as well: in smoke of depth 5 and 10, one event and 16 samples
-/// a pixel, MSE is the same for 0.2 and 0.3, 1.0 to 1.1 times as much for 0.12, 1.2 to 1.4 for 0.07 and 1.9 to 2.4 for 1.
+/// Of the filter's radius. Farther from the images of lights its own samples suffice (docs/measurements.md).
 constexpr float kReach = 0.3f;
 
 int pixel_of(float x) { return static_cast<int>(std::floor(x)); }
@@ -37,61 +36,61 @@ float FilmReach::pdf(Vec2 at, Vec2 x) const {
   return 1 / (2 * kPi * distance * (most_ - least_));
 }
 
-PixelLamps::Draw PixelLamps::draw(float which, Vec2 around) const {
-  const FilmLamp& lamp = lamps_.draw(which);
-  const Vec2 x = reach_.draw(lamp.at, around);
-  return {lamp.light, x, lamp.brightness * reach_.pdf(lamp.at, x), lamp.g};
+PixelPoints::Draw PixelPoints::draw(float which, Vec2 around) const {
+  const FilmPoint& point = points_.draw(which);
+  const Vec2 x = reach_.draw(point.at, around);
+  return {point.light, x, point.brightness * reach_.pdf(point.at, x), point.g};
 }
 
-float PixelLamps::pdf(LightId light, Vec2 x) const {
-  const FilmLamp* lamp = lamps_.find(light);
-  return lamp ? lamp->brightness * reach_.pdf(lamp->at, x) : 0.0f;
+float PixelPoints::pdf(LightId light, Vec2 x) const {
+  const FilmPoint* point = points_.find(light);
+  return point ? point->brightness * reach_.pdf(point->at, x) : 0.0f;
 }
 
-bool FilmLamps::View::sees(Vec2 at) const {
+bool FilmPoints::View::sees(Vec2 at) const {
   if (!(std::max(filter_radius.x, filter_radius.y) <= kWidestFilter)) return false;
   const PixelBounds cells = with_rim(pixels, filter_radius);
   return at.x >= static_cast<float>(cells.x0) && at.y >= static_cast<float>(cells.y0) && at.x < static_cast<float>(cells.x1) &&
          at.y < static_cast<float>(cells.y1);
 }
 
-FilmLamps::FilmLamps(const View& view, std::vector<FilmLamp> lamps)
-    : reach_(view.filter_radius, view.finest), radius_(view.filter_radius), lamps_(std::move(lamps)) {
-  std::erase_if(lamps_, [&](const FilmLamp& lamp) {
-    return !(lamp.brightness > 0 && lamp.brightness < kInfinity && view.sees(lamp.at));
+FilmPoints::FilmPoints(const View& view, std::vector<FilmPoint> points)
+    : reach_(view.filter_radius, view.finest), radius_(view.filter_radius), points_(std::move(points)) {
+  std::erase_if(points_, [&](const FilmPoint& point) {
+    return !(point.brightness > 0 && point.brightness < kInfinity && view.sees(point.at));
   });
-  if (lamps_.empty()) return;
+  if (points_.empty()) return;
   cells_ = with_rim(view.pixels, radius_);
-  const auto cell_of = [&](const FilmLamp& lamp) { return cells_.index(pixel_of(lamp.at.x), pixel_of(lamp.at.y)); };
-  std::sort(lamps_.begin(), lamps_.end(), [&](const FilmLamp& a, const FilmLamp& b) {
+  const auto cell_of = [&](const FilmPoint& point) { return cells_.index(pixel_of(point.at.x), pixel_of(point.at.y)); };
+  std::sort(points_.begin(), points_.end(), [&](const FilmPoint& a, const FilmPoint& b) {
     const std::size_t in_a = cell_of(a), in_b = cell_of(b);
     return in_a != in_b ? in_a < in_b : brighter(a, b);
   });
-  // More of one cell than a pixel takes would only be looked through.
+  // More lights of one cell than a pixel takes are not needed.
   begin_.resize(static_cast<std::size_t>(cells_.width()) * cells_.height() + 1);
   std::size_t kept = 0;
-  for (const FilmLamp& lamp : lamps_) {
-    std::uint32_t& count = begin_[cell_of(lamp) + 1];
-    if (count == PixelLamps::Lamps::kMost) continue;
+  for (const FilmPoint& point : points_) {
+    std::uint32_t& count = begin_[cell_of(point) + 1];
+    if (count == PixelPoints::Lights::kMost) continue;
     ++count;
-    lamps_[kept++] = lamp;
+    points_[kept++] = point;
   }
-  lamps_.resize(kept);
+  points_.resize(kept);
   for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
 }
 
-PixelLamps FilmLamps::of(int x, int y) const {
-  PixelLamps::Lamps::List seen;
+PixelPoints FilmPoints::of(int x, int y) const {
+  PixelPoints::Lights::List seen;
   if (begin_.empty()) return {reach_, {}};
   const Vec2 center{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f};
   for (int row = pixel_of(center.y - radius_.y); row <= pixel_of(center.y + radius_.y); ++row) {
     const std::uint32_t end = begin_[cells_.index(pixel_of(center.x + radius_.x), row) + 1];
     for (std::uint32_t i = begin_[cells_.index(pixel_of(center.x - radius_.x), row)]; i < end; ++i) {
-      FilmLamp lamp = lamps_[i];
-      const float dx = (lamp.at.x - center.x) / radius_.x, dy = (lamp.at.y - center.y) / radius_.y;
+      FilmPoint point = points_[i];
+      const float dx = (point.at.x - center.x) / radius_.x, dy = (point.at.y - center.y) / radius_.y;
       if (!(std::abs(dx) < 1 && std::abs(dy) < 1)) continue;
-      lamp.brightness *= toward_rim(dx, dy);
-      seen.push_back(lamp);
+      point.brightness *= toward_rim(dx, dy);
+      seen.push_back(point);
     }
   }
   return {reach_, std::move(seen)};

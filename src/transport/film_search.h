@@ -1,4 +1,4 @@
-/// What is looked for on the film before the first sample.
+/// What is searched for on the film before the first sample.
 #pragma once
 
 #include <functional>
@@ -13,7 +13,7 @@ struct FilmSearch {
   const RenderSettings& settings;
   PixelBounds pixels;  ///< of the frame, that are rendered
   ThreadPool& pool;
-  std::function<void()> alive;  ///< called now and then, by any thread; what takes long shows that it goes on
+  std::function<void()> alive;  ///< called repeatedly, by any thread, to show that a long search goes on
 };
 
 }  // namespace tyndall

@@ -7,34 +7,34 @@
 namespace tyndall {
 namespace {
 
-/// Of the filter's radius: what is larger is met often enough.
+/// Of the filter's radius: what is larger is hit often enough.
 constexpr float kLargest = 1;
-/// Share of the filter's support that the circles may fill together, which are larger than what shines in them.
+/// Share of the filter's support that the circles may cover together; they are larger than the emitters in them.
 constexpr float kMostFilled = 1;
 
-/// Pixels along one axis from which a filter may see a stretch of the film, within bounds.
+/// Pixels along one axis whose filters cover an interval of the film, within bounds.
 struct Range {
   int begin, end;
   Range(float at, float reach, int least, int most)
       : begin(std::max(static_cast<int>(std::ceil(at - reach - 0.5f)), least)),
         end(std::min(static_cast<int>(std::floor(at + reach - 0.5f)) + 1, most)) {}
 };
-Range columns_of(const FilmShine::View& view, const FilmShine::Spot& spot) {
+Range columns_of(const FilmEmitters::View& view, const FilmEmitters::Spot& spot) {
   return {spot.at.x, spot.radius + view.filter_radius.x, view.pixels.x0, view.pixels.x1};
 }
-Range rows_of(const FilmShine::View& view, const FilmShine::Spot& spot) {
+Range rows_of(const FilmEmitters::View& view, const FilmEmitters::Spot& spot) {
   return {spot.at.y, spot.radius + view.filter_radius.y, view.pixels.y0, view.pixels.y1};
 }
 
-/// What one pixel knows of its spots.
+/// The footprints that one pixel's filter covers.
 struct Gathered {
-  std::vector<ShiningLight> lights;
+  std::vector<FilmEmitter> lights;
   float filled = 0;  ///< pixels^2
 };
 
 }  // namespace
 
-bool FilmShine::View::wants(const Spot& spot) const {
+bool FilmEmitters::View::wants(const Spot& spot) const {
   const float least = std::min(filter_radius.x, filter_radius.y), widest = std::max(filter_radius.x, filter_radius.y);
   if (!(widest <= kWidestFilter) || !(spot.radius < kLargest * least)) return false;
   if (!(spot.brightness > 0 && spot.brightness < kInfinity)) return false;
@@ -44,7 +44,7 @@ bool FilmShine::View::wants(const Spot& spot) const {
          spot.at.y > static_cast<float>(pixels.y0) - rim && spot.at.y < static_cast<float>(pixels.y1) + rim;
 }
 
-FilmShine::FilmShine(const View& view, const std::vector<Spot>& spots) : pixels_(view.pixels) {
+FilmEmitters::FilmEmitters(const View& view, const std::vector<Spot>& spots) : pixels_(view.pixels) {
   // Row by row: what all pixels see would be too much to keep at once.
   std::vector<std::vector<std::uint32_t>> by_row(static_cast<std::size_t>(pixels_.height()));
   for (std::size_t i = 0; i < spots.size(); ++i) {
@@ -60,7 +60,7 @@ FilmShine::FilmShine(const View& view, const std::vector<Spot>& spots) : pixels_
   for (int y = pixels_.y0; y < pixels_.y1; ++y) add_row(view, y, spots, by_row[static_cast<std::size_t>(y - pixels_.y0)]);
 }
 
-void FilmShine::add_row(const View& view, int y, const std::vector<Spot>& spots, const std::vector<std::uint32_t>& seen) {
+void FilmEmitters::add_row(const View& view, int y, const std::vector<Spot>& spots, const std::vector<std::uint32_t>& seen) {
   const Vec2 radius = view.filter_radius;
   std::vector<Gathered> row(static_cast<std::size_t>(pixels_.width()));
   for (const std::uint32_t i : seen) {
@@ -76,22 +76,22 @@ void FilmShine::add_row(const View& view, int y, const std::vector<Spot>& spots,
   }
   for (Gathered& g : row) {
     if (g.filled < kMostFilled * 4 * radius.x * radius.y) {
-      const auto end = g.lights.begin() + static_cast<std::ptrdiff_t>(std::min(g.lights.size(), PixelShine::kMost));
-      std::partial_sort(g.lights.begin(), end, g.lights.end(), brighter<ShiningLight>);
+      const auto end = g.lights.begin() + static_cast<std::ptrdiff_t>(std::min(g.lights.size(), PixelEmitters::kMost));
+      std::partial_sort(g.lights.begin(), end, g.lights.end(), brighter<FilmEmitter>);
       lights_.insert(lights_.end(), g.lights.begin(), end);
     }
     begin_.push_back(static_cast<std::uint32_t>(lights_.size()));
   }
 }
 
-PixelShine FilmShine::of(int x, int y) const {
+PixelEmitters FilmEmitters::of(int x, int y) const {
   if (begin_.empty()) return {};
   const std::size_t pixel = pixels_.index(x, y);
-  PixelShine::List list;
+  PixelEmitters::List list;
   for (std::uint32_t i = begin_[pixel]; i < begin_[pixel + 1]; ++i) {
     if (lights_[i].brightness > 0) list.push_back(lights_[i]);
   }
-  return PixelShine(std::move(list));
+  return PixelEmitters(std::move(list));
 }
 
 }  // namespace tyndall

@@ -1,7 +1,7 @@
-/// Small shining surfaces, where the camera sees them on the film.
+/// Small emissive surfaces, by their footprint on the film.
 ///
-/// A lamp of less than a pixel is met by few of the pixel's samples, and brightly: where bulbs are in the picture that is most
-/// of its noise.
+/// An emitter smaller than a pixel is hit by few of the pixel's samples, and brightly: where it is directly visible that is
+/// most of the noise.
 #pragma once
 
 #include <cstdint>
@@ -13,44 +13,44 @@
 
 namespace tyndall {
 
-struct ShiningLight {
+struct FilmEmitter {
   LightId light = 0;
   float brightness = 0;
 };
 /// The surfaces that may be aimed at for one pixel.
-using PixelShine = PixelLights<ShiningLight>;
+using PixelEmitters = PixelLights<FilmEmitter>;
 
 /// All of them, by pixel.
-class FilmShine {
+class FilmEmitters {
  public:
-  /// Pixels. Whoever filters more widely meets lamps, and would list each hundreds of times.
+  /// Pixels. Wider filters hit emitters often enough, and would list each hundreds of times.
   static constexpr float kWidestFilter = 4;
-  /// The image of a shining primitive, as a circle that holds about all of it.
+  /// The footprint of an emissive primitive, as a circle that encloses nearly all of it.
   struct Spot {
     LightId light = 0;
     Vec2 at;               ///< pixels of the full frame
     float radius = 0;      ///< pixels
-    float brightness = 0;  ///< in any unit, of the image and not of its area
+    float brightness = 0;  ///< of the image as a whole, in any unit
   };
-  /// Which spots are worth it.
+  /// Which footprints are worth aiming at.
   struct View {
     PixelBounds pixels;
     Vec2 filter_radius;
-    /// Whether a pixel's filter may see some of it, and it is small enough to be missed by most samples.
+    /// Whether a pixel's filter may cover some of it, and it is small enough to be missed by most samples.
     bool wants(const Spot& spot) const;
   };
 
-  FilmShine() = default;
-  /// Pixels whose filters spots would fill together have none: their samples meet them anyhow.
-  FilmShine(const View& view, const std::vector<Spot>& spots);
-  PixelShine of(int x, int y) const;
+  FilmEmitters() = default;
+  /// Pixels whose filters the footprints would fill together have none: their samples hit them anyhow.
+  FilmEmitters(const View& view, const std::vector<Spot>& spots);
+  PixelEmitters of(int x, int y) const;
 
  private:
   void add_row(const View& view, int y, const std::vector<Spot>& spots, const std::vector<std::uint32_t>& seen);
 
   PixelBounds pixels_;
-  std::vector<std::uint32_t> begin_;  ///< of each pixel's lights, and the end of the last's; empty without spots
-  std::vector<ShiningLight> lights_;
+  std::vector<std::uint32_t> begin_;  ///< of each pixel's lights, and the end of the last's; empty without any
+  std::vector<FilmEmitter> lights_;
 };
 
 }  // namespace tyndall

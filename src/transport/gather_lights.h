@@ -1,4 +1,4 @@
-/// All lights looked at, in blocks by the pool's threads.
+/// All lights examined, in blocks by the pool's threads.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-/// How many lights an event looks at, and to how many of them it traces a ray.
+/// How many candidates a vertex or span draws, and to how many of them it traces a shadow ray.
 #pragma once
 
 #include "light/query.h"
@@ -11,17 +11,17 @@ struct LightCounts {
   int shadow_rays;  ///< 0: to all candidates
 };
 struct SpanCounts : LightCounts {
-  int distances = 1;  ///< along the span, looked at with each candidate
-  float chance = 1;   ///< of looking at any
+  int distances = 1;  ///< along the span, for each candidate
+  float chance = 1;   ///< probability of drawing any
 };
 
 /// How clusters are split for that many candidates.
 CutSettings cut_settings(const LightContext& context, int candidates);
 
-/// As the settings say; unset ones by what follows the event: a path that ends there shares its cost with nothing else, so
-/// it pays to look at more.
+/// As the settings say; unset ones by what follows: in single scattering nothing else shares the path's cost, so more
+/// candidates pay.
 LightCounts counts_at_vertex(const LightContext& context, const PointQuery& query);
-/// `scattered`: the share of light that the span scatters, roughly; `depth`: its optical depth.
+/// `scattered`: the fraction of light that the span scatters, roughly; `depth`: its optical depth.
 SpanCounts counts_along_span(const LightContext& context, float scattered, float depth);
 
 }  // namespace tyndall

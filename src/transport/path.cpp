@@ -16,14 +16,11 @@ float hash_to_unit(Vec3 p, Vec3 w) {
   return static_cast<float>(h >> 40) * 0x1p-24f;
 }
 
-/// Russian roulette is for paths of less throughput than this. A dark wall's path into bright smoke is too rare to be made
-/// rarer: efficiency by instructions and relMSE without the worst 0.1 %, against roulette from 1 down, in smoke 1.09 to 1.29,
-/// a Cornell box 1.14, metal 1.03 (MSE 1.24), a mesh in fog 1.00, a street in fog 0.95; from 0.1 down it is less again but for
-/// smoke.
+/// Russian roulette is for paths of less throughput than this: a dark wall's path into bright smoke is too rare to be made
+/// rarer (docs/measurements.md).
 constexpr float kRouletteBelow = 1 / 3.0f;
-/// Guided paths weigh little and bring much; roulette by weight alone would undo the guiding. With 1 here, as if they had not
-/// been guided, smoke takes 1.08 times the instructions for the same MSE; with 0.5 1.07 times for relMSE without the worst 0.1
-/// %.
+/// Guided paths have small weights and large contributions; roulette by weight alone would undo the guiding
+/// (docs/measurements.md).
 constexpr float kGuidedLive = 0.75f;
 
 }  // namespace
@@ -32,7 +29,7 @@ Path::Path(const LightContext& context, const Limits& limits, const Ray& camera_
     : context_(context), limits_(limits), ray_(camera_ray), media_(context.world.camera_media) {
   const BuiltWorld& world = context.world;
   if (world.camera.is_pinhole() || world.geometry.groups().empty()) return;
-  // Membership is known at the center of the lens; what lies between it and this ray's origin is passed on the way.
+  // Membership is known at the center of the lens; what lies between it and this ray's origin is crossed first.
   const Vec3 step = ray_.o - world.camera.center();
   if (length_squared(step) == 0) return;
   for (const Crossing& c : world.geometry.trace_all({world.camera.center(), step}, 0, 1)) media_.cross(c.group, c.sign);
@@ -60,28 +57,28 @@ PathRecord Path::run_beyond(const Trace& trace) {
   return record_;
 }
 
-/// From event to event until the path ends.
+/// From bounce to bounce until the path ends.
 void Path::follow(std::optional<Vertex> vertex) {
   for (; vertex; vertex = next_vertex()) {
     if (depth_++ >= limits_.max_depth) return;
-    if (depth_ == 1) first_event_in_medium_ = !vertex->on_surface();
+    if (depth_ == 1) first_bounce_in_medium_ = !vertex->on_surface();
     if (!scatter(*vertex)) return;
   }
 }
 
-/// Strategies of lighting may draw as many numbers as they like: the path stays the same.
+/// Light sampling may draw as many numbers as it likes: the path stays the same.
 void Path::begin(Step step) { context_.sampler.begin_step(1 + kSteps * depth_ + static_cast<int>(step)); }
 
 /// Next-event estimation, then the direction of the next ray. False ends the path.
 bool Path::scatter(const Vertex& vertex) {
-  context_.event = depth_ - 1;
+  context_.bounce = depth_ - 1;
   if (vertex.on_surface()) context_.joint = nullptr;  // it was about what the ray gathers in media
   begin(Step::light);
   const Rgb seen = seen_.value_or(beta_);
   seen_.reset();
   const Directions directions(context_, vertex);
   add(seen * light_at(directions, seen), depth_);
-  if (is_black(beta_) || (is_last_event(context_) && !context_.world.rays_find_lights())) return false;
+  if (is_black(beta_) || (is_last_bounce(context_) && !context_.world.rays_find_lights())) return false;
 
   const auto joint = joint_search(context_, vertex);
   if (joint) add(beta_ * joint_light(context_, vertex, *joint), depth_ + 1);
@@ -92,19 +89,19 @@ bool Path::scatter(const Vertex& vertex) {
   if (!s) return false;
   light_sampled_ = !s->specular && vertex.has_smooth();
   from_ = vertex.p();
-  pdf_ = span_event_ ? vertex.pdf(s->wi, Rgb(1.0f)) : s->pdf;
+  pdf_ = span_collision_ ? vertex.pdf(s->wi, Rgb(1.0f)) : s->pdf;
   media_ = vertex.media_toward(context_.world.geometry, s->wi);
   ray_ = {vertex.origin(context_.world.geometry, s->wi), s->wi};
   context_.joint = joint ? &joint_.emplace(*joint, s->wi, vertex.pdf(s->wi, Rgb(1.0f))) : nullptr;
   beta_ *= s->weight;
   eta_scale_ *= s->eta * s->eta;
-  emphasis_ *= s->emphasis;
+  guided_pdf_ratio_ *= s->guided_pdf_ratio;
   return !is_black(beta_) && survive_roulette();
 }
 
 bool Path::survive_roulette() {
   if (depth_ <= 1) return true;
-  const float survival = max_component(beta_) * eta_scale_ * std::pow(emphasis_, kGuidedLive) / kRouletteBelow;
+  const float survival = max_component(beta_) * eta_scale_ * std::pow(guided_pdf_ratio_, kGuidedLive) / kRouletteBelow;
   if (!(survival < 1)) return true;
   if (context_.sampler.next_wide() >= survival) return false;  // many bits, as survival may be next to nothing
   beta_ *= 1 / survival;
@@ -148,11 +145,11 @@ Vertex Path::surface_vertex(const SurfaceHit& hit) {
   return Vertex(Vertex::Surface{hit, bsdf}, wo, media_);
 }
 
-/// Light that reached the camera after `events` scattering events.
+/// Light that reached the camera after `events` bounces.
 void Path::add(Rgb contribution, int events) {
   if (events == 0) {
     record_.emission += contribution;
-  } else if (first_event_in_medium_) {
+  } else if (first_bounce_in_medium_) {
     (events == 1 ? record_.volume_direct : record_.volume_indirect) += contribution;
   } else {
     (events == 1 ? record_.surface_direct : record_.surface_indirect) += contribution;
@@ -168,7 +165,7 @@ void Path::record_camera_ray(const Trace& trace) {
   }
 }
 
-/// The albedo AOV is what the camera sees of it: dimmed by the media before the event, as beta_ is.
+/// The albedo AOV is what the camera sees of it: attenuated by the media before the bounce, as beta_ is.
 void Path::record_collision(float t) {
   record_.albedo += beta_;
   record_.hit_volume = true;

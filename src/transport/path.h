@@ -13,9 +13,9 @@ class Path {
  public:
   /// What a path may do.
   struct Limits {
-    int max_depth;                    ///< scattering events, counted as pbrt's volpath does
+    int max_depth;                    ///< bounces, counted as pbrt's volpath does
     bool want_transmittance = false;  ///< record the camera ray's transmittance
-    bool want_albedo = false;         ///< and the first event's albedo
+    bool want_albedo = false;         ///< and the first bounce's albedo
   };
 
   Path(const LightContext& context, const Limits& limits, const Ray& camera_ray);
@@ -25,19 +25,19 @@ class Path {
   PathRecord run();
 
  private:
-  /// What a path draws random numbers for between one event and the next.
+  /// What a path draws random numbers for from one bounce to the next.
   enum class Step { gather, fly, light, scatter };
   static constexpr int kSteps = 4;
   void begin(Step step);
 
-  /// What stands behind the media that the camera's ray collides in.
+  /// What is behind the media that the camera's ray collides in.
   struct Beyond {
     Ray ray;
     Rgb seen;
     MediaState media;
     Trace trace;
   };
-  /// For the light of that alone: it goes no further.
+  /// For the light of that alone: the path ends there.
   Path(const Path& camera, const Beyond& beyond);
   PathRecord run_beyond(const Trace& trace);
 
@@ -52,9 +52,9 @@ class Path {
   std::optional<Vertex> fly(const Span& span, const Trace& trace);
   void dim(const Span& span);
   Rgb light_at(const Directions& directions, Rgb beta);
-  float scattering_share(LightId id, float light_pdf) const;
+  float scattering_mis_weight(LightId id, float light_pdf) const;
   Vertex surface_vertex(const SurfaceHit& hit);
-  float emission_share() const;
+  float emission_mis_weight() const;
   void add_environment();
   void add_surface_emission(const SurfaceHit& hit);
   void add(Rgb contribution, int events);
@@ -69,20 +69,20 @@ class Path {
   Ray ray_;
   MediaState media_;
   Rgb beta_{1.0f};
-  std::optional<Rgb> seen_;  ///< in place of beta_ for the light of what the camera's ray meets at its end
-  int depth_ = 0;            ///< scattering events so far
-  float eta_scale_ = 1;      ///< undoes the 1/eta^2 of transmissions in Russian roulette
-  float emphasis_ = 1;       ///< and what paths weigh less for having been guided
+  std::optional<Rgb> seen_;     ///< in place of beta_ for the light of what the camera's ray meets at its end
+  int depth_ = 0;               ///< bounces so far
+  float eta_scale_ = 1;         ///< undoes the 1/eta^2 of transmissions in Russian roulette
+  float guided_pdf_ratio_ = 1;  ///< of the path: offsets in roulette that guided paths weigh less
   PathRecord record_;
-  bool first_event_in_medium_ = false;
+  bool first_bounce_in_medium_ = false;
 
-  // The last scattering event, for the MIS weight of emitters that its ray hits.
+  // The last bounce, for the MIS weight of emitters that its ray hits.
   bool light_sampled_ = false;         ///< next-event estimation could have found what this ray finds
-  Vec3 from_;                          ///< where it took place
-  float pdf_ = 0;                      ///< of the direction it took, 1/sr
-  std::optional<CollisionRay> joint_;  ///< the ray from it, if it sought lamps jointly; context_ points to it
+  Vec3 from_;                          ///< its position
+  float pdf_ = 0;                      ///< of its direction, 1/sr
+  std::optional<CollisionRay> joint_;  ///< the ray from it, if it sampled lights jointly; context_ points to it
   LightSearch search_;
-  std::optional<SpanEvent> span_event_;  ///< in place of search_ when the event's lights are chosen along its span
+  std::optional<SpanCollision> span_collision_;  ///< in place of search_ when its lights are chosen along its span
 
   // The span that the path is in.
   std::optional<bool> lit_at_collisions_;  ///< as decided before the ray was traced; else the span decides

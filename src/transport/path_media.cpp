@@ -1,4 +1,4 @@
-/// The way of a path through media.
+/// A path through media: free flight, collisions, and what lies behind.
 #include <algorithm>
 #include <cmath>
 
@@ -10,7 +10,7 @@
 namespace tyndall {
 namespace {
 
-/// What stands behind media is looked at this many times as often as the media's clearest channel lets rays pass.
+/// Probability of evaluating what is behind media, over the transmittance of the clearest channel.
 constexpr float kSeenMore = 2;
 
 Rgb tracked_transmittance(const LightContext& context, const Span& span, Rng& rng) {
@@ -24,9 +24,9 @@ Rgb tracked_transmittance(const LightContext& context, const Span& span, Rng& rn
 
 }  // namespace
 
-/// In dense media that are the same everywhere, and whose lights are chosen at collisions, the collision is drawn first: the
-/// ray need not be traced beyond it. Nothing: something is in between, or this is not such a place. Where the choice of
-/// lights was decided here it stays so for the traced span: decided again, it would depend on the collision that was drawn.
+/// In dense homogeneous media whose lights are chosen at collisions, the collision is drawn first: the ray need not be traced
+/// beyond it. Nothing: something is in between, or this is not such a place. Where the choice of lights was decided here it
+/// stays so for the traced span: decided again, it would depend on the collision that was drawn.
 std::optional<Vertex> Path::collide_untraced() {
   span_search_.reset();
   lit_at_collisions_.reset();
@@ -36,7 +36,7 @@ std::optional<Vertex> Path::collide_untraced() {
   const Interval inside{0, media_.first_exit(groups, ray_), media_.active(groups, world.media)};
   const MediaView media = inside.view();
   if (media.empty() || inside.t1 == kInfinity || any_emissive(media) || !all_homogeneous(media)) return std::nullopt;
-  context_.event = depth_;
+  context_.bounce = depth_;
   if (seeks_along_spans(context_)) lit_at_collisions_ = collisions_suffice(context_, ray_, inside);
   if (!lit_at_collisions_.value_or(is_deep(ray_, inside))) return std::nullopt;
 
@@ -59,7 +59,7 @@ std::optional<Vertex> Path::pass_media(const Trace& trace) {
   if (depth_ == 0 && limits_.want_transmittance) record_transmittance(span);
   media_ = span.end;
   if (span.empty()) return std::nullopt;
-  // After the last event only what the ray meets at its end counts: no collision need be drawn.
+  // After the last bounce only what the ray hits at its end counts: no collision need be drawn.
   if (depth_ >= limits_.max_depth) {
     dim(span);
     return std::nullopt;
@@ -75,10 +75,10 @@ std::optional<Vertex> Path::pass_media(const Trace& trace) {
   return collision;
 }
 
-/// What stands behind the camera's media is seen dimmed, instead of whole and only by rays that pass; where little of it is
-/// left, roulette decides. Nothing: by those that pass. In two fogs with lamps in them, MSE times instructions 1.25 and 1.7
-/// times less. Where transmittance has to be tracked it costs more than it gains; where collisions carry direct light, that and
-/// what is seen behind make up for each other's lack better when each ray has one of them.
+/// What is behind the camera's media is multiplied by the transmittance, instead of counted whole and only by rays that pass;
+/// where little gets through, roulette decides. Nothing: by rays that pass (docs/measurements.md). Not where transmittance has
+/// to be tracked, which costs more than it gains, nor where collisions carry direct light: there it is less noise if each ray
+/// has one of the two.
 std::optional<Rgb> Path::seen_beyond(const Span& span, const Trace& trace) {
   const RenderSettings& settings = context_.settings;
   if (depth_ > 0 || !span_search_ || !pairs_along_spans(settings) || tracks(settings)) return std::nullopt;
@@ -88,7 +88,7 @@ std::optional<Rgb> Path::seen_beyond(const Span& span, const Trace& trace) {
   for (const SpanPart& part : span.parts) T *= sum_of(part.view()).transmittance(double{part.t1} - part.t0);
   const float chance = std::min(1.0f, kSeenMore * max_component(T));
   if (!(chance > 0)) return Rgb();
-  // Many bits: behind fog of depth 17 chances are below the steps of a float's number. The step is gather()'s.
+  // Many bits: behind fog of optical depth 17 the probability is below the steps of a float's number. The step is gather()'s.
   return context_.sampler.next_wide() < chance ? T * (1 / chance) : Rgb();
 }
 
@@ -98,12 +98,12 @@ bool Path::lit_at_collisions(const Span& span) const {
 
 /// Next-event estimation for the whole span.
 void Path::gather(const Span& span) {
-  context_.event = depth_;
+  context_.bounce = depth_;
   if (lit_at_collisions(span)) return;
   begin(Step::gather);
   span_search_ = span_search(context_, span);
   if (!span_search_ || !pairs_along_spans(context_.settings)) return;
-  if (depth_ == 0) first_event_in_medium_ = true;  // of this light's path
+  if (depth_ == 0) first_bounce_in_medium_ = true;  // of this light's path
   add(beta_ * span_light(context_, span, *span_search_, beta_), depth_ + 1);
 }
 
@@ -113,7 +113,7 @@ std::optional<Vertex> Path::fly(const Span& span, const Trace& trace) {
   float u = context_.sampler.next_1d();
   for (const SpanPart& part : span.parts) {
     const Flight flight = free_flight(part.view(), ray_, part.t0, part.t1, beta_, u, rng, context_.counters.tracking);
-    if (!is_black(flight.emission)) add(beta_ * flight.emission * emission_share(), depth_);
+    if (!is_black(flight.emission)) add(beta_ * flight.emission * emission_mis_weight(), depth_);
     beta_ *= flight.weight;
     if (is_black(beta_)) return std::nullopt;
     if (flight.collided) {

@@ -6,19 +6,19 @@
 namespace tyndall {
 
 struct PathRecord {
-  // Radiance, by the first scattering event and the number of events; their sum is the pixel's sample.
-  Rgb emission;                          ///< seen without any scattering: emitters, environment, fire
-  Rgb surface_direct, surface_indirect;  ///< first event at a surface; one event, or more
-  Rgb volume_direct, volume_indirect;    ///< first event in a medium; one event, or more
+  // Radiance, by the first bounce and the number of bounces; their sum is the pixel's sample.
+  Rgb emission;                          ///< directly visible: emitters, environment, volume emission
+  Rgb surface_direct, surface_indirect;  ///< first bounce at a surface; one bounce, or more
+  Rgb volume_direct, volume_indirect;    ///< first bounce in a medium; one bounce, or more
 
   // The camera ray.
-  float alpha = 1;           ///< 1 - transmittance where nothing stands behind, on average over samples
-  Rgb albedo;                ///< of the first surface or collision, dimmed by the media before it; or the sum of both
-  bool hit_surface = false;  ///< a real surface stands behind whatever media there are
+  float alpha = 1;           ///< 1 - transmittance where nothing is behind, on average over samples
+  Rgb albedo;                ///< of the first surface or collision, attenuated by the media before it; or the sum of both
+  bool hit_surface = false;  ///< a real surface is behind whatever media there are
   Vec3 p, n;                 ///< that surface's point and shading normal
   float z = 0;               ///< and its depth along the viewing axis
-  bool hit_volume = false;   ///< the path's first event was in a medium
-  float z_volume = 0;        ///< its depth
+  bool hit_volume = false;   ///< the path's first bounce was in a medium
+  float z_volume = 0;        ///< its depth along the viewing axis
   Rgb transmittance{1.0f};   ///< of the media up to the surface; only when the film asks for it
 
   bool is_finite() const {

@@ -17,8 +17,8 @@ bool brighter(const Item& a, const Item& b) {
   return a.brightness != b.brightness ? a.brightness > b.brightness : a.light < b.light;
 }
 
-/// How much of a light is seen at an offset from the pixel, in radii of its filter. Less at the rim, as the filter is there,
-/// but what reaches in from beyond has its share.
+/// Weight of a light at an offset from the pixel, in radii of its filter. Less at the rim, as the filter is there, but what
+/// reaches in from beyond has its share.
 inline float toward_rim(float dx, float dy) { return std::exp(-2.25f * std::min(dx * dx + dy * dy, 1.5f)); }
 
 /// The brightest of a pixel's lights, drawn in proportion to that. An `Item` has a `light` and a `brightness` >= 0, in any
@@ -42,7 +42,7 @@ class PixelLights {
   }
 
   bool empty() const { return items_.empty(); }
-  /// One of them, its brightness now the chance of that; `u` in [0, 1). Not when empty.
+  /// One of them, its brightness replaced by its probability; `u` in [0, 1). Not when empty.
   const Item& draw(float u) const {
     const Item* chosen = items_.begin();
     while (u >= chosen->brightness && chosen != &items_.back()) u -= (chosen++)->brightness;

@@ -12,7 +12,7 @@
 namespace tyndall {
 namespace {
 
-// Bytes a primitive, measured on scenes of a million of each and rounded up.
+// Bytes a primitive, from scenes of a million of each, rounded up.
 constexpr std::size_t kTriangle = 130;          // positions, and the ray tracing library's tree while it is built
 constexpr std::size_t kBoundaryTriangle = 300;  // kept in a tree of its own as well
 constexpr std::size_t kInstance = 300;
@@ -49,8 +49,8 @@ std::vector<double> emitters_of(const std::vector<Object>& objects) {
   return counts;
 }
 
-/// The lists of pixels that aim at small shining surfaces (film_shine.h), and what finds where larger ones end (film_edges.h).
-/// A surface of a pixel or so is in the lists of those whose filters see it.
+/// The lists of pixels that aim at small emissive surfaces (film_shine.h), and the search for outlines of larger ones
+/// (film_edges.h). A surface of about a pixel is in the lists of those whose filters cover it.
 std::size_t plan_film_search(const Scene& scene) {
   const double radius = std::max(scene.filter.radius.x, scene.filter.radius.y);
   const std::vector<double> of_object = emitters_of(scene.objects);
@@ -58,11 +58,11 @@ std::size_t plan_film_search(const Scene& scene) {
   for (const Instance& instance : scene.instances) {
     if (instance.object < of_object.size()) surfaces += of_object[instance.object];
   }
-  if (surfaces == 0 || !(radius <= FilmShine::kWidestFilter)) return 0;
+  if (surfaces == 0 || !(radius <= FilmEmitters::kWidestFilter)) return 0;
   const double pixels = pixels_of(scene), pixels_of_surface = (4 * radius + 1) * (4 * radius + 1);
   ByteCount sum;
   sum.add(pixels, sizeof(std::uint32_t) + sizeof(float) + 1);
-  sum.add(std::min(pixels * PixelShine::kMost, surfaces * pixels_of_surface), sizeof(ShiningLight));
+  sum.add(std::min(pixels * PixelEmitters::kMost, surfaces * pixels_of_surface), sizeof(FilmEmitter));
   return sum.bytes();
 }
 
@@ -98,7 +98,7 @@ class Pictures {
     try {
       size = read_image_size(path);
     } catch (const Error&) {
-      return;  // whoever reads it will say so, with its place in the scene
+      return;  // the reader will report it, with its place in the scene
     }
     const double texels = static_cast<double>(size.width) * size.height;
     sum_.add(texels, static_cast<double>(bytes_a_texel));

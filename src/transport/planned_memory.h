@@ -23,8 +23,8 @@ class ByteCount {
 /// Pixels of the frame that are rendered.
 double pixels_of(const Scene& scene);
 
-/// Bytes of a BuiltWorld and of what is sought on the film beforehand: upper estimates, within a factor of two. Volumes in
-/// files are not among them.
+/// Bytes of a BuiltWorld and of what is searched for on the film beforehand: upper estimates, within a factor of two. Volumes
+/// in files are not among them.
 struct PlannedMemory {
   std::size_t on_film, geometry, lights, textures, volumes;
 };

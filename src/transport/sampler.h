@@ -52,10 +52,10 @@ class Sampler {
     return static_cast<double>((high << 21) | low) * 0x1p-53;
   }
 
-  /// A sampler of its own for a step that draws now more numbers, now fewer: its dimensions, and those after it, stay.
+  /// A sampler of its own for a step that draws a varying number of dimensions: its own, and those after it, stay the same.
   Sampler fork() { return Sampler(next_block(), index_); }
 
-  /// A stream that leaves the other numbers as they are: for what is measured on the side.
+  /// A stream that leaves the other numbers as they are, for AOVs.
   Rng side_stream() const { return Rng(hash(key_, index_, 0x51deu)); }
 
   /// An independent stream for a loop of unknown length.

@@ -20,8 +20,8 @@ SpanWalk walk_to(const BuiltWorld& world, const Trace& trace) {
 }  // namespace
 
 std::optional<SeenLight> seen_light(const BuiltWorld& world, const Ray& ray) {
-  // Traced as the path's own ray is, and no shadow ray, which ends before the light: what is as close to it as the glass of a
-  // bulb far off hides it.
+  // Traced as the path's own ray is, not as a shadow ray, which ends before the light: the glass of a distant bulb, as close to
+  // it as that, hides it.
   Trace trace = world.geometry.trace(ray, 0, kInfinity);
   const auto id = trace.hit ? world.light_of(*trace.hit) : std::nullopt;
   if (!id) return std::nullopt;
@@ -31,7 +31,7 @@ std::optional<SeenLight> seen_light(const BuiltWorld& world, const Ray& ray) {
   return SeenLight{*id, hit, L, std::move(trace)};
 }
 
-Rgb dimmed(const LightContext& context, const Ray& ray, const SeenLight& seen, Sampler& sampler) {
+Rgb attenuated(const LightContext& context, const Ray& ray, const SeenLight& seen, Sampler& sampler) {
   if (!context.world.has_media()) return Rgb(1.0f);
   Rng rng = sampler.stream();
   SpanWalk walk = walk_to(context.world, seen.trace);
@@ -40,7 +40,7 @@ Rgb dimmed(const LightContext& context, const Ray& ray, const SeenLight& seen, S
   return T;
 }
 
-float dimmed_roughly(const BuiltWorld& world, const Ray& ray, const SeenLight& seen) {
+float attenuated_roughly(const BuiltWorld& world, const Ray& ray, const SeenLight& seen) {
   if (!world.has_media()) return 1;
   float depth = 0;
   SpanWalk walk = walk_to(world, seen.trace);

@@ -1,4 +1,4 @@
-/// What a ray of a pinhole camera sees shining.
+/// Directly visible emission along a ray of a pinhole camera.
 #pragma once
 
 #include <optional>
@@ -7,18 +7,18 @@
 
 namespace tyndall {
 
-/// The surface that it meets first, if that shines.
+/// The surface that it hits first, if that is emissive.
 struct SeenLight {
   LightId light;
   EmitterHit hit;
-  Rgb L;        ///< toward the camera, before media dim it
+  Rgb L;        ///< toward the camera, before media attenuate it
   Trace trace;  ///< of the ray, up to the surface
 };
 std::optional<SeenLight> seen_light(const BuiltWorld& world, const Ray& ray);
 
-/// Unbiased estimate of the share of it that media let through.
-Rgb dimmed(const LightContext& context, const Ray& ray, const SeenLight& seen, Sampler& sampler);
-/// The same, roughly, for choices: mean of the channels, and nothing where less than a hundredth comes through.
-float dimmed_roughly(const BuiltWorld& world, const Ray& ray, const SeenLight& seen);
+/// Unbiased estimate of the transmittance of the media before it.
+Rgb attenuated(const LightContext& context, const Ray& ray, const SeenLight& seen, Sampler& sampler);
+/// The same, roughly, for choices: mean of the channels, and nothing where less than a hundredth gets through.
+float attenuated_roughly(const BuiltWorld& world, const Ray& ray, const SeenLight& seen);
 
 }  // namespace tyndall

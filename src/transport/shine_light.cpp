@@ -11,18 +11,17 @@
 namespace tyndall {
 namespace {
 
-/// In the picture. More would take seconds to look through, and are triangles of larger things rather than bulbs.
+/// In the picture. More would take seconds to process, and are triangles of larger things rather than bulbs.
 constexpr std::size_t kMostSpots = 1'000'000;
-/// A camera this near to a lamp, in its radii, may be inside it.
+/// A camera this near to an emitter, in its radii, may be inside it.
 constexpr float kNearest = 2;
 
-/// Film positions a sample where a surface begins or ends. In a hall with bulbs and a street with lamps 8 leave 1.3 to 1.5
-/// times the MSE, 21 leave 0.78 of it for a tenth more work where half of the pixels are such.
+/// Film positions a sample where the outline of a surface is (docs/measurements.md).
 constexpr int kPositions = 13;
-/// Of a Fibonacci lattice of so many points: spread evenly in the square and along both of its sides.
+/// Of a Fibonacci lattice of that many points: spread evenly in the square and along both of its sides.
 constexpr int kLatticeStep = 8;
 
-/// Not where the film takes only so much of a sample: it would take more of a mean, or of an aimed ray's share.
+/// Not where the film clamps samples: a mean over several, or the share of an aimed ray, would be clamped less.
 bool is_wanted(const BuiltWorld& world, const RenderSettings& settings) {
   if (world.scene.film.max_component < kInfinity) return false;
   const bool asked = settings.joint == JointStrategy::points && settings.lights != LightStrategy::exhaustive;
@@ -30,35 +29,35 @@ bool is_wanted(const BuiltWorld& world, const RenderSettings& settings) {
 }
 
 /// `light` as the camera sees it.
-std::optional<FilmShine::Spot> spot_of(const BuiltWorld& world, LightId light) {
+std::optional<FilmEmitters::Spot> spot_of(const BuiltWorld& world, LightId light) {
   const LightPlace place = world.lights.place(light);
   if (!place.center || !(place.radius > 0)) return std::nullopt;
-  // Of what shines on both sides a direction may be drawn by points in front and behind, and its density is known of one.
+  // Of a two-sided emitter a direction may be drawn by points in front and behind, and its density is known of one.
   if (place.two_sided && !place.flat()) return std::nullopt;
   const auto at = world.camera.film_position(*place.center);
   const float distance = length(*place.center - world.camera.center());
   if (!at || !(distance > kNearest * place.radius)) return std::nullopt;
   const float facing = place.flat() ? dot(place.normal, world.camera.center() - *place.center) / distance : 1.0f;
   const float pixels_a_radian = 1 / std::sqrt(world.camera.solid_angle(*at));
-  return FilmShine::Spot{.light = light,
-                         .at = *at,
-                         .radius = place.radius / distance * pixels_a_radian,
-                         .brightness = static_cast<float>(world.lights.power(light)) / (distance * distance) *
-                                       (place.two_sided ? std::abs(facing) : std::max(facing, 0.0f))};
+  return FilmEmitters::Spot{.light = light,
+                            .at = *at,
+                            .radius = place.radius / distance * pixels_a_radian,
+                            .brightness = static_cast<float>(world.lights.power(light)) / (distance * distance) *
+                                          (place.two_sided ? std::abs(facing) : std::max(facing, 0.0f))};
 }
 
-/// 1/pixels^2, of meeting `light` at `hit` by aiming at one of `aims`; 0 for those that are not among them.
-float aimed_pdf(const BuiltWorld& world, const PixelShine& aims, LightId light, const EmitterHit& hit) {
-  const ShiningLight* aimed_at = aims.find(light);
+/// 1/pixels^2, of hitting `light` at `hit` by aiming at one of `aims`; 0 for those that are not among them.
+float aimed_pdf(const BuiltWorld& world, const PixelEmitters& aims, LightId light, const EmitterHit& hit) {
+  const FilmEmitter* aimed_at = aims.find(light);
   const auto at = aimed_at ? world.camera.film_position(hit.p) : std::nullopt;
   if (!at) return 0;
   return aimed_at->brightness * world.lights.pdf(light, world.camera.center(), hit) * world.camera.solid_angle(*at);
 }
 
 /// Of one pixel's sample.
-class ShineEstimate {
+class EmitterEstimate {
  public:
-  ShineEstimate(const LightContext& context, const ShineView& view, Vec2 center)
+  EmitterEstimate(const LightContext& context, const EmitterView& view, Vec2 center)
       : context_(context), view_(view), center_(center), positions_(view.edge ? kPositions : 1) {}
 
   /// By the ray to a point of one of the aims.
@@ -77,7 +76,7 @@ class ShineEstimate {
     const float pdf = aimed_pdf(world, view_.aims, light, seen->hit);
     if (!(filter.pdf > 0) || !(pdf > 0)) return {};
     const float share = mis_weight(pdf, static_cast<float>(positions_) * filter.pdf);
-    return seen->L * dimmed(context_, ray, *seen, sampler) * (filter.weight * filter.pdf / pdf * share);
+    return seen->L * attenuated(context_, ray, *seen, sampler) * (filter.weight * filter.pdf / pdf * share);
   }
 
   /// By film positions that the filter draws.
@@ -102,7 +101,7 @@ class ShineEstimate {
     const auto seen = look_along(ray);
     if (!seen) return {};
     const float aimed = aimed_pdf(world, view_.aims, seen->light, seen->hit);
-    return seen->L * dimmed(context_, ray, *seen, sampler) *
+    return seen->L * attenuated(context_, ray, *seen, sampler) *
            (offset.weight * mis_weight(static_cast<float>(positions_) * offset.pdf, aimed));
   }
 
@@ -112,30 +111,31 @@ class ShineEstimate {
   }
 
   const LightContext& context_;
-  const ShineView& view_;
+  const EmitterView& view_;
   Vec2 center_;
   int positions_;
 };
 
 }  // namespace
 
-FilmShine film_shine(const FilmSearch& search) {
+FilmEmitters film_emitters(const FilmSearch& search) {
   const BuiltWorld& world = search.world;
   if (!is_wanted(world, search.settings) || !similarity_scale(world.camera.to_world().matrix())) return {};
-  const FilmShine::View view{search.pixels, world.scene.filter.radius};
+  const FilmEmitters::View view{search.pixels, world.scene.filter.radius};
   const std::size_t count = world.lights.first_volume();  // before them are all that instances do not share
   const auto look = [&](LightId light) {
     const auto spot = spot_of(world, light);
     return spot && view.wants(*spot) ? spot : std::nullopt;
   };
   const auto spots = gather_lights(count, search.pool, look);
-  return spots.size() > kMostSpots ? FilmShine() : FilmShine(view, spots);
+  return spots.size() > kMostSpots ? FilmEmitters() : FilmEmitters(view, spots);
 }
 
 FilmEdges film_edges(const FilmSearch& search) {
   const BuiltWorld& world = search.world;
   const FilmEdges::View view{search.pixels, world.scene.filter.radius};
-  if (!is_wanted(world, search.settings) || !(std::max(view.filter_radius.x, view.filter_radius.y) <= FilmShine::kWidestFilter))
+  if (!is_wanted(world, search.settings) ||
+      !(std::max(view.filter_radius.x, view.filter_radius.y) <= FilmEmitters::kWidestFilter))
     return {};
   const PixelBounds all = view.around();
   std::vector<float> brightness(all.size());
@@ -145,14 +145,14 @@ FilmEdges film_edges(const FilmSearch& search) {
     for (int x = all.x0; x < all.x1; ++x) {
       const Ray ray = world.camera.ray({static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f}, {0.5f, 0.5f});
       const auto seen = seen_light(world, ray);
-      if (seen) brightness[all.index(x, y)] = mean(seen->L) * dimmed_roughly(world, ray, *seen);
+      if (seen) brightness[all.index(x, y)] = mean(seen->L) * attenuated_roughly(world, ray, *seen);
     }
   });
   return {view, brightness};
 }
 
-Rgb shine_light(const LightContext& context, const ShineView& view, Vec2 center, Sampler sampler) {
-  const ShineEstimate estimate(context, view, center);
+Rgb visible_emitters(const LightContext& context, const EmitterView& view, Vec2 center, Sampler sampler) {
+  const EmitterEstimate estimate(context, view, center);
   Sampler aiming = sampler.fork(), looking = sampler.fork();
   Rgb sum;
   if (!view.aims.empty()) sum += estimate.by_aiming(aiming);
@@ -160,7 +160,7 @@ Rgb shine_light(const LightContext& context, const ShineView& view, Vec2 center,
   return sum;
 }
 
-float ShineRay::own_share(const BuiltWorld& world, LightId light, const EmitterHit& hit) const {
+float EmitterRay::path_mis_weight(const BuiltWorld& world, LightId light, const EmitterHit& hit) const {
   return view_.edge ? 0.0f : mis_weight(pdf_, aimed_pdf(world, view_.aims, light, hit));
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <span>
 
-#include "transport/fire_light.h"
+#include "transport/volume_light.h"
 #include "volume/coarse.h"
 
 namespace tyndall {
@@ -11,28 +11,21 @@ namespace {
 
 /// Lights this many times as far from the middle of a span as its ends are.
 constexpr float kFarAway = 1.5f;
-/// Optical depths from which collisions suffice. Pairs cost more in media that are read than in those known in closed form.
-/// Efficiency against pairs by processor time and relMSE without the worst 1 %, one light: a cloud 1.5, a grid 1.25, a thin
-/// plume 0.95; homogeneous media of depth 2 to 10 1.2 to 1.4, of depth 0.5 to 2 0.85. Under a sky the picture of a cloud takes
-/// 0.5 to 0.6 of the time for 1.1 times the error.
+/// Optical depths from which collisions suffice. Pairs cost more in media that are read than in those known in closed form
+/// (docs/measurements.md).
 constexpr float kDeep = 0.5f, kDeepUniform = 2;
-/// On later spans so deep within the size of the lights' box, among lights as well. In smoke of depth 50: 1.15 by processor
-/// time, 1.24 by instructions; of depth 10 1.0 to 1.1. From depth 2 on 1.26 in the former, but collisions next to lamps make
-/// fireflies in thinner smoke.
+/// On later spans of this optical depth within the size of the lights' box, among lights as well. With less, collisions next to
+/// lights make fireflies in thinner smoke (docs/measurements.md).
 constexpr float kDeepLater = 8;
 constexpr int kReads = 4;
-/// Lamps that stay as far from all of a stretch as this many of its half lengths. MSE of smoke of depth 5 with lamps in it
-/// is 1.00 times that of pairs everywhere, with half of it 1.5, with a quarter 2.1; in a hall with bulbs around smoke
-/// 0.99, 1.04, 1.06.
-constexpr float kStandOff = 0.5f;
-/// After the first event, where less of the picture depends on it; and of the depth that is enough, so much is. Gain by
-/// instructions and relMSE with and without the worst 0.1 %: smoke of depth 1 0.99 and 0.99, of 5 1.08 and 1.07, of 10 1.09
-/// and 1.09, with triangles 1.03 and 1.04, hall 1.11 and 1.10. With half of this stand-off 1.08 at depth 5, with a quarter
-/// 0.77.
-constexpr float kStandOffLater = 0.125f, kDeepShareLater = 0.5f;
-/// The stretch is where the optical depth passed is between these.
+/// Least distance of lights from all of a segment, in half lengths of it (docs/measurements.md).
+constexpr float kKeptDistance = 0.5f;
+/// After the first collision, where less of the picture depends on it; and the share of the optical depth above that suffices
+/// there (docs/measurements.md).
+constexpr float kKeptDistanceLater = 0.125f, kDeepShareLater = 0.5f;
+/// The segment is where the optical depth passed is between these.
 constexpr float kClear = 0.01f, kOpaque = 2;
-constexpr int kLooks = 8;  ///< at a part of it
+constexpr int kLooks = 8;  ///< reads in one part of it
 
 float distance(Vec3 p, const Bounds3& box) { return length(max(max(box.min - p, p - box.max), Vec3{0, 0, 0})); }
 
@@ -63,18 +56,20 @@ bool deep(const Ray& ray, const Parts& parts) {
   return deeper_than(enough_depth(parts), ray, parts);
 }
 
-/// Whether the media ahead are all but opaque within the size of `lights`: what shines here is as near as the next collision.
+/// Whether the media ahead are nearly opaque within the size of `lights`: emitters that matter are as near as the next
+/// collision.
 template <typename Parts>
 bool opaque_among(const Bounds3& lights, const Ray& ray, const Parts& parts) {
   return !lights.empty() && deeper_than(kDeepLater, ray, parts, parts.front().t0 + length(lights.max - lights.min));
 }
 
-/// Where media scatter before they are opaque, looked at from the ray's origin on, and how near lamps are to that.
+/// Where media scatter before they are opaque, read from the ray's origin on, and the distance to the nearest light there.
 class Approach {
  public:
-  Approach(const NearLamps& lamps, const Ray& ray, float stand_off) : lamps_(lamps), ray_(ray), stand_off_(stand_off) {}
+  Approach(const LightDistances& lights, const Ray& ray, float kept_distance)
+      : lights_(lights), ray_(ray), kept_distance_(kept_distance) {}
 
-  /// False: a lamp is too near to what was looked at.
+  /// False: a light is too near.
   bool look_through(const Interval& part) {
     const auto extent = coarse_extent(part.view(), ray_, part.t0, part.t1);
     if (!extent) return true;
@@ -96,22 +91,22 @@ class Approach {
     depth_ += sigma_t * length;
     if (!(depth_ > kClear) || !(sigma_t > 0)) return true;
     begin_ = std::min(begin_, begin);
-    nearest_ = std::min(nearest_, lamps_.distance(ray_.at(begin + 0.5f * length)));
-    return nearest_ > stand_off_ * 0.5f * (begin + length - begin_);
+    nearest_ = std::min(nearest_, lights_.distance(ray_.at(begin + 0.5f * length)));
+    return nearest_ > kept_distance_ * 0.5f * (begin + length - begin_);
   }
 
-  const NearLamps& lamps_;
+  const LightDistances& lights_;
   const Ray& ray_;
-  float stand_off_;
+  float kept_distance_;
   float depth_ = 0, begin_ = kInfinity, nearest_ = kInfinity;
   bool opaque_ = false;
 };
 
 template <typename Parts>
-bool lamps_stand_off(const LightContext& context, const Ray& ray, const Parts& parts) {
-  if (context.world.near_lamps.empty() || !(parts.back().t1 < kInfinity)) return false;
-  const bool later = context.event > 0;
-  Approach approach(context.world.near_lamps, ray, later ? kStandOffLater : kStandOff);
+bool lights_keep_distance(const LightContext& context, const Ray& ray, const Parts& parts) {
+  if (context.world.light_distances.empty() || !(parts.back().t1 < kInfinity)) return false;
+  const bool later = context.bounce > 0;
+  Approach approach(context.world.light_distances, ray, later ? kKeptDistanceLater : kKeptDistance);
   for (const Interval& part : parts) {
     if (!approach.look_through(part)) return false;
   }
@@ -122,12 +117,12 @@ template <typename Parts>
 bool suffice(const LightContext& context, const Ray& ray, const Parts& parts) {
   const RenderSettings& settings = context.settings;
   const bool by_default = settings.media == MediaStrategy::product && settings.distance == DistanceStrategy::automatic;
-  if (!by_default || seeks_fire(context)) return false;
-  if (is_only_event(context)) return false;  // it looks at many pairs
+  if (!by_default || seeks_volume_lights(context)) return false;
+  if (is_single_scattering(context)) return false;  // it draws many pairs
   const Bounds3& lights = context.world.lights.near_box();
-  if (context.event > 0 && opaque_among(lights, ray, parts)) return true;
+  if (context.bounce > 0 && opaque_among(lights, ray, parts)) return true;
   if (far_from(lights, ray, parts.front().t0, parts.back().t1)) return deep(ray, parts);
-  return lamps_stand_off(context, ray, parts);
+  return lights_keep_distance(context, ray, parts);
 }
 
 }  // namespace

@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "math/small_vector.h"
-#include "transport/fire_light.h"
 #include "transport/joint_ray.h"
 #include "transport/light_counts.h"
 #include "transport/media/scattering.h"
 #include "transport/resampling.h"
+#include "transport/volume_light.h"
 #include "volume/coarse.h"
 #include "volume/phase/phase.h"
 
@@ -19,13 +19,13 @@ namespace {
 constexpr float kLeastTransmittance = 1e-3f;
 constexpr int kShadowReads = 4;
 
-/// A pair of a light and a distance, looked at without visibility.
+/// A pair of a light and a distance, evaluated without visibility.
 struct Pair {
   float t;
   const SpanPart* part;
   LightSample light;
   Rgb contribution;  ///< were everything clear: scattering x radiance x MIS weight / density, of all pairs together
-  float weight;      ///< in resampling: the contribution's size, dimmed by what the profile says
+  float weight;      ///< in resampling: the contribution's size times the profile's transmittance
 };
 
 using Pairs = SmallVector<Pair, 8>;
@@ -34,54 +34,55 @@ DistanceSampler distances_to(const LightContext& context, const SpanSearch& sear
   const DistanceStrategy distance = context.settings.distance;
   const bool plain = distance == DistanceStrategy::equiangular || distance == DistanceStrategy::both;
   const auto weights = plain ? std::nullopt : std::optional(DistanceSampler::Weights{search.g});
-  const LightPlace place = context.world.fire.holds(id) ? context.world.fire.place() : context.world.lights.place(id);
+  const LightPlace place =
+      context.world.volume_lights.holds(id) ? context.world.volume_lights.place() : context.world.lights.place(id);
   return DistanceSampler(search.profile, {search.query.o, search.query.d}, place, weights);
 }
 
-/// Finds the pairs of one span.
+/// Samples the pairs of one span.
 class PairFinder {
  public:
   PairFinder(const LightContext& context, const Span& span, const SpanSearch& search, Rgb beta)
       : context_(context), span_(span), search_(search), beta_(beta) {}
 
   /// Strata of one number give the distances.
-  void look_along(LightCandidate tried, Sampler& sampler, Pairs& pairs) const {
-    const DistanceSampler distances = distances_to(context_, search_, tried.light);
+  void look_along(LightCandidate candidate, Sampler& sampler, Pairs& pairs) const {
+    const DistanceSampler distances = distances_to(context_, search_, candidate.light);
     const float u = sampler.next_1d(), stratum = 1 / static_cast<float>(search_.distances);
     for (int i = 0; i < search_.distances; ++i) {
       const float along = std::min((static_cast<float>(i) + u) * stratum, 0x1.fffffep-1f);
-      if (const auto pair = look_at(tried, distances.sample(along), sampler.next_2d())) pairs.push_back(*pair);
+      if (const auto pair = look_at(candidate, distances.sample(along), sampler.next_2d())) pairs.push_back(*pair);
     }
   }
 
  private:
-  std::optional<Pair> look_at(LightCandidate tried, DistanceSample distance, Vec2 on_light) const {
-    const auto [id, tries] = tried;
+  std::optional<Pair> look_at(LightCandidate candidate, DistanceSample distance, Vec2 on_light) const {
+    const auto [id, n_pmf] = candidate;
     if (!(distance.pdf > 0) || !std::isfinite(distance.t)) return std::nullopt;
     const SpanPart& part = span_.part_at(distance.t);
     if (distance.t < part.t0 || distance.t > part.t1) return std::nullopt;  // between media
     const Vec3 p = span_.ray.at(distance.t);
     const Scattering scattering = Scattering::at(part.media, p);
     if (is_black(scattering.sigma_s)) return std::nullopt;
-    const auto light = sample_light(context_, search_, {id, tries}, p, on_light);
-    // What is not a number goes on, so that the film sees it and counts it.
+    const auto light = sample_light(context_, search_, {id, n_pmf}, p, on_light);
+    // What is not a number is kept, so that the film sees and counts it.
     if (!light || is_black(light->L)) return std::nullopt;
 
     const Vec3 wo = -span_.ray.d;
     const Rgb f = scattering.sigma_s * scattering.phase.eval(wo, light->wi);
-    const float density = search_.chance * tries * static_cast<float>(search_.distances) * distance.pdf * light->pdf;
+    const float density = search_.chance * n_pmf * static_cast<float>(search_.distances) * distance.pdf * light->pdf;
     if (is_black(f) || !(density > 0)) return std::nullopt;
     const float collide = scattering.sigma_t * search_.profile.transmittance(distance.t);
-    const float tracked = tracks(context_.settings) ? collide * tries * light->pdf : 0.0f;
+    const float tracked = tracks(context_.settings) ? collide * n_pmf * light->pdf : 0.0f;
     const float by_phase = light->delta ? 0.0f : collide * scattering.pdf(wo, light->wi);
-    const float share = light->delta ? own_share(context_, id) : 1.0f;
+    const float share = light->delta ? path_mis_weight(context_, id) : 1.0f;
     const Rgb contribution = f * light->L * (share * mis_weight(density, tracked, by_phase) / density);
-    const float weight = mean(beta_ * contribution) * dimming(part, distance.t, p, *light);
+    const float weight = mean(beta_ * contribution) * attenuation(part, distance.t, p, *light);
     if (weight == 0) return std::nullopt;
     return Pair{distance.t, &part, *light, contribution, weight};
   }
 
-  float dimming(const SpanPart& part, float t, Vec3 p, const LightSample& light) const {
+  float attenuation(const SpanPart& part, float t, Vec3 p, const LightSample& light) const {
     const Ray ray{p, light.wi};
     const float end = std::min(light.distance, exit_distance(part.box, ray));
     const float depth = coarse_optical_depth(part.view(), ray, 0, end, kShadowReads);
@@ -104,8 +105,8 @@ Pairs all_lights(const LightContext& context, const PairFinder& finder, Sampler&
 
 Pairs chosen_lights(const LightContext& context, const SpanSearch& search, const PairFinder& finder, Sampler& sampler) {
   Pairs pairs;
-  for (const LightCandidate& tried : context.selector.draw(search.cut, search.query, sampler.next_wide())) {
-    finder.look_along(tried, sampler, pairs);
+  for (const LightCandidate& candidate : context.selector.draw(search.cut, search.query, sampler.next_wide())) {
+    finder.look_along(candidate, sampler, pairs);
   }
   return pairs;
 }
@@ -161,10 +162,9 @@ SegmentQuery query_of(const RenderSettings& settings, const Span& span, const Sp
   return query;
 }
 
-/// For the only event, with many pairs: half as many bins, MSE is 1.4 to 2.8 times as high in smoke, and half as many more do
-/// not pay. Where paths go on, and most error comes later, they would take 1.1 times the instructions for the same error.
+/// Many for single scattering, with its many pairs; where paths go on most error is of later bounces (docs/measurements.md).
 SpanProfile::Bins bins_of_profile(const LightContext& context) {
-  return is_only_event(context) ? SpanProfile::Bins::many : SpanProfile::Bins::few;
+  return is_single_scattering(context) ? SpanProfile::Bins::many : SpanProfile::Bins::few;
 }
 
 /// Of all media along the span.
@@ -225,22 +225,26 @@ float collision_density(const Span& span, const SpanSearch& search, float t) {
   return Scattering::at(span.part_at(t).media, span.ray.at(t)).sigma_t * search.profile.transmittance(t);
 }
 
-SpanDensities span_fire_densities(const LightContext& context, const SpanEvent& event, const FiresOnRay& fires) {
-  if (fires.empty()) return {};
-  const float found = fire_density(context, event.search, fires);
-  const float pairs = event.search.chance * static_cast<float>(event.search.distances);  // for each candidate, on average
+SpanDensities span_volume_densities(const LightContext& context, const SpanCollision& collision, const VolumesOnRay& volumes) {
+  if (volumes.empty()) return {};
+  const float found = volume_density(context, collision.search, volumes);
+  const float pairs =
+      collision.search.chance * static_cast<float>(collision.search.distances);  // for each candidate, on average
   const RenderSettings& settings = context.settings;
-  return {.pair = pairs_along_spans(settings) ? found * pairs * distances_to(context, event.search, fires[0].light).pdf(event.t)
-                                              : 0.0f,
-          .tracked = tracks(settings) ? found * event.density : 0.0f};
+  return {.pair = pairs_along_spans(settings)
+                      ? found * pairs * distances_to(context, collision.search, volumes[0].light).pdf(collision.t)
+                      : 0.0f,
+          .tracked = tracks(settings) ? found * collision.density : 0.0f};
 }
 
-SpanDensities span_densities(const LightContext& context, const SpanEvent& event, LightId id) {
-  const float tries = context.selector.expected(event.search.cut, event.search.query, id);
-  const float pairs = event.search.chance * static_cast<float>(event.search.distances);  // for each candidate, on average
+SpanDensities span_densities(const LightContext& context, const SpanCollision& collision, LightId id) {
+  const float n_pmf = context.selector.n_pmf(collision.search.cut, collision.search.query, id);
+  const float pairs =
+      collision.search.chance * static_cast<float>(collision.search.distances);  // for each candidate, on average
   const RenderSettings& settings = context.settings;
-  return {.pair = pairs_along_spans(settings) ? tries * pairs * distances_to(context, event.search, id).pdf(event.t) : 0.0f,
-          .tracked = tracks(settings) ? tries * event.density : 0.0f};
+  return {
+      .pair = pairs_along_spans(settings) ? n_pmf * pairs * distances_to(context, collision.search, id).pdf(collision.t) : 0.0f,
+      .tracked = tracks(settings) ? n_pmf * collision.density : 0.0f};
 }
 
 }  // namespace tyndall

@@ -15,11 +15,11 @@ namespace tyndall {
 /// A direction drawn at a vertex.
 struct ScatterSample {
   Vec3 wi;
-  Rgb weight;          ///< scattering function (with cosine at surfaces) / density
-  float pdf;           ///< 1/sr
-  bool specular;       ///< next-event estimation cannot reach it
-  float eta = 1;       ///< relative index crossed
-  float emphasis = 1;  ///< pdf, by that of the scattering function alone
+  Rgb weight;                  ///< scattering function (with cosine at surfaces) / density
+  float pdf;                   ///< 1/sr
+  bool specular;               ///< next-event estimation cannot reach it
+  float eta = 1;               ///< relative index crossed
+  float guided_pdf_ratio = 1;  ///< pdf, by that of the scattering function alone
 };
 
 class Vertex {

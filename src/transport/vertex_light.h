@@ -5,13 +5,13 @@
 
 #include "math/small_vector.h"
 #include "transport/direct_light.h"
-#include "transport/fire_light.h"
 #include "transport/resampling.h"
+#include "transport/volume_light.h"
 
 namespace tyndall {
 
-/// A vertex whose light is sought. `Search` has a query, the cut made for it and shadow_rays; `Share` is a function of a
-/// LightSample and the density of the candidates that found it: its weight in MIS.
+/// A vertex whose light is sampled. `Search` has a query, the cut made for it and shadow_rays; `Share` is a function of a
+/// LightSample and the density of the candidates: its MIS weight.
 template <typename Search, typename Share>
 class VertexLight {
  public:
@@ -22,28 +22,28 @@ class VertexLight {
   Rgb estimate(Sampler& sampler) const { return context_.selector.exhaustive() ? all(sampler) : chosen(sampler); }
 
  private:
-  /// A light looked at without visibility.
+  /// A candidate evaluated without visibility.
   struct Candidate {
     LightSample light;
     Rgb contribution;  ///< were it visible: scattering x radiance x MIS weight / density, of all candidates together
     float weight;      ///< in resampling: the contribution's size
   };
 
-  std::optional<Candidate> look_at(LightCandidate tried, Vec2 u) const {
-    const auto light = sample_light(context_, search_, tried, vertex_.p(), u);
-    // What is not a number goes on, so that the film sees it and counts it.
+  std::optional<Candidate> look_at(LightCandidate candidate, Vec2 u) const {
+    const auto light = sample_light(context_, search_, candidate, vertex_.p(), u);
+    // What is not a number is kept, so that the film sees and counts it.
     if (!light || is_black(light->L)) return std::nullopt;
-    const float density = tried.tries * light->pdf;
+    const float density = candidate.n_pmf * light->pdf;
     if (density <= 0) return std::nullopt;
     const Rgb f = vertex_.eval(light->wi);
     if (is_black(f)) return std::nullopt;
-    const Rgb contribution = f * light->L * (share_(*light, tried.light, density) / density);
+    const Rgb contribution = f * light->L * (share_(*light, candidate.light, density) / density);
     const float weight = mean(beta_ * contribution);
     if (weight == 0) return std::nullopt;
     return Candidate{*light, contribution, weight};
   }
 
-  /// The candidate's contribution dimmed by what is in between.
+  /// The candidate's contribution times the transmittance in between.
   Rgb trace(const Candidate& c, Sampler& sampler) const {
     const Geometry& geometry = context_.world.geometry;
     const MediaState media = vertex_.media_toward(geometry, c.light.wi);
@@ -61,8 +61,8 @@ class VertexLight {
   Rgb chosen(Sampler& sampler) const {
     const float u = sampler.next_1d();
     SmallVector<Candidate, 8> candidates;
-    for (const LightCandidate& tried : context_.selector.draw(search_.cut, search_.query, sampler.next_wide())) {
-      if (const auto c = look_at(tried, sampler.next_2d())) candidates.push_back(*c);
+    for (const LightCandidate& candidate : context_.selector.draw(search_.cut, search_.query, sampler.next_wide())) {
+      if (const auto c = look_at(candidate, sampler.next_2d())) candidates.push_back(*c);
     }
     Rgb sum;
     for (const Survivor& s : resample(candidates, search_.shadow_rays, u)) {

@@ -1,16 +1,16 @@
 #include "transport/way.h"
 
 #include "transport/direct_light.h"
-#include "transport/fire_light.h"
 #include "transport/media/scattering.h"
 #include "transport/media/span_walk.h"
+#include "transport/volume_light.h"
 
 namespace tyndall {
 
-Rgb lamplight(const LightContext& context, const Way& way, LightId lamp, Sampler& sampler) {
+Rgb in_scattered(const LightContext& context, const Way& way, LightId point, Sampler& sampler) {
   const BuiltWorld& world = context.world;
   const Vec3 p = way.ray.at(way.t), wo = -way.ray.d;
-  const auto light = world.lights.sample(lamp, p, {}, true);
+  const auto light = world.lights.sample(point, p, {}, true);
   if (!light || is_black(light->L)) return {};
   ++context.counters.shadow_rays;
   const auto crossings = world.geometry.trace_shadow(way.ray, 0, way.t);

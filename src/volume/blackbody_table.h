@@ -12,7 +12,7 @@ namespace tyndall {
 /// kelvin; beyond kMax it asks blackbody_rgb.
 class BlackbodyTable {
  public:
-  static constexpr float kMin = 100;  ///< below it nothing shines, as in pbrt
+  static constexpr float kMin = 100;  ///< below it there is no emission, as in pbrt
   static constexpr float kMax = 20000;
 
   BlackbodyTable();

@@ -13,7 +13,7 @@ std::uint8_t step_of(double mean, double low, double step) {
 
 }  // namespace
 
-/// Slot 0 stands for all bricks of one value; nobody asks for its means.
+/// Slot 0 stands for all bricks of one value; its means are never read.
 BlockMeans::BlockMeans(int channels)
     : channels_(static_cast<std::size_t>(channels)), steps_(channels_ * kBlocks), scales_(channels_) {}
 

@@ -1,4 +1,4 @@
-/// Means over small blocks of a brick's cells, for what only chooses.
+/// Means over small blocks of a brick's cells, for choices only.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ namespace tyndall {
 /// 1/255 of that range. Rounded up to the first step: a mean is exactly 0 only where all voxels are.
 class BlockMeans {
  public:
-  /// Edge of a block. Depths along rays err two to three times as much with 4, and the grid is 4 % smaller.
+  /// Edge of a block. With larger ones optical depths along rays err more, and little memory is saved (docs/measurements.md).
   static constexpr int kCells = 2;
   static constexpr int kSide = BrickStore::kSide / kCells, kBlocks = kSide * kSide * kSide;
   static constexpr std::size_t kBytes = kBlocks + 2 * sizeof(float);  ///< a channel and slot

@@ -15,7 +15,7 @@ CoarseOptics means_of(const MediumOptics& optics, float density) {
   return {(mean(optics.sigma_a) + s) * density, s * density};
 }
 
-/// A cloud's density costs as much as hundreds of reads of a grid: its mean over the whole stands in for it.
+/// A cloud's density is expensive: its mean over the whole stands in for it.
 float cloud_level(const MediumData& medium) { return std::max(medium.cloud_mean, 1e-4f); }
 
 /// Of a medium that is not homogeneous, at a local point inside its clip box.

@@ -1,7 +1,7 @@
-/// Media seen coarsely: what they amount to around a point and along a ray, for choosing and never for estimating.
+/// Media seen coarsely: coefficients around a point and optical depth along a ray, for choices, never for estimates.
 ///
-/// Everything here is deterministic and costs tens of nanoseconds a point. Grids answer with means over blocks of 2^3 cells
-/// that are kept beside the bricks in a byte each, a procedural cloud with its mean.
+/// Everything here is deterministic and cheap. Grids answer with means over blocks of 2^3 cells that are kept beside the bricks
+/// in a byte each, a procedural cloud with its mean.
 #pragma once
 
 #include <optional>

@@ -1,5 +1,5 @@
-/// Where a medium glows, brick by brick: what each brick emits, points drawn in proportion to that, and how densely the
-/// points of a brick lie along a ray.
+/// Volume emission of a medium, brick by brick: what each brick emits, points drawn in proportion to that, and the density of
+/// the points of a brick along a ray.
 #pragma once
 
 #include <cstdint>
@@ -28,7 +28,7 @@ class EmissiveBricks {
  public:
   static constexpr std::size_t kMost = 100'000;
 
-  /// None in a medium that does not emit, or has no grid: where it shines is then not known.
+  /// None in a medium that does not emit, or has no grid: where it emits is then not known.
   explicit EmissiveBricks(const ParticipatingMedium& medium, std::size_t most = kMost);
   EmissiveBricks(EmissiveBricks&&) noexcept;
   EmissiveBricks& operator=(EmissiveBricks&&) noexcept;

@@ -19,7 +19,7 @@ class BrickFinder {
 
  private:
   static constexpr std::size_t kBlocks = EmissiveBrickData::kBlocksInBrick;
-  static constexpr double kUniform = 0.1;  // of the points, wherever they are in the brick: readings miss thin sheets
+  static constexpr double kUniform = 0.1;  // of the points, wherever they are in the brick: reads miss thin sheets
   static constexpr double kMostPlaces = 1 << 24;
   using Blocks = std::array<double, kBlocks>;  // sums over the cells of each block of mean(sigma_a Le)
 
@@ -28,7 +28,7 @@ class BrickFinder {
     double places() const { return double(size[0]) * size[1] * size[2]; }
   };
 
-  Box3d where_it_glows() const;
+  Box3d where_it_emits() const;
   Box3d reach_of(const PlacedGrid& grid) const;
   void find_in(std::uint32_t node, int level, const Index3& corner);
   void read(const Index3& corner, std::int64_t side);
@@ -45,7 +45,7 @@ class BrickFinder {
   const MediumData& data_;
   std::size_t most_;
   Transform to_world_;                      // from the grid's local coordinates
-  Box3d glow_;                              // local coordinates beyond which nothing is emitted
+  Box3d emitting_;                          // local coordinates beyond which nothing is emitted
   std::int64_t cells_ = BrickStore::kSide;  // a side of a brick: a power of 2
   std::map<Cell, Blocks> found_;            // by corner / cells_
 };
@@ -98,7 +98,7 @@ Box3d BrickFinder::reach_of(const PlacedGrid& grid) const {
   return box;
 }
 
-Box3d BrickFinder::where_it_glows() const {
+Box3d BrickFinder::where_it_emits() const {
   const EmissionField& e = data_.emission;
   Box3d box = data_.clip;
   if (e.scale) box = overlap(box, reach_of(*e.scale));
@@ -109,9 +109,9 @@ Box3d BrickFinder::where_it_glows() const {
   return box;
 }
 
-/// mean(sigma_a Le) in the middle of what glow_ leaves of the box, times the volume that is left, in cells.
+/// mean(sigma_a Le) in the middle of the part of the box within emitting_, times its volume, in cells.
 double BrickFinder::emission_in(const Box3d& box) const {
-  const Box3d left = overlap(box, glow_);
+  const Box3d left = overlap(box, emitting_);
   const double size = volume(left);
   if (!(size > 0)) return 0;
   GridVec middle;
@@ -149,7 +149,7 @@ void BrickFinder::read(const Index3& corner, std::int64_t side) {
 
 /// `side` cells at `corner` with one emission: read once.
 void BrickFinder::fill(const Index3& corner, std::int64_t side) {
-  const Box3d all = overlap(cube(corner, side), glow_);
+  const Box3d all = overlap(cube(corner, side), emitting_);
   const double emission = emission_in(all) / volume(all);
   if (!(emission > 0)) return;
   const auto too_many = [&] { return std::pow(std::max(1.0, double(side) / double(cells_)), 3) > double(most_); };
@@ -174,7 +174,7 @@ void BrickFinder::fill(const Index3& corner, std::int64_t side) {
 void BrickFinder::find_in(std::uint32_t node, int level, const Index3& corner) {
   const BrickGrid& grid = data_.density.grid;
   const std::int64_t side = BrickGrid::extent(level);
-  if (node == BrickGrid::kNone || !(volume(overlap(cube(corner, side), glow_)) > 0)) return;
+  if (node == BrickGrid::kNone || !(volume(overlap(cube(corner, side), emitting_)) > 0)) return;
   const bool leaf = grid.node(node).is_leaf();
   const EmissionField& e = data_.emission;
   if (level > 0 && leaf && e.kind == EmissionField::Kind::constant && !e.scale) return fill(corner, side);
@@ -253,7 +253,7 @@ EmissiveBrickData BrickFinder::find() {
   const BrickGrid& grid = data_.density.grid;
   if (!medium_.emissive() || data_.kind != MediumData::Kind::grid || grid.empty()) return bricks;
   to_world_ = transform_of(data_.density.to_local).inverse();
-  glow_ = where_it_glows();
+  emitting_ = where_it_emits();
   find_in(grid.root(), grid.root_level(), {0, 0, 0});
   if (found_.empty()) return bricks;
   while (extent().places() > kMostPlaces) merge();

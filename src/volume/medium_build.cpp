@@ -161,8 +161,8 @@ void finish_grid(const Transform& index_to_world, const Box3d& clip, const GridV
   data.bounds = world_bounds(index_to_world, clip, origin);
 }
 
-/// Whether temperatures between the extremes of `grid` shine at all.
-bool shines(const PlacedGrid& grid, float scale, float offset) {
+/// Whether temperatures between the extremes of `grid` emit at all.
+bool emits(const PlacedGrid& grid, float scale, float offset) {
   const ValueRange range = grid.grid.range();
   return std::max((range.min - offset) * scale, (range.max - offset) * scale) > BlackbodyTable::kMin;
 }
@@ -178,7 +178,7 @@ void build(const UniformGridMedium& uniform, const BuildContext& context, Medium
   if (!(uniform.Le_factor > 0)) return;
   if (!uniform.temperature.empty()) {
     emission.values = cells.place({uniform.temperature}, "temperature", false);
-    if (shines(*emission.values, 1, 0)) emission.kind = EmissionField::Kind::blackbody;
+    if (emits(*emission.values, 1, 0)) emission.kind = EmissionField::Kind::blackbody;
   } else if (!is_black(uniform.Le)) {
     emission.Le = uniform.Le;
     emission.kind = EmissionField::Kind::constant;
@@ -248,7 +248,7 @@ void build(const VdbMedium& vdb, const BuildContext& context, MediumData& data) 
   EmissionField& emission = data.emission;
   emission.factor = vdb.Le_scale;
   if (!(vdb.Le_scale > 0)) return;
-  const bool hot = grids.temperature && shines(*grids.temperature, vdb.temperature_scale, vdb.temperature_offset);
+  const bool hot = grids.temperature && emits(*grids.temperature, vdb.temperature_scale, vdb.temperature_offset);
   const bool burns = grids.flame && !grids.flame->grid.empty();
   if (grids.flame && !burns) return;
   if (hot) {

@@ -12,7 +12,7 @@
 
 namespace tyndall {
 
-/// A grid and the way from the world to its local coordinates.
+/// A grid and the map from the world to its local coordinates.
 struct PlacedGrid {
   BrickGrid grid;
   Affine to_local;

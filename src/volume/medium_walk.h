@@ -13,8 +13,8 @@
 namespace tyndall {
 
 /// What the pieces must bound. `majorant`: rate >= sigma_t. `march`: rate >= |sigma_t - control|. `residual`: that times
-/// kOversampling, and bricks are walked by octants: both lower the variance of residual tracking for less time than they
-/// take, where a march would rather have more look-ups in fewer pieces.
+/// kOversampling, and bricks are walked by octants: both lower the variance of residual tracking more than they cost, where a
+/// march gains more by more look-ups in fewer pieces.
 enum class WalkMode { majorant, residual, march };
 inline constexpr float kOversampling = 1.7f;
 
@@ -213,9 +213,9 @@ class MediumWalk {
     return a + s;
   }
 
-  /// The mean where values differ little along the ray, the minimum where they differ by optical depths: there some
-  /// rays pass beside what is dense, and a control above their density makes weights of up to 2 a look-up. The blend
-  /// by exp(-depth of the difference) halves the variance of either on sparse smoke.
+  /// The mean where values differ little along the ray, the minimum where they differ by optical depths: there some rays pass
+  /// beside what is dense, and a control above their density makes weights of up to 2 a look-up. The blend by exp(-optical
+  /// depth of the difference) has less variance than either on sparse smoke (docs/measurements.md).
   static float control_value(const ValueRange& r, float mean_share) {
     return r.min == r.max ? r.mean : r.min + (r.mean - r.min) * mean_share;
   }

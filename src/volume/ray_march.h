@@ -13,10 +13,10 @@ namespace tyndall::kernel {
 /// leave. With each X_i as the pivot in turn [Kettunen et al. 2021, eq. 10]:
 ///   exp(-x) = E[ 1/(N+1) sum_i exp(-X_i) sum_{k<=N} w_k / k! m_k({X_i - X_j}, j != i) ],  w_k = 1 / P(N >= k),
 /// m_k the mean of all products of k of the N differences. N is 0 most of the time: that is plain ray marching.
-/// Departures from the paper: the comb of an X_i has teeth spaced in depth of the walk's rate instead of length, so that they
-/// stand where the medium varies and nothing about the ray needs to be known beforehand, wider apart the more the control
-/// has dimmed what is left to know; and N has a geometric tail, whose weights keep the variance finite however far the X_i
-/// lie apart.
+/// Departures from the paper: the comb of an X_i has teeth spaced in optical depth of the walk's rate instead of length, so
+/// that they are where the medium varies and nothing about the ray needs to be known beforehand, wider apart the more the
+/// control has attenuated what is left to estimate; and N has a geometric tail, whose weights keep the variance finite however
+/// far the X_i lie apart.
 class RayMarch {
  public:
   RayMarch(float spacing, Rng& rng, TrackingStats& stats) : base_spacing_(spacing), orders_(draw_orders(rng, stats)) {
@@ -66,7 +66,7 @@ class RayMarch {
   ///
   /// Roulette inside a piece goes by the control up to the tooth, not to the piece's end: from there on a control may
   /// stand for what turns out to be clear, and the few who survive would weigh exp(what it was too much). As teeth read
-  /// at least -control, a comb's depth up to a tooth is more than its depth at the end by a spacing at most.
+  /// at least -control, a comb's optical depth up to a tooth is more than that at the end by a spacing at most.
   template <typename Walk>
   bool read_teeth(Comb& comb, Walk& walk, double end, Rng& rng, TrackingStats& stats) {
     const float rate = walk.rate();
@@ -120,10 +120,10 @@ class RayMarch {
     return sum;
   }
 
-  float base_spacing_;  // of the teeth where nothing is dimmed yet
+  float base_spacing_;  // of the teeth where nothing is attenuated yet
   LoopGuard guard_;     // of all combs together
   int orders_;
-  float spacing_ = 0;   // in the current piece, in depth of the rate
+  float spacing_ = 0;   // in the current piece, in optical depth of the rate
   double marched_ = 0;  // before the current piece, in teeth
   Rgb control_;
   float relief_ = 0;            // log of the weight that roulette gave

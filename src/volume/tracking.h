@@ -34,7 +34,7 @@ struct TrackingStats {
   }
 };
 
-/// How a path fares along one interval.
+/// Free flight along one interval.
 struct Flight {
   bool collided = false;
   float t = 0;       ///< of the collision; the end of the interval if there was none
@@ -52,7 +52,7 @@ Flight free_flight(MediaView media, const Ray& ray, float t0, float t1, Rgb beta
 /// An estimator of transmittance, and how closely it looks.
 struct TransmittanceMethod {
   TransmittanceStrategy strategy;
-  /// Of the look-ups of `raymarch` where nothing is dimmed yet, > 0, in optical depth that its controls may be wrong by.
+  /// Of the look-ups of `raymarch` where nothing is attenuated yet, > 0, in optical depth that its controls may be wrong by.
   float spacing = 0.5f;
 };
 

@@ -22,7 +22,7 @@ inline Rgb absolute(Rgb c) { return {std::abs(c.r), std::abs(c.g), std::abs(c.b)
 inline float sum(Rgb c) { return c.r + c.g + c.b; }
 inline float max_abs(Rgb c) { return max_component(absolute(c)); }
 
-/// Optical depth of a stretch of constant sigma; where that is 0 the stretch may be infinitely long.
+/// Optical depth of a segment of constant sigma; where that is 0 the segment may be infinitely long.
 inline Rgb depth_of(Rgb sigma, double length) {
   const auto depth = [&](float s) { return s > 0 ? static_cast<float>(s * length) : 0.0f; };
   return {depth(sigma.r), depth(sigma.g), depth(sigma.b)};

@@ -40,7 +40,7 @@ Rgb delta_tracking(Walk& walk, Rng& rng, TrackingStats& stats) {
   return T;
 }
 
-/// State of a residual walk: T * exp(-depth) is the estimate so far.
+/// State of a residual walk: T * exp(-optical depth) is the estimate so far.
 struct Residual {
   Rgb T{1.0f}, depth;
   Rgb value() const { return T * exp(depth * -1.0f); }

@@ -1,4 +1,4 @@
-/// The one door to OpenVDB and NanoVDB: volume files as plain grids of ours.
+/// The only interface to OpenVDB and NanoVDB: volume files as plain grids of ours.
 #pragma once
 
 #include <limits>

@@ -40,7 +40,7 @@ void limit(int resource, std::uint64_t soft, std::uint64_t hard) {
 }
 
 void submit_to(const ProcessLimits& limits, pid_t parent) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);  // never outlives who waits for it
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // never outlives its parent
   if (getppid() != parent) _exit(1);
   limit(RLIMIT_CORE, 0, 0);
   const auto seconds = static_cast<std::uint64_t>(std::ceil(limits.cpu_seconds));

@@ -1,4 +1,4 @@
-/// Work on untrusted data in a process of its own: what it does wrong (a crash, a hang, all memory) stays there.
+/// Work on untrusted data in a process of its own: what goes wrong there (a crash, a hang, all memory) stays there.
 #pragma once
 
 #include <sys/types.h>

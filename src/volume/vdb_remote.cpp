@@ -19,9 +19,9 @@ enum class Request : std::uint8_t { load, describe };
 constexpr std::size_t kBatch = 128;
 
 // A VDB tree unfolds to at most about 32 times its size in the file (nodes of one value, whose masks alone are stored),
-// three times that for vectors in double precision; a file that asks for more is damaged or made to hurt.
+// three times that for vectors in double precision; a file that asks for more is damaged or hostile.
 constexpr std::size_t kUnfolding = 100, kBaseMemory = std::size_t{256} << 20;
-// Unpacking and building the tree takes well under a second for 10 MB of file.
+// Unpacking and building the tree takes a fraction of this (docs/measurements.md).
 constexpr double kBaseSeconds = 4, kBytesPerSecond = 1e7;
 
 ProcessLimits limits_for(const std::string& path, std::size_t most_memory) {

@@ -1,4 +1,4 @@
-/// Voxels on their way into a BrickGrid, whatever library or array they come from.
+/// Voxels that a BrickGrid is built from, whatever library or array they come from.
 #pragma once
 
 #include <array>

@@ -29,7 +29,7 @@ LightScene mixed(std::size_t n, std::size_t points) {
   return scene;
 }
 
-/// A ceiling of triangles at z = 1 that shine down, points on the floor and in the air below.
+/// A ceiling of triangles at z = 1 that emit downward, points on the floor and in the air below.
 LightScene ceiling(std::size_t n, std::size_t points) {
   Rng rng(4);
   LightScene scene;
@@ -49,11 +49,11 @@ LightScene ceiling(std::size_t n, std::size_t points) {
   return scene;
 }
 
-/// Round lamps, each a mesh of outward triangles, among surfaces that face anywhere.
-LightScene lamps(std::size_t n, std::size_t points) {
+/// Spherical emitters, each a mesh of outward triangles, among surfaces that face anywhere.
+LightScene spheres(std::size_t n, std::size_t points) {
   Rng rng(7);
   LightScene scene;
-  for (std::size_t lamp = 0; lamp < n / 200; ++lamp) {
+  for (std::size_t sphere = 0; sphere < n / 200; ++sphere) {
     const Vec3 center = test::random_in_cube(rng);
     const float r = 0.05f + 0.1f * rng.uniform(), strength = std::exp(3 * rng.uniform());
     for (int i = 0; i < 200; ++i) {
@@ -194,7 +194,7 @@ BENCHMARK_CAPTURE(select, mixed, mixed)->Arg(10'000)->Arg(1'000'000)->Iterations
 BENCHMARK_CAPTURE(build, ceiling, ceiling)->Arg(1'000'000)->Iterations(5)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK_CAPTURE(build, mixed, mixed)->Arg(1'000'000)->Iterations(5)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK_CAPTURE(variance, ceiling, ceiling)->Arg(10'000)->Arg(1'000'000)->Iterations(1)->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(variance, lamps, lamps)->Arg(10'000)->Iterations(1)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(variance, spheres, spheres)->Arg(10'000)->Iterations(1)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace tyndall

@@ -41,14 +41,14 @@ Smoke triangles(std::size_t n, float sigma, float g) {
   return smoke;
 }
 
-/// Lamps of 100 points each.
+/// Clusters of 100 points each.
 Smoke clustered(std::size_t n, float sigma, float g) {
   Rng rng(6);
   Smoke smoke{{}, sigma, g};
-  Vec3 lamp;
+  Vec3 center;
   for (std::size_t i = 0; i < n; ++i) {
-    if (i % 100 == 0) lamp = test::random_in_cube(rng);
-    smoke.lights.push_back(test::point_bounds(lamp + test::random_in_cube(rng, 0.03f), std::exp(3 * rng.uniform())));
+    if (i % 100 == 0) center = test::random_in_cube(rng);
+    smoke.lights.push_back(test::point_bounds(center + test::random_in_cube(rng, 0.03f), std::exp(3 * rng.uniform())));
   }
   return smoke;
 }

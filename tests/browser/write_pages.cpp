@@ -22,13 +22,13 @@ struct Size {
   int width = 160, height = 90;
 };
 
-/// A ball in front of a glow. Pixel 0, 0 is (0.25, 0.5, 2), exact in half floats.
+/// A ball in front of a bright haze. Pixel 0, 0 is (0.25, 0.5, 2), exact in half floats.
 Rgb clean_color(const Size& size, int x, int y) {
   if (x == 0 && y == 0) return {0.25f, 0.5f, 2};
   const float u = (x + 0.5f) / size.width, v = (y + 0.5f) / size.height, aspect = static_cast<float>(size.width) / size.height;
   const float ball = std::hypot((u - 0.6f) * aspect, v - 0.55f) / 0.27f;
-  const float glow = 2.5f * std::exp(-30 * ((u - 0.22f) * (u - 0.22f) * aspect * aspect + (v - 0.3f) * (v - 0.3f)));
-  const Rgb fog = Rgb{0.05f, 0.08f, 0.13f} + glow * Rgb{1.0f, 0.62f, 0.3f};
+  const float haze = 2.5f * std::exp(-30 * ((u - 0.22f) * (u - 0.22f) * aspect * aspect + (v - 0.3f) * (v - 0.3f)));
+  const Rgb fog = Rgb{0.05f, 0.08f, 0.13f} + haze * Rgb{1.0f, 0.62f, 0.3f};
   if (ball >= 1) return fog + (v > 0.82f ? Rgb{0.12f, 0.1f, 0.09f} : Rgb{});
   const float z = std::sqrt(1 - ball * ball),
               light = std::max(0.0f, 0.75f * z - 0.9f * (u - 0.6f) * aspect - 0.8f * (v - 0.55f));
@@ -105,7 +105,7 @@ ordered_json compare_results(const Size& size) {
   ordered_json variants = ordered_json::array();
   for (const Strategy& s : kStrategies) variants.push_back(variant(s));
   return {
-      {"version", "0.1.0"},
+      {"version", "0.2.0"},
       {"scene", "plume_hall.pbrt"},
       {"reference",
        {{"source", "rendered"},
@@ -163,7 +163,7 @@ ordered_json regress_results() {
                                           : ""},
                     {"tests", tests}});
   }
-  return {{"version", "0.1.0"}, {"suite", "tests/regression/suite"},
+  return {{"version", "0.2.0"}, {"suite", "tests/regression/suite"},
           {"seed", 7},          {"machine", machine()},
           {"seconds", 130.2},   {"passed", 4},
           {"failed", 3},        {"cases", list}};

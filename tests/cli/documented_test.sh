@@ -24,7 +24,7 @@ row() {
 # compare_with MANUAL: what it lacks.
 compare_with() {
   local command line option wanted found
-  for command in render compare diff regress merge example; do
+  for command in render compare diff regress merge status example; do
     while read -r line; do
       option=$(sed -E 's/^ *([^ :=]*,)?(--[a-z-]+).*/\2/' <<<"$line")
       found=$(row "$command" "$option" "$1")
@@ -35,6 +35,13 @@ compare_with() {
     done < <(options "$command")
   done
 }
+
+# Who types nothing but the name is told the commands.
+expect 0 "$T"
+mv out.txt bare.txt
+expect 0 "$T" --help
+cmp -s bare.txt out.txt || fail "without arguments something else is printed than by --help: $(head -c 300 bare.txt)"
+says "  render " bare.txt
 
 manual=$TYNDALL_SOURCE_DIR/docs/cli.md
 [ "$(options render | wc -l)" -ge 25 ] || fail "--help cannot be read: $(options render | head -n 3)"

@@ -30,10 +30,75 @@ says 'seed 1 samples 4 crop 0,40,0,24; seed 2 samples 8 crop 0,40,0,24; seed 3 s
 grep -E 'tyndall/samples +24$' out.txt >/dev/null || fail "samples of three slices are not 24"
 [ "$(hash_of c.exr)" = "$(hash_of s1.exr)" ] || fail "merging changes the scene hash"
 
-# The scene hash: the same in another folder and with other ways to render; another one for another picture.
+# Slices of one seed: whatever their order they give the bytes of the render that was not sliced.
+parts=(--spp 100 --aov Z,P,Zvol,Albedo,SurfaceDirect)
+render s.pbrt "${parts[@]}" -o whole.exr
+for i in 1 2 3 4; do render s.pbrt "${parts[@]}" --slice $i/4 -o slice$i.exr; done
+expect 0 "$T" merge slice3.exr slice1.exr slice4.exr slice2.exr -o joined.exr --error 1e-9
+cmp whole.exr joined.exr || fail "four slices are not the whole"
+says 'from 4 image(s), 100 samples a pixel, seed 0' err.txt
+says 'all 4 slices are there' err.txt
+grep -E 'for 1e-09 about [0-9]+ samples a pixel more are needed' err.txt >/dev/null || fail "not said what is needed: $(cat err.txt)"
+says 'the first: tyndall render s.pbrt --aov Z,P,Zvol,Albedo,SurfaceDirect --slice 1/4 -o seed1-slice1.exr' err.txt
+grep -E -- ' --spp [0-9]+ --seed 1$' err.txt >/dev/null || fail "no command for more samples: $(cat err.txt)"
+# One is missing, one is cut in half, one has a changed byte: what is there is merged, and the others are named.
+head -c $(($(wc -c <slice2.exr) / 2)) slice2.exr >cut.exr
+expect 7 "$T" merge slice1.exr cut.exr slice4.exr -o some.exr
+says '2 of 4 slices are there; missing or not complete: 2, 3' err.txt
+says 'left out: cut.exr: ' err.txt
+says "tyndall render s.pbrt ${parts[*]} --slice 3/4 -o slice3.exr" err.txt
+for i in 2 3; do render s.pbrt "${parts[@]}" --slice $i/4 -o slice$i.exr; done
+expect 0 "$T" merge slice?.exr -o again.exr
+cmp whole.exr again.exr || fail "slices that were rendered again are not the whole"
+expect 7 "$T" merge slice1.exr missing.exr slice4.exr -o other.exr --quiet
+cmp some.exr other.exr || fail "what is missing and what is damaged make different pictures of the rest"
+# A folder stands for the images in it. Who watches writes what has come, until all have.
+mkdir -p come && rm -f come/* && cp slice1.exr come/
+timeout 60 "$T" merge come -o come/grows.exr --watch 0.1 2>watch.txt &
+watcher=$!
+for _ in $(seq 100); do [ -s come/grows.exr ] && break; sleep 0.1; done
+"$T" info come/grows.exr | grep -E 'tyndall/samples +32$' >/dev/null || fail "one slice that came is not there: $(cat watch.txt)"
+cp slice2.exr slice3.exr slice4.exr come/
+wait $watcher || fail "the watcher ended with $?: $(cat watch.txt)"
+cmp whole.exr come/grows.exr || fail "what came one by one is not the whole"
+says '1 of 4 slices are there' watch.txt
+rm come/grows.exr
+expect 0 "$T" merge come -o folder.exr
+cmp whole.exr folder.exr || fail "a folder of slices is not the whole"
+# A slice that is there is not rendered again; a damaged one, or one of other options, is.
+cp slice2.exr kept.exr && touch -d 2001-01-01 kept.exr
+expect 0 "$T" render s.pbrt "${parts[@]}" --reproducible --slice 2/4 --resume -o kept.exr
+says 'is there already' err.txt
+[ "$(date -r kept.exr +%Y)" = 2001 ] || fail "a slice that was there was written again"
+head -c 2000 slice2.exr >kept.exr
+expect 0 "$T" render s.pbrt "${parts[@]}" --reproducible --quiet --slice 2/4 --resume -o kept.exr
+expect 0 "$T" merge slice1.exr kept.exr slice3.exr slice4.exr -o joined.exr
+cmp whole.exr joined.exr || fail "a damaged slice was not rendered again"
+for other in '--slice 3/4' '--slice 2/4 --seed 1' '--slice 2/4 --max-depth 2' '--slice 2/4 --lights power'; do
+  cp slice2.exr kept.exr && touch -d 2001-01-01 kept.exr
+  expect 0 "$T" render s.pbrt "${parts[@]}" --quiet $other --resume -o kept.exr
+  [ "$(date -r kept.exr +%Y)" = 2001 ] && fail "taken for a slice with $other"
+done
+# A slice that comes twice counts once; slices of two seeds are merged as other renders are.
+cp slice2.exr copy.exr
+expect 3 "$T" merge slice1.exr slice2.exr copy.exr -o no.exr
+says 'the same samples would count twice' err.txt
+render s.pbrt "${parts[@]}" --seed 1 --slice 1/4 -o seed1.exr
+expect 0 "$T" merge slice1.exr seed1.exr -o seeds.exr
+says '64 samples a pixel, seed 0, 1' err.txt
+# What cannot be sliced.
+for wrong in 0/4 5/4 1 a/b 1/4/2; do expect 2 "$T" render s.pbrt --spp 64 --slice $wrong -o no.exr; done
+expect 2 "$T" render s.pbrt --spp 16 --slice 1/4 -o no.exr
+says 'is empty' err.txt
+expect 2 "$T" render s.pbrt --spp 64 --slice 1/4 --error 0.1 -o no.exr
+says 'give it to merge' err.txt
+expect 2 "$T" render s.pbrt --spp 64 --slice 1/4 -o no.png
+says 'a slice holds exact sums' err.txt
+
+# The scene hash: the same in another folder and with other methods; another one for another picture.
 mkdir -p elsewhere && cp s.pbrt elsewhere/t.pbrt
 render elsewhere/t.pbrt --seed 9 --spp 1 --lights power --transmittance ratio --crop 0,8,0,8 --threads 1 -o moved.exr
-[ "$(hash_of moved.exr)" = "$(hash_of s1.exr)" ] || fail "the folder or the way to render changes the scene hash"
+[ "$(hash_of moved.exr)" = "$(hash_of s1.exr)" ] || fail "the folder or the method changes the scene hash"
 [ "$(hash_of s1.exr | tr -d '0-9a-f\n' | wc -c)$(hash_of s1.exr | wc -c)" = 017 ] || fail "the hash is not 16 hex digits"
 sed 's/sigma_s" \[1 1 1\]/sigma_s" [1 1 1.01]/' s.pbrt >denser.pbrt
 render denser.pbrt --seed 4 -o denser.exr

@@ -65,7 +65,7 @@ says 'tree-binary' err.txt
 expect 2 "$T" render s.pbrt --aov Depth
 expect 2 "$T" render s.pbrt --crop 50,60,0,10 -o a.exr
 expect 2 "$T" render s.pbrt -o a.jpg
-expect 2 "$T"
+expect 0 "$T"
 expect 3 "$T" render missing.pbrt
 says 'missing.pbrt' err.txt
 expect 4 "$T" render s.pbrt -o no/such/folder/a.exr

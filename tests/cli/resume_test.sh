@@ -30,11 +30,12 @@ for attempt in $(seq $((3 * kills))); do
   cmp -s a.exr whole.exr && { cp old.exr a.exr; rm -f a.exr.checkpoint; }
 done
 [ $resumed -ge 3 ] || fail "only $resumed of $killed kills left a checkpoint: the test shows nothing"
-touch .a.exr.checkpoint.$render.7.part .a.exr.$render.7.part .a.exr.$$.7.part  # what the killed leave; and what one who lives needs
+host=$(uname -n | tr -c "[:alnum:]\n" - | cut -c1-40)
+touch .a.exr.checkpoint.$host.$render.7.part .a.exr.$host.$render.7.part .a.exr.$host.$$.7.part  # what the killed leave; and what one who lives needs
 expect 0 "$T" render s.pbrt $options --checkpoint 60 --resume -o a.exr
 cmp a.exr whole.exr || fail "the resumed picture is not the unbroken one"
 [ ! -e a.exr.checkpoint ] || fail "the checkpoint of a finished render is left"
-[ "$(ls -A | grep 'part$')" = ".a.exr.$$.7.part" ] || fail "temporary files of the dead are left, or one of the living is gone: $(ls -A | grep part)"
+[ "$(ls -A | grep 'part$')" = ".a.exr.$host.$$.7.part" ] || fail "temporary files of the dead are left, or one of the living is gone: $(ls -A | grep part)"
 rm -f ./.*.part
 
 # Interrupted, then resumed with another end.

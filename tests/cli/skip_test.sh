@@ -32,7 +32,8 @@ scene "$grid \"float density\" [1 2 3 4 5 6 7 8]" >smoke.pbrt
 scene "$grid \"float density\" [1 2 3 4 5 6 7 8] \"float temperature\" [900 900 2000 900 900 900 900 900]" >fire.pbrt
 { scene ""; echo 'LightSource "point" "point3 from" [0 2 0] "rgb I" [1 1 1]'; } >two.pbrt
 { scene '"string type" "homogeneous"'; echo 'LightSource "point" "point3 from" [0 0.6 0] "rgb I" [1 1 1]'; } >within.pbrt
-for name in bare two fog smoke fire within; do ran $name; done
+{ scene ""; echo 'AttributeBegin Translate 0 0.6 0 AreaLightSource "diffuse" "rgb L" [9 9 9] Shape "sphere" "float radius" 0.05 AttributeEnd'; } >bulb.pbrt
+for name in bare two fog smoke fire within bulb; do ran $name; done
 
 absent "$(of_volume bare)" "a scene without media executes"
 present "$(of_volume fog)" "a scene with fog executes nothing of src/volume"
@@ -46,14 +47,15 @@ absent "$(grep -E "$tracking" fog.txt)" "homogeneous media are tracked"
 present "$(grep -E "$tracking" smoke.txt)" "a grid is not tracked"
 
 joint='aim_near|joint_light|film_light'
-absent "$(grep -E "$joint" bare.txt two.txt fog.txt smoke.txt)" "rays are drawn near lamps that no medium holds"
-present "$(grep -E 'joint_light' within.txt)" "collisions are not drawn near a lamp in fog"
-present "$(grep -E 'film_light' within.txt)" "film positions are not drawn near a lamp in fog"
+absent "$(grep -E "$joint" bare.txt two.txt fog.txt smoke.txt)" "rays are drawn near point lights that no medium holds"
+present "$(grep -E 'joint_light' within.txt)" "collisions are not drawn near a point light in fog"
+present "$(grep -E 'film_light' within.txt)" "film positions are not drawn near a point light in fog"
 
-shine='shine_light|FilmShine::FilmShine'
-absent "$(grep -E "$shine" two.txt fog.txt smoke.txt within.txt)" "surfaces are aimed at where none shines"
+emitters='visible_emitters|FilmEmitters::FilmEmitters'
+absent "$(grep -E "$emitters" two.txt fog.txt smoke.txt within.txt)" "emitters are aimed at where there are none"
+present "$(grep -E "$emitters" bulb.txt)" "a small emitter that is seen is not aimed at"
 
 emission='EmissionField::at|BlackbodyTable|blackbody|emission_and_transmittance'
-absent "$(of_volume smoke | grep -E "$emission")" "smoke that does not shine is asked for its emission"
-present "$(of_volume fire | grep -E "$emission")" "fire is not asked for its emission"
+absent "$(of_volume smoke | grep -E "$emission")" "smoke that does not emit is asked for its emission"
+present "$(of_volume fire | grep -E "$emission")" "hot smoke is not asked for its emission"
 finish

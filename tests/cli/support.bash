@@ -21,7 +21,7 @@ sanitized() { grep -qE '__(asan|tsan)_init' "$TYNDALL_BIN"; }
 
 finish() { [ "$failures" = 0 ] && echo "ok" || exit 1; }
 
-# lit_floor WIDTH HEIGHT SPP: a scene of a floor under a lamp.
+# lit_floor WIDTH HEIGHT SPP: a scene of a floor under a point light.
 lit_floor() {
   cat <<SCENE
 Film "rgb" "integer xresolution" $1 "integer yresolution" $2

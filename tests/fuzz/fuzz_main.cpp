@@ -1,4 +1,4 @@
-// libFuzzer's way into one target; TARGET is its name.
+// libFuzzer's entry to one target; TARGET is its name.
 #include "fuzz/targets.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);  // NOLINT(*-naming): libFuzzer's name

@@ -3,7 +3,6 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -77,8 +76,9 @@ void checkpoint(std::string_view bytes) {
   hash.add(bytes.data(), bytes.size());
   const std::uint64_t value = hash.value();
   const std::string whole = std::string(bytes) + std::string(reinterpret_cast<const char*>(&value), sizeof value);
-  std::array<double, 8> sums{};
+  FilmSums sums(8);
   attempt([&] { decode_checkpoint(whole, "fuzz.checkpoint", {{"scene", "1"}, {"build", "2"}}, sums); });
+  attempt([&] { peek_checkpoint(whole, "fuzz.checkpoint"); });
   attempt([&] { decode_checkpoint(bytes, "fuzz.checkpoint", {{"scene", "1"}, {"build", "2"}}, sums); });
 }
 

@@ -33,7 +33,7 @@ class Renders {
   std::string faults() const { return subject_.faults(); }
 
  private:
-  Subject subject_{smoke_before_plane(), {.candidates = 1}};  // paths of one event look at 16 otherwise
+  Subject subject_{smoke_before_plane(), {.candidates = 1}};  // single scattering takes 16 otherwise
   int spp_;
   std::uint64_t seed_;
 };

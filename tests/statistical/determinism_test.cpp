@@ -79,7 +79,7 @@ TEST_CASE("a crop has the bits of the whole picture") {
   CHECK(same);
 }
 
-// In even media whose lights are chosen at collisions a ray is traced as far as its collision only, unless they glow: here so
+// In even media whose lights are chosen at collisions a ray is traced as far as its collision only, unless they emit: here so
 // faintly that nothing is left of it in a float, but in pixels that are black without it.
 TEST_CASE("rays that end at their collision make the picture that rays traced to their end make") {
   const auto scene = [](float Le) {

@@ -1,4 +1,4 @@
-/// One picture made in several ways: forms of a medium, strategies of choosing lights, estimators of transmittance.
+/// One picture by several methods: forms of a medium, strategies of choosing lights, estimators of transmittance.
 #include <doctest/doctest.h>
 
 #include <algorithm>

@@ -36,11 +36,11 @@ constexpr std::array<Ray, 3> kRays{
 
 std::string looking_along(const Ray& ray) { return view({.eye = ray.o, .look = ray.at(1)}); }
 
-const std::string kGlow =
+const std::string kEmission =
     "AreaLightSource \"diffuse\" \"rgb L\" [1 1 1] \"bool twosided\" true\nMaterial \"diffuse\" \"rgb reflectance\" [0 0 0]\n";
 
 /// Walls of radiance 1, each triangle a light.
-std::string glowing_box() { return block(kGlow + box_mesh({{-4, -5, -6}, {7, 6, 5}})); }
+std::string emissive_box() { return block(kEmission + box_mesh({{-4, -5, -6}, {7, 6, 5}})); }
 
 }  // namespace
 
@@ -73,10 +73,10 @@ TEST_CASE("F1: every phase function scatters all that it takes") {
   }
 }
 
-// The weights of scattered rays that hit a light must know how seldom it is chosen among the others.
+// The MIS weights of scattered rays that hit a light must hold the light's pmf among the others.
 TEST_CASE("F1: a white plane in a box of twelve lights, however a light is chosen") {
   const std::string scene =
-      view({.eye = {0.1f, 0.2f, 2}, .look = {0.1f, 0.2f, 0}}) + glowing_box() + diffuse_plane(0.1f, 0.5f, 1);
+      view({.eye = {0.1f, 0.2f, 2}, .look = {0.1f, 0.2f, 0}}) + emissive_box() + diffuse_plane(0.1f, 0.5f, 1);
   for (const LightStrategy lights : every_lights()) {
     Agreement how{.d = nightly() ? 0.002 : 0.01};
     how.variant.lights = lights;
@@ -87,16 +87,15 @@ TEST_CASE("F1: a white plane in a box of twelve lights, however a light is chose
   }
 }
 
-// A uniform sky is found by scattered rays alone; walls that glow are sampled as lights as well, with shared weights.
-TEST_CASE("F1: inside a glowing box, and a glowing ball") {
+// A uniform sky is found by scattered rays alone; emissive walls are sampled as lights too, with MIS.
+TEST_CASE("F1: inside an emissive box, and an emissive ball") {
   const std::string smoke =
       uniform_grid("m", {.sigma_s = {6, 5.5f, 6.5f}, .g = 0.5f}, lumpy_grid()) + medium_box("m", "", kBox);
-  const std::string ball = block(kGlow + "Shape \"sphere\" \"float radius\" 6\n");
-  const std::string walls = glowing_box();
-  const Agreement glowing{.d = nightly() ? 0.002 : 0.01};
-  check_agrees("F1 in a glowing box", view(perspective()) + walls + smoke, {1.0, 1.0, 1.0}, glowing);
-  check_agrees("F1 in a glowing ball", view(perspective()) + ball + smoke + diffuse_plane(0.1f, 0.5f, 1), {1.0, 1.0, 1.0},
-               glowing);
+  const std::string ball = block(kEmission + "Shape \"sphere\" \"float radius\" 6\n");
+  const std::string walls = emissive_box();
+  const Agreement how{.d = nightly() ? 0.002 : 0.01};
+  check_agrees("F1 in a glowing box", view(perspective()) + walls + smoke, {1.0, 1.0, 1.0}, how);
+  check_agrees("F1 in a glowing ball", view(perspective()) + ball + smoke + diffuse_plane(0.1f, 0.5f, 1), {1.0, 1.0, 1.0}, how);
 }
 
 TEST_CASE("F2: an absorbing and emitting slab adds 1 - exp(-tau) and lets T through") {

@@ -37,7 +37,8 @@ std::string quad(float z, float half) {
          " " + Z + "  " + h + " " + m + " " + Z + "] \"integer indices\" [0 1 2 0 2 3]\n";
 }
 
-const std::string kGlow = "AreaLightSource \"diffuse\" \"rgb L\" [3 3 3]\nMaterial \"diffuse\" \"rgb reflectance\" [0 0 0]\n";
+const std::string kEmission =
+    "AreaLightSource \"diffuse\" \"rgb L\" [3 3 3]\nMaterial \"diffuse\" \"rgb reflectance\" [0 0 0]\n";
 const std::string kGrey = "Material \"diffuse\" \"rgb reflectance\" [0.6 0.6 0.6]\n";
 
 std::string front(int max_depth = 3) {
@@ -51,12 +52,12 @@ Agreement coarse() { return {.d = nightly() ? 0.003 : 0.03}; }
 
 }  // namespace
 
-TEST_CASE("a light cut into needles shines like one in one piece") {
+TEST_CASE("a light cut into needles emits like one in one piece") {
   const std::string room = front() + smoke() + block(kGrey + quad(2, 4));
   check_same("light of needles",
-             {{"square", room + block(kGlow + quad(0.4f, 0.5f))},
-              {"needles", room + block(kGlow + needles(0.4f, 0.5f, 64))},
-              {"needles, by power", room + block(kGlow + needles(0.4f, 0.5f, 64)), {.lights = LightStrategy::power}}},
+             {{"square", room + block(kEmission + quad(0.4f, 0.5f))},
+              {"needles", room + block(kEmission + needles(0.4f, 0.5f, 64))},
+              {"needles, by power", room + block(kEmission + needles(0.4f, 0.5f, 64)), {.lights = LightStrategy::power}}},
              coarse());
 }
 
@@ -84,8 +85,8 @@ TEST_CASE("triangles without area, and lights without power, change nothing") {
   "integer indices" [0 1 2  3 4 5  6 7 8  0 0 1])"
       "\n";
   const std::string lit =
-      front() + smoke() + block(kGrey + quad(2, 4)) + block(kGlow + quad(0.4f, 0.5f)) + point_light({1, 1, -1}, 1);
-  std::string more = lit + block(kGlow + nothing) + block(kGrey + nothing) +
+      front() + smoke() + block(kGrey + quad(2, 4)) + block(kEmission + quad(0.4f, 0.5f)) + point_light({1, 1, -1}, 1);
+  std::string more = lit + block(kEmission + nothing) + block(kGrey + nothing) +
                      block("AreaLightSource \"diffuse\" \"rgb L\" [0 0 0]\n" + kGrey + quad(2, 1));
   for (int i = 0; i < 20; ++i) more += point_light({0.1f * float(i), 0, 0}, 0);
   check_same("nothing added", {{"without", lit}, {"with", more}, {"with, uniform", more, {.lights = LightStrategy::uniform}}},
@@ -133,7 +134,7 @@ TEST_CASE("a world written with coordinates a million away looks as it does here
     return view({.eye = o + Vec3{6, 5, -12}, .look = o, .fov_degrees = 45, .resolution = 16, .max_depth = 4}) +
            environment(0.2f) + point_light(o + Vec3{3, 9, -5}, 60) +
            block("Translate " + number(o.x) + " " + number(o.y) + " " + number(o.z) + "\n" + kGrey + quad(6, 12)) +
-           block(kGlow + box_mesh({o + Vec3{-6, 6, -2}, o + Vec3{-5, 7, 2}})) +
+           block(kEmission + box_mesh({o + Vec3{-6, 6, -2}, o + Vec3{-5, 7, 2}})) +
            uniform_grid("m", {.sigma_a = Rgb(0.02f), .sigma_s = Rgb(0.15f), .g = 0.5f}, lumps) + medium_box("m", "", box);
   };
   check_same("a million away", {{"here", scene(0, 0)}, {"there", scene(1'048'576, -1'048'576)}}, coarse());

@@ -43,19 +43,19 @@ std::string absorbers(const Sigma& sigma) {
 
 }  // namespace
 
-TEST_CASE("optical depths from 0 to 10^6: what comes through, and what a glowing medium adds") {
+TEST_CASE("optical depths from 0 to 10^6: what comes through, and what volume emission adds") {
   constexpr std::array<Rgb, 4> kDepths{{{0, 1e-6f, 1e-3f}, {0.1f, 1, 10}, {20, 50, 80}, {1e2f, 1e4f, 1e6f}}};
   for (const Rgb& tau : kDepths) {
     const std::string name = "tau " + number(tau.r) + " " + number(tau.g) + " " + number(tau.b);
-    Expected through, glow;
+    Expected through, emitted;
     for (int k = 0; k < 3; ++k) {
       if (tau[k] <= 80) through[k] = std::exp(-double{tau[k]});
-      if (tau[k] > 0) glow[k] = -std::expm1(-double{tau[k]});
+      if (tau[k] > 0) emitted[k] = -std::expm1(-double{tau[k]});
     }
     const Rgb sigma_a = tau * 0.5f;
     check_agrees(name + ", through", along_z(-3) + homogeneous("m", {.sigma_a = sigma_a}) + medium_box("m", "", kBox), through);
     check_agrees(name + ", glow",
-                 along_z(-3, 0) + homogeneous("m", {.sigma_a = sigma_a, .Le = Rgb(1.0f)}) + medium_box("m", "", kBox), glow);
+                 along_z(-3, 0) + homogeneous("m", {.sigma_a = sigma_a, .Le = Rgb(1.0f)}) + medium_box("m", "", kBox), emitted);
   }
   check_vanishes("tau 10^6, through", along_z(-3) + homogeneous("m", {.sigma_a = Rgb(5e5f)}) + medium_box("m", "", kBox),
                  1e-30);
@@ -115,7 +115,7 @@ TEST_CASE("g = +-0.999: scattered once by a slab, straight on, straight back and
       // From the camera's side: E mu / (1 + mu) (1 - exp(-tau (1 + 1 / mu))).
       const double back = kAlbedo * henyey_greenstein(fog.g, -mu) * -std::expm1(-kTau * (1 + 1 / mu)) * mu / (1 + mu);
       check_agrees(title + "back", camera + distant_light({float(std::sin(a)), 0, float(mu)}, 1) + slab, grey(back));
-      // From behind: the light's way is tau - t long where the view's is t.
+      // From behind: the light's segment is tau - t long where the view's is t.
       const double k = 1 - 1 / mu, lengths = std::abs(k) < 1e-9 ? kTau : std::expm1(-k * kTau) / -k;
       const double on = kAlbedo * henyey_greenstein(fog.g, mu) * std::exp(-kTau / mu) * lengths;
       check_agrees(title + "on", camera + distant_light({float(std::sin(a)), 0, -float(mu)}, 1) + slab, grey(on));

@@ -1,5 +1,5 @@
-/// One picture of a medium among lights, made by every way of choosing lights, distances and transmittances that there
-/// is: a set of combinations that holds every pair of strategies.
+/// One picture of a medium among lights, by every strategy for lights, distances and transmittances: a set of combinations
+/// that holds every pair of strategies.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -23,9 +23,9 @@ std::string look(int max_depth) {
 }
 
 /// A light without extent; or a ball, of about the same power.
-enum class Lamp { point, ball };
-std::string lamp(Lamp kind, Vec3 p, float I) {
-  if (kind == Lamp::point) return point_light(p, I);
+enum class SmallLight { point, ball };
+std::string small_light(SmallLight kind, Vec3 p, float I) {
+  if (kind == SmallLight::point) return point_light(p, I);
   constexpr float kRadius = 0.15f;
   const std::string L = number(I / (kPi * kRadius * kRadius));
   return block("Translate " + number(p.x) + " " + number(p.y) + " " + number(p.z) +
@@ -33,14 +33,14 @@ std::string lamp(Lamp kind, Vec3 p, float I) {
                number(kRadius) + "\n");
 }
 
-/// Small lights around the box, area lights in it and around it, a sun and a sky. Where a point light stands in a medium no way
-/// of choosing lights at collisions has a finite variance, for these can be as near to it as you like: balls are for a fog
-/// without bounds, and point lights in media are below, among ways that draw places near them.
-std::string lights(Lamp kind = Lamp::point) {
+/// Small lights around the box, area lights in it and around it, a sun and a sky. Where a point light stands in a medium no
+/// strategy that chooses lights at collisions has a finite variance, for these can be as near to it as you like: balls are for
+/// a fog without bounds, and point lights in media are below, among techniques that sample places near them.
+std::string lights(SmallLight kind = SmallLight::point) {
   std::string text = environment(0.2f) + distant_light({1, -1, 2}, 0.3f);
   for (int i = 0; i < 8; ++i) {
     const float a = 0.8f * i, r = 1.9f + 0.05f * i;
-    text += lamp(kind, {r * std::cos(a), -0.9f + 0.25f * i, r * std::sin(a)}, 0.05f * (1 + i % 3));
+    text += small_light(kind, {r * std::cos(a), -0.9f + 0.25f * i, r * std::sin(a)}, 0.05f * (1 + i % 3));
   }
   for (int i = 0; i < 3; ++i) text += emitting_square({-0.7f + 0.6f * i, 0.3f * i - 0.4f, 0.5f}, 0.12f, 1.0f + i);
   text += emitting_square({0, 1.4f, 1.6f}, 0.5f, 1.5f);
@@ -111,8 +111,7 @@ void check_media(const std::string& name, const std::string& scene, double per_c
   check_all_agree(name, scene, variants, how);
 }
 
-/// For cases that compare two to five ways, of which one waits for chance: at 0.3 % each of them would take a quarter of an
-/// hour to an hour of the night, at 1 % they take minutes.
+/// For cases that compare two to five variants, of which one finds the light by chance: 0.3 % is out of reach even at night.
 Agreement to(double per_commit, double in_the_night = 0.01) {
   Agreement how;
   how.d = nightly() ? in_the_night : per_commit;
@@ -169,41 +168,41 @@ TEST_CASE("a grid with holes and a homogeneous medium that overlap, camera in un
                  .before_camera = homogeneous("fog", {.sigma_a = Rgb(0.02f), .sigma_s = Rgb(0.08f)}),
                  .medium = "fog"};
   check_media("overlapping",
-              view(fog) + lights(Lamp::ball) + diffuse_plane(1.8f, 3, 0.5f) +
+              view(fog) + lights(SmallLight::ball) + diffuse_plane(1.8f, 3, 0.5f) +
                   uniform_grid("smoke", {.sigma_a = {0.3f, 0.2f, 0.2f}, .sigma_s = {2, 3, 2.5f}, .g = 0.5f}, holes()) +
                   homogeneous("haze", {.sigma_a = Rgb(0.1f), .sigma_s = {0.5f, 0.4f, 0.3f}, .g = -0.3f}) +
                   medium_box("smoke", "", kBox) + medium_box("haze", "", {{-0.5f, -1.2f, -0.6f}, {1.3f, 0.4f, 0.7f}}),
               0.04);
 }
 
-// With pairs along spans, what stands behind the camera's fog is dimmed instead of seen by the rays that pass.
-TEST_CASE("a metal floor and wide lamps behind fog") {
+// With pairs along spans, what stands behind the camera's fog is attenuated instead of seen by the rays that pass.
+TEST_CASE("a metal floor and area lights behind fog") {
   const std::string floor = block(
       "Material \"conductor\" \"float roughness\" 0.2\nTranslate 0 -1 0\nRotate -90 1 0 0\n"
       "Shape \"disk\" \"float radius\" 4\n");
-  const std::string lamps = emitting_square({-0.8f, 0.6f, 1.2f}, 0.7f, 1) + emitting_square({0.8f, 1.5f, 0.3f}, 0.7f, 1.5f);
+  const std::string emitters = emitting_square({-0.8f, 0.6f, 1.2f}, 0.7f, 1) + emitting_square({0.8f, 1.5f, 0.3f}, 0.7f, 1.5f);
   const std::string fog = homogeneous("fog", {.sigma_a = {0.7f, 0.6f, 0.8f}, .sigma_s = {0.03f, 0.02f, 0.04f}}) +
                           medium_box("fog", "", {{-5, -1.5f, -2}, {5, 2.5f, 5}});
   const Agreement how = to(0.04);  // blocks see more than the mean does
-  check_all_agree("behind fog", look(2) + floor + lamps + fog, {{"passing", {.media = MediaStrategy::vertex}}, {"dimmed", {}}},
-                  how);
+  check_all_agree("behind fog", look(2) + floor + emitters + fog,
+                  {{"passing", {.media = MediaStrategy::vertex}}, {"dimmed", {}}}, how);
 }
 
-// Coats, rough and smooth, and a diffuse surface beside smoke, of which they see more or less; lamps that scattered rays find
-// as well. Without the guide's share in the weights of what is scattered the means are 1 to 2.4 % apart, each 13 to 16 standard
-// errors from the pooled one.
+// Coats, rough and smooth, and a diffuse surface beside smoke, of which they see more or less; emitters that scattered rays
+// find as well. Without the guided density in the MIS weights of scattered rays the means are 1 to 2.4 % apart, each 13 to 16
+// standard errors from the pooled one.
 TEST_CASE("paths sent toward smoke make the picture of those that are not") {
   const std::string floor =
       block(
           "Material \"coateddiffuse\" \"float roughness\" 0.3 \"rgb reflectance\" [0.5 0.4 0.3]\nTranslate 0 -1.2 0\n"
           "Rotate -90 1 0 0\nShape \"disk\" \"float radius\" 4\n") +
       block("Material \"coateddiffuse\" \"float roughness\" 0\nTranslate 1.6 0 0.4\nShape \"sphere\" \"float radius\" 0.5\n");
-  const std::string lamps =
+  const std::string emitters =
       emitting_square({-1.5f, 1.5f, 0.3f}, 0.7f, 0.2f) + point_light({0.2f, 0.1f, 0}, 0.2f) + environment(0.02f);
   const std::string smoke = uniform_grid("smoke", {.sigma_a = {0.3f, 0.2f, 0.2f}, .sigma_s = {4, 5, 6}, .g = 0.5f}, holes()) +
                             medium_box("smoke", "", kBox);
   const Agreement how = to(0.005, 0.003);
-  check_all_agree("guided", look(3) + floor + diffuse_plane(1.8f, 3, 0.5f) + lamps + smoke,
+  check_all_agree("guided", look(3) + floor + diffuse_plane(1.8f, 3, 0.5f) + emitters + smoke,
                   {{"off", {.guiding = GuidingStrategy::off}}, {"media", {.guiding = GuidingStrategy::media}}}, how);
 }
 
@@ -215,19 +214,20 @@ std::string medium_octahedron(const std::string& inside, float r) {
                "]\n  \"integer indices\" [0 2 4 2 1 4 1 3 4 3 0 4 2 0 5 1 2 5 3 1 5 0 3 5]\n");
 }
 
-// Lamps in the box of the smoke, but where it is not: what chooses lights at collisions has no variance where these come near.
-// Without the weight of the path's own share "off" is 2.9 to 4.0 % below the mean of all, 28 to 32 standard errors.
-TEST_CASE("collisions drawn near lamps make the picture of those that are not, whatever else chooses lights") {
+// Point lights in the box of the smoke, but where it is not: what chooses lights at collisions has no finite variance where
+// these come near. Without the MIS weight of the path's own ray "off" is 2.9 to 4.0 % below the mean of all, 28 to 32 standard
+// errors.
+TEST_CASE("collisions drawn near point lights make the picture of those that are not, whatever else chooses lights") {
   const std::string spot =
       "LightSource \"spot\" \"point3 from\" [0.9 0.9 -0.3] \"point3 to\" [-0.3 -1 0.2] \"float coneangle\" 50 "
       "\"float conedeltaangle\" 20 \"rgb I\" [0.1 0.2 0.3]\n";
-  const std::string lamps = point_light({0.2f, 0.9f, 0.9f}, 0.1f) + point_light({-0.9f, -0.3f, -0.9f}, 0.1f) + spot +
-                            emitting_square({-1.5f, 1.5f, 0.3f}, 0.3f, 0.3f);
+  const std::string emitters = point_light({0.2f, 0.9f, 0.9f}, 0.1f) + point_light({-0.9f, -0.3f, -0.9f}, 0.1f) + spot +
+                               emitting_square({-1.5f, 1.5f, 0.3f}, 0.3f, 0.3f);
   const std::string smoke = uniform_grid("smoke", {.sigma_a = {0.3f, 0.2f, 0.2f}, .sigma_s = {4, 5, 6}, .g = 0.5f}, holes()) +
                             homogeneous("haze", {.sigma_a = Rgb(0.1f), .sigma_s = {0.5f, 0.4f, 0.3f}, .g = -0.3f}) +
                             medium_octahedron("smoke", 1.5f) + medium_octahedron("haze", 1.6f);
   const Agreement how = to(0.02);
-  check_all_agree("joint", look(3) + diffuse_plane(1.8f, 3, 0.5f) + lamps + smoke,
+  check_all_agree("joint", look(3) + diffuse_plane(1.8f, 3, 0.5f) + emitters + smoke,
                   {{"off", {.joint = JointStrategy::off}},
                    {"points", {.joint = JointStrategy::points}},
                    {"tracked", {.distance = DistanceStrategy::both, .joint = JointStrategy::points}},
@@ -236,15 +236,15 @@ TEST_CASE("collisions drawn near lamps make the picture of those that are not, w
                   how);
 }
 
-// Few pixels, so that lamps' images and what is around them are much of the picture. The lamps stand again where the smoke is
-// not, before it and behind, with a board among them and the camera in a fog that dims them. Without the weight of the camera
-// ray's own share "off" is 2.5 to 2.9 % below the mean of all with the Gaussian and 4.2 to 4.5 % with Mitchell's, 9 to 14
-// standard errors.
-TEST_CASE("rays drawn near lamps on the film make the picture of those that are not, with negative filters too") {
+// Few pixels, so that the lights' images and what is around them are much of the picture. The lights stand again where the
+// smoke is not, before it and behind, with a board among them and the camera in a fog that attenuates them. Without the MIS
+// weight of the camera's own ray "off" is 2.5 to 2.9 % below the mean of all with the Gaussian and 4.2 to 4.5 % with
+// Mitchell's, 9 to 14 standard errors.
+TEST_CASE("rays drawn near point lights on the film make the picture of those that are not, with negative filters too") {
   const std::string spot =
       "LightSource \"spot\" \"point3 from\" [-0.9 0.9 0.3] \"point3 to\" [0.3 -1 -0.2] \"float coneangle\" 50 "
       "\"float conedeltaangle\" 20 \"rgb I\" [0.1 0.2 0.3]\n";
-  const std::string lamps = point_light({0.8f, 0.6f, -1}, 0.2f) + point_light({-0.5f, -0.7f, 1.2f}, 0.3f) + spot;
+  const std::string emitters = point_light({0.8f, 0.6f, -1}, 0.2f) + point_light({-0.5f, -0.7f, 1.2f}, 0.3f) + spot;
   const std::string smoke =
       uniform_grid("smoke", {.sigma_a = {0.3f, 0.2f, 0.2f}, .sigma_s = {2, 1.5f, 1}, .g = 0.5f}, holes()) +
       homogeneous("haze", {.sigma_a = Rgb(0.1f), .sigma_s = {0.5f, 0.4f, 0.3f}, .g = -0.3f}) +
@@ -256,7 +256,7 @@ TEST_CASE("rays drawn near lamps on the film make the picture of those that are 
   few.medium = "fog";
   for (const char* filter : {"gaussian", "mitchell"}) {
     few.filter = '"' + std::string(filter) + '"';
-    check_all_agree(filter, view(few) + board + lamps + smoke,
+    check_all_agree(filter, view(few) + board + emitters + smoke,
                     {{"off", {.joint = JointStrategy::off}},
                      {"points", {.joint = JointStrategy::points}},
                      {"tracked", {.distance = DistanceStrategy::both, .joint = JointStrategy::points}},
@@ -265,15 +265,15 @@ TEST_CASE("rays drawn near lamps on the film make the picture of those that are 
   }
 }
 
-// Lamps around dense smoke, one of them close to it: rays that pass far from that one choose lights at collisions, others along
-// the span.
-TEST_CASE("spans that no lamp comes close to, lit at their collisions, make the picture of pairs everywhere") {
-  const std::string lamps = point_light({1.6f, 1.2f, 0.3f}, 0.5f) + point_light({-1.5f, -0.2f, 1.3f}, 0.4f) +
-                            point_light({-0.9f, 0.8f, -0.7f}, 0.1f) + emitting_square({-1.8f, 1.5f, 0.3f}, 0.5f, 0.6f);
+// Lights around dense smoke, one of them close to it: rays that pass far from that one choose lights at collisions, others
+// along the span.
+TEST_CASE("segments that no light comes close to, lit at their collisions, make the picture of pairs everywhere") {
+  const std::string emitters = point_light({1.6f, 1.2f, 0.3f}, 0.5f) + point_light({-1.5f, -0.2f, 1.3f}, 0.4f) +
+                               point_light({-0.9f, 0.8f, -0.7f}, 0.1f) + emitting_square({-1.8f, 1.5f, 0.3f}, 0.5f, 0.6f);
   const std::string smoke = uniform_grid("smoke", {.sigma_a = {0.3f, 0.2f, 0.2f}, .sigma_s = {8, 9, 10}, .g = 0.4f}, holes()) +
                             medium_box("smoke", "", kBox);
   const Agreement how = to(0.03);
-  check_all_agree("stand-off", look(4) + diffuse_plane(1.8f, 3, 0.5f) + lamps + smoke,
+  check_all_agree("stand-off", look(4) + diffuse_plane(1.8f, 3, 0.5f) + emitters + smoke,
                   {{"pairs", {.distance = DistanceStrategy::profile}},
                    {"auto", {}},
                    {"vertex", {.media = MediaStrategy::vertex, .joint = JointStrategy::points}}},
@@ -281,22 +281,22 @@ TEST_CASE("spans that no lamp comes close to, lit at their collisions, make the 
 }
 
 // Small surfaces of every kind, before, in and behind smoke, one half hidden by a board, one half off the frame, the camera in
-// a fog that dims them; then in one that scatters a little, behind which they are seen whole (Path's Beyond).
-TEST_CASE("small shining surfaces that the camera aims at make the picture of those that it does not") {
-  const auto shining = [](const std::string& where, const std::string& L, const std::string& shape) {
+// a fog that attenuates them; then in one that scatters a little, behind which they are seen whole (Path's Beyond).
+TEST_CASE("small emitters that the camera aims at make the picture of those that it does not") {
+  const auto emitter = [](const std::string& where, const std::string& L, const std::string& shape) {
     return block("Translate " + where + "\nAreaLightSource \"diffuse\" \"rgb L\" [" + L + "]\n" + shape);
   };
   const std::string triangle =
       "Shape \"trianglemesh\" \"point3 P\" [0 0 0  0.2 0 0.05  0 0.15 0] \"integer indices\" [0 2 1]\n";
   const std::string surfaces =
-      shining("-0.6 0.3 -0.9", "30 20 10", "Shape \"sphere\" \"float radius\" 0.07\n") +
-      shining("0.5 0.4 0.2", "60 80 20", "Shape \"sphere\" \"float radius\" 0.05\n") +
-      shining("0.1 -0.5 -0.8", "50 50 90", triangle) +
-      shining("-0.25 0.62 1.4", "90 40 30", "Shape \"disk\" \"float radius\" 0.1\n") +
-      shining("1.15 -0.2 0", "40 40 60", "Rotate 30 0 1 0\nShape \"sphere\" \"float radius\" 0.08 \"float zmax\" 0.03\n") +
+      emitter("-0.6 0.3 -0.9", "30 20 10", "Shape \"sphere\" \"float radius\" 0.07\n") +
+      emitter("0.5 0.4 0.2", "60 80 20", "Shape \"sphere\" \"float radius\" 0.05\n") +
+      emitter("0.1 -0.5 -0.8", "50 50 90", triangle) +
+      emitter("-0.25 0.62 1.4", "90 40 30", "Shape \"disk\" \"float radius\" 0.1\n") +
+      emitter("1.15 -0.2 0", "40 40 60", "Rotate 30 0 1 0\nShape \"sphere\" \"float radius\" 0.08 \"float zmax\" 0.03\n") +
       emitting_square({-0.2f, 0, 0.6f}, 0.06f, 70) +
-      // In a shade that hides it, nearer to it than a shadow ray to its place would look.
-      shining("3000 -2000 30000", "3e4 3e4 3e4", "Shape \"sphere\" \"float radius\" 300\n") +
+      // In a shade that hides it, nearer to it than the end of a shadow ray to its place.
+      emitter("3000 -2000 30000", "3e4 3e4 3e4", "Shape \"sphere\" \"float radius\" 300\n") +
       block("Translate 3000 -2000 30000\nMaterial \"diffuse\"\nShape \"sphere\" \"float radius\" 301\n");
   const std::string smoke =
       uniform_grid("smoke", {.sigma_a = {0.3f, 0.2f, 0.2f}, .sigma_s = {1, 0.8f, 0.6f}, .g = 0.5f}, holes()) +
@@ -322,22 +322,22 @@ TEST_CASE("small shining surfaces that the camera aims at make the picture of th
 
 // Of several pixels each: round, flat and cut off by the frame, one held by smoke, one of many primitives that instances share,
 // with a small one before another. The rest is as for the small ones.
-TEST_CASE("shining surfaces whose edges are looked at closely make the picture of those that are not") {
-  const auto shining = [](const std::string& where, const std::string& L, const std::string& shape) {
+TEST_CASE("emitters whose edges are sampled at several film positions make the picture of those that are not") {
+  const auto emitter = [](const std::string& where, const std::string& L, const std::string& shape) {
     return block("Translate " + where + "\nAreaLightSource \"diffuse\" \"rgb L\" [" + L + "]\n" + shape);
   };
-  std::string lamp = "ObjectBegin \"lamp\"\nAreaLightSource \"diffuse\" \"rgb L\" [9 7 2]\n";
+  std::string fan = "ObjectBegin \"fan\"\nAreaLightSource \"diffuse\" \"rgb L\" [9 7 2]\n";
   for (int i = 0; i < 16; ++i) {
-    lamp +=
+    fan +=
         block("Rotate " + number(22.5f * static_cast<float>(i)) +
               " 0 0 1\nShape \"trianglemesh\" \"point3 P\" [0 0 0  0.4 0 0  0.37 0.15 0.1] " + "\"integer indices\" [0 2 1]\n");
   }
   const std::string surfaces =
-      shining("-0.5 0.3 0.2", "3 2 1", "Shape \"sphere\" \"float radius\" 0.35\n") +
-      shining("-0.65 0.35 -0.9", "60 50 40", "Shape \"sphere\" \"float radius\" 0.03\n") +
-      shining("0.55 0.4 -0.6", "2 4 1", "Shape \"disk\" \"float radius\" 0.3\n") +
-      shining("-1.2 -0.6 0", "4 4 6", "Rotate 30 0 1 0\nShape \"sphere\" \"float radius\" 0.4 \"float zmax\" 0.2\n") + lamp +
-      "ObjectEnd\n" + block("Translate 0.4 -0.5 0.8\nObjectInstance \"lamp\"\n");
+      emitter("-0.5 0.3 0.2", "3 2 1", "Shape \"sphere\" \"float radius\" 0.35\n") +
+      emitter("-0.65 0.35 -0.9", "60 50 40", "Shape \"sphere\" \"float radius\" 0.03\n") +
+      emitter("0.55 0.4 -0.6", "2 4 1", "Shape \"disk\" \"float radius\" 0.3\n") +
+      emitter("-1.2 -0.6 0", "4 4 6", "Rotate 30 0 1 0\nShape \"sphere\" \"float radius\" 0.4 \"float zmax\" 0.2\n") + fan +
+      "ObjectEnd\n" + block("Translate 0.4 -0.5 0.8\nObjectInstance \"fan\"\n");
   const std::string smoke =
       uniform_grid("smoke", {.sigma_a = {0.3f, 0.2f, 0.2f}, .sigma_s = {1, 0.8f, 0.6f}, .g = 0.5f}, holes()) +
       medium_octahedron("smoke", 0.9f);
@@ -365,19 +365,19 @@ TEST_CASE("shining surfaces whose edges are looked at closely make the picture o
 
 // Nothing but such fog is in the picture, and phase functions that find the sphere by themselves.
 TEST_CASE("fog that scatters next to nothing, and looks for light seldom, is as bright as by its collisions") {
-  const std::string lamps =
+  const std::string emitters =
       block("Translate -4 2 1\nAreaLightSource \"diffuse\" \"rgb L\" [9 8 6]\nShape \"sphere\" \"float radius\" 0.8\n") +
       point_light({0.2f, 2.5f, 0.4f}, 1);
   const std::string fog = homogeneous("fog", {.sigma_a = Rgb(0.01f), .sigma_s = Rgb(0.01f), .g = 0.7f}) +
                           medium_box("fog", "", {{-1.5f, -1.5f, -1.5f}, {1.5f, 1.5f, 1.5f}});
   const Agreement how = to(0.02);
   check_all_agree(
-      "faint", look(2) + lamps + fog,
+      "faint", look(2) + emitters + fog,
       {{"seldom", {}}, {"both", {.distance = DistanceStrategy::both}}, {"vertex", {.media = MediaStrategy::vertex}}}, how);
 }
 
 // 65,536 samples of each: standard errors of 0.002 at most; Approx allows 0.017. Roulette without its weight is off by 0.11.
-TEST_CASE("a sky behind fog leaves A = 1 - transmittance, passed or dimmed") {
+TEST_CASE("a sky behind fog leaves A = 1 - transmittance, passed or attenuated") {
   const std::string scene = look(3) + lights() + homogeneous("fog", {.sigma_a = Rgb(0.3f), .sigma_s = Rgb(0.2f)}) +
                             medium_box("fog", "", {{-5, -5, -1}, {5, 5, 1}});
   const auto mean_A = [&](const Variant& variant) {

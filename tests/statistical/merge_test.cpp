@@ -38,7 +38,7 @@ TEST_CASE("a merged pair agrees with one render of as many samples, and its Vari
       write_exr(subject.render(kSpp[k], 100 + 2 * static_cast<std::uint64_t>(i) + static_cast<std::uint64_t>(k), {"Variance"}),
                 scratch / (k == 0 ? "a.exr" : "b.exr"));
     }
-    const Image pair = merge_slices({scratch / "b.exr", scratch / "a.exr"});
+    const Image pair = merge_slices({scratch / "b.exr", scratch / "a.exr"}).image;
     merged.add(pair);
     claimed.add(image_mean(mean_image(pair, 1), 1).variance);
     single.add(subject.render(kSpp[0] + kSpp[1], 1000 + static_cast<std::uint64_t>(i)));

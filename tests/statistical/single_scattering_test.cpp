@@ -48,7 +48,7 @@ std::string label(const char* what, const Place& p) {
   return text.data();
 }
 
-/// One extinction for all channels: what does a collision cost, and what does the way to and from it.
+/// One extinction for all channels: what does a collision cost, and what do the segments to and from it.
 void check_grey(const Row& row, const char* what, const Variant& variant = {}, bool far = true) {
   for (std::size_t i = 0; i < kPlaces.size(); ++i) {
     if (!far && kPlaces[i].d == 4) continue;
@@ -71,7 +71,7 @@ TEST_CASE("the quadrature agrees with the table") {
   }
 }
 
-// One row by each way of choosing light and distance, the other rows by the default; all by each nightly.
+// One row by each strategy for light and distance, the other rows by the default; all by each nightly.
 TEST_CASE("single scattering by each choice of light and distance") {
   using enum DistanceStrategy;
   for (const MediaStrategy media : every_media()) {
@@ -84,7 +84,7 @@ TEST_CASE("single scattering by each choice of light and distance") {
       for (std::size_t row = nightly() ? 1 : 3; row < (nightly() ? kTable.size() : 4); ++row) {
         // From sigma_t 2 hardly a tracked collision sees the light four units away: that is for the channels below.
         if (kTable[row].sigma_t == 2 && (distance == tracking)) continue;
-        // With one light all choices of it are alike; this way of choosing distances is noisy far from it.
+        // With one light all choices of it are alike; this strategy for distances is noisy far from it.
         const bool far = nightly() || distance != equiangular || media == MediaStrategy::product;
         check_grey(kTable[row], what.c_str(), variant, far);
       }

@@ -118,7 +118,7 @@ TEST_CASE("DISORT 1 and 2: beam on a thin slab") {
 
 TEST_CASE("DISORT 3: uniform sky on a thin slab") {
   check_agrees("DISORT 3 radiance up mu=.1", reflectance(.1, .03125, 0, Rgb(0.99f)), grey(.1332), kFourDigits);
-  if (!nightly()) return;  // dimmer, and so noisier: 6 and 10 s of two cores
+  if (!nightly()) return;  // darker, and so noisier
   check_agrees("DISORT 3 radiance up mu=.5", reflectance(.5, .03125, 0, Rgb(0.99f)), grey(.0300), kFourDigits);
   check_agrees("DISORT 3 radiance up mu=1", reflectance(1, .03125, 0, Rgb(0.99f)), grey(.0152), kFourDigits);
 }

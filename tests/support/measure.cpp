@@ -35,7 +35,7 @@ RenderSettings settings_of(const Scene& scene, const Variant& variant) {
 BuildSettings build_settings_of(const Variant& variant) {
   BuildSettings settings;
   settings.lights = {variant.lights};
-  settings.fire = variant.emission == EmissionStrategy::lights;
+  settings.volume_lights = variant.emission == EmissionStrategy::lights;
   settings.threads = variant.threads;
   return settings;
 }

@@ -1,4 +1,4 @@
-/// Several ways to one picture, rendered with the same seeds.
+/// Several methods for one picture, rendered with the same seeds.
 #pragma once
 
 #include <functional>

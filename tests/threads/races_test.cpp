@@ -19,8 +19,8 @@ namespace {
 constexpr Bounds3 kBox{{-1, -1, -1}, {1, 1, 1}};
 constexpr int kThreads = 6;
 
-/// Every kind of thing that threads share: grids, glow, clouds, textures without files, instances, all kinds of lights, and
-/// so many of them that trees are built by several threads.
+/// Every kind of thing that threads share: grids, volume emission, clouds, textures without files, instances, all kinds of
+/// lights, and so many of them that trees are built by several threads.
 std::string everything(int lights) {
   Grid grid{kBox, 9, 9, 9, {}};
   for (int i = 0; i < 729; ++i) grid.density.push_back(0.2f * float(i * 7 % 11));
@@ -55,7 +55,8 @@ Image picture(const Scene& scene, LightStrategy lights, EmissionStrategy emissio
   settings.emission = emission;
   settings.aovs = all_aovs();
   settings.reproducible = true;
-  const World world = build(scene, {.lights = {lights}, .fire = emission == EmissionStrategy::lights, .threads = threads});
+  const World world =
+      build(scene, {.lights = {lights}, .volume_lights = emission == EmissionStrategy::lights, .threads = threads});
   return render(world, settings).image;
 }
 

@@ -18,7 +18,7 @@ function formatText(value) { return value === null || value === undefined || val
 
 function formatList(value) { return Array.isArray(value) && value.length ? value.map(formatNumber).join(', ') : DASH; }
 
-/** What stands at "variants.0.efficiency.low" of `object`; undefined where the way ends. */
+/** What stands at "variants.0.efficiency.low" of `object`; undefined where the path ends. */
 function at(object, path) {
   return path.split('.').reduce((o, key) => (o === null || o === undefined ? undefined : o[key]), object);
 }

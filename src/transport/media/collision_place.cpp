@@ -6,9 +6,9 @@
 namespace tyndall {
 namespace {
 
-/// Farther than this from both ends of a part, in terms of coordinates, rounding crosses no boundary that the ray does
-/// not all but graze: 1024 roundings; with 256 a path was lost in one of some ten million rays. Nearer, the geometry is
-/// asked: to move every collision as far would thin media whose mean free paths are as short.
+/// Farther than this from both ends of a part, relative to coordinates, rounding crosses no boundary that the ray does not
+/// nearly graze: 1024 roundings. Nearer, the geometry is asked: to move every collision as far would thin media whose mean free
+/// paths are as short.
 constexpr float kFar = 0x1p-13f;
 /// A boundary nearer than this may be on either side: roundings of double precision, and to spare.
 constexpr float kOn = 0x1p-40f;
@@ -18,7 +18,7 @@ float size_of(Vec3 p) {
   return std::max({reach.x, reach.y, reach.z});
 }
 
-/// Whether a line through `p` along `d` leaves just the groups of `state`, either way. Not on a boundary, therefore.
+/// Whether lines from `p` along `d` and -d leave just the groups of `state`. Not on a boundary, therefore.
 bool holds(const Geometry& geometry, Vec3 p, Vec3 d, const MediaState& state) {
   for (const Vec3 way : {d, -d}) {
     MediaState left = state;

@@ -9,7 +9,7 @@
 
 namespace tyndall {
 
-/// A stretch with an unchanging set of media, and the membership there.
+/// A segment with an unchanging set of media, and the membership there.
 struct SpanPart : Interval {
   MediaState state;
   Bounds3 box;  ///< around these media
@@ -26,7 +26,7 @@ struct Span {
   const SpanPart& part_at(float t) const;
 };
 
-/// Whether all stretches, SpanParts or other Intervals, have media that are known in closed form.
+/// Whether all segments, SpanParts or other Intervals, have media that are known in closed form.
 template <typename Parts>
 bool homogeneous_throughout(const Parts& parts) {
   return std::all_of(parts.begin(), parts.end(), [](const Interval& part) { return all_homogeneous(part.view()); });

@@ -8,7 +8,7 @@
 namespace tyndall {
 namespace {
 
-/// Share of the distances that go by the angle alone.
+/// Share of the distances that are distributed by the angle alone.
 constexpr float kByAngle = 0.1f;
 /// A light is taken to be this far off the ray at least, relative to its distance: angles keep their digits.
 constexpr float kLeastOffset = 1e-4f;
@@ -30,8 +30,8 @@ Float8 angles(const Bins8& b, Float8 distance) {
   return 2 * choose(steep, 0.5f * kPi - arc, arc);
 }
 
-/// Something like exp(-x): heavier, so that nothing is thought darker than it is.
-Float8 dimming(Float8 x) {
+/// An approximation of exp(-x) from above, so that nothing is thought darker than it is.
+Float8 attenuation(Float8 x) {
   Float8 y = 1 / (1 + 0.125f * x);
   y *= y;
   y *= y;
@@ -54,14 +54,14 @@ class Facing {
         flat_(light.flat() && (foot_ != 0 || slope_ != 0)),
         two_sided_(light.two_sided) {}
 
-  /// Mean of two places, which are measured from the ray's closest point to the light, as if both were at distance `way` of it.
+  /// Mean of two places, measured from the ray's closest point to the light, as if both were at distance `way` of it.
   Float8 cosine(Float8 begin, Float8 end, Float8 way) const {
     if (!flat_) return 1;
     return 0.5f * (height(begin) + height(end)) / way;
   }
 
  private:
-  Float8 height(Float8 at) const {  ///< above the light's plane, on the side that it shines on
+  Float8 height(Float8 at) const {  ///< above the light's plane, on the side that it emits to
     const Float8 h = foot_ + slope_ * at;
     return two_sided_ ? abs(h) : max(h, Float8(0.0f));
   }
@@ -108,7 +108,7 @@ void DistanceSampler::weigh(Weights weights, const Ray& ray, const LightPlace& l
     const Float8 way = sqrt(middle * middle + distance_ * distance_);
     const Float8 angle = angles(bins, distance_);
     store8(&by_angle[i], angle);
-    store8(&by_profile[i], angle * bins.scattering * dimming(min(bins.sigma * way, Float8(profile_->optical_depth()))) *
+    store8(&by_profile[i], angle * bins.scattering * attenuation(min(bins.sigma * way, Float8(profile_->optical_depth()))) *
                                phase(middle, distance_, weights.g) * facing.cosine(bins.begin, bins.end, way));
   }
   mix(by_profile, by_angle);
@@ -139,13 +139,13 @@ void DistanceSampler::mix(const Masses& by_profile, const Masses& by_angle) {
   for (std::size_t i = 0; i < bins_; i += kBlock) store8(&mass_[i], a * load8(&by_profile[i]) + b * load8(&by_angle[i]));
 }
 
-DistanceSampler::Stretch DistanceSampler::lit(std::size_t bin) const {
+DistanceSampler::Range DistanceSampler::lit(std::size_t bin) const {
   if (bins_ == 1) return lit_;
   const auto edges = profile_->edges();
   return {std::max(edges[bin], lit_.begin), std::min(edges[bin + 1], lit_.end)};
 }
 
-/// That the stretch is seen under from the light. As one arc tangent: a difference of two loses narrow bins far away.
+/// The angle subtended at the light. As one arc tangent: a difference of two loses narrow bins far away.
 float DistanceSampler::angle(float begin, float end) const {
   const float a = begin - closest_;
   if (end == kInfinity) return std::atan2(distance_, a);

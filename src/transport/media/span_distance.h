@@ -1,4 +1,4 @@
-/// The distance along a span at which one light is gathered.
+/// The distance along a span at which the light of one emitter is gathered.
 #pragma once
 
 #include <array>
@@ -14,10 +14,10 @@ struct DistanceSample {
   float pdf;  ///< 1/length
 };
 
-/// Equi-angular toward the light's centre [Kulla and Fajardo 2012], bin by bin of the span's profile: the bins are
-/// weighted by what the profile says is scattered there, dimmed on the way from the light, by the phase function and, of flat
-/// lights, by the cosine at the light. A share goes by the angle alone, so that no distance is out of reach but those that the
-/// light does not shine on. Without `weights`: one bin, pure equi-angular.
+/// Equi-angular toward the light's centre [Kulla and Fajardo 2012], bin by bin of the span's profile: the bins are weighted by
+/// what the profile scatters there, by the transmittance from the light, by the phase function and, of flat lights, by the
+/// cosine at the light. A share is distributed by the angle alone, so that every distance can be drawn but those that the light
+/// does not reach. Without `weights`: one bin, pure equi-angular.
 /// A deterministic function of profile, ray and light: MIS weights evaluate pdf() for distances found otherwise.
 class DistanceSampler {
  public:
@@ -26,8 +26,8 @@ class DistanceSampler {
   };
   DistanceSampler(const SpanProfile& profile, const Ray& ray, const LightPlace& light, std::optional<Weights> weights);
 
-  DistanceSample sample(float u) const;  ///< pdf 0: the light shines on nothing of it
-  float pdf(float t) const;              ///< 0 outside the profile, and where the light does not shine
+  DistanceSample sample(float u) const;  ///< pdf 0: the light reaches none of it
+  float pdf(float t) const;              ///< 0 outside the profile, and where the light does not emit to
 
  private:
   void weigh(Weights weights, const Ray& ray, const LightPlace& light);
@@ -36,10 +36,10 @@ class DistanceSampler {
   static_assert(SpanProfile::kMostBins % kBlock == 0 && std::size_t(SpanProfile::Bins::few) % kBlock == 0);
   struct alignas(32) Masses : std::array<float, SpanProfile::kMostBins> {};
   void mix(const Masses& by_profile, const Masses& by_angle);
-  struct Stretch {
+  struct Range {
     float begin, end;
   };
-  Stretch lit(std::size_t bin) const;  ///< the part of it
+  Range lit(std::size_t bin) const;  ///< the part of it
   float pdf_in(std::size_t bin, float t) const;
   float sample_in(std::size_t bin, float u) const;
   float angle(float begin, float end) const;
@@ -47,7 +47,7 @@ class DistanceSampler {
   const SpanProfile* profile_;
   bool far_ = false;
   float closest_ = 0, distance_ = 0;  ///< where the ray comes closest to the light, and how close
-  Stretch lit_;                       ///< where the profile reaches and the light shines
+  Range lit_;                         ///< where the profile is and the light emits to
   std::size_t bins_ = 1;
   Masses mass_{};  ///< of each bin; they sum to 1
 };

@@ -10,17 +10,16 @@ namespace {
 
 /// Optical depth at which a span without end is taken to be over.
 constexpr float kDeep = 16;
-/// A medium so thin that it is this wide has nothing to show: squares of distances must stay finite.
+/// A medium so thin that it is this wide scatters nothing: squares of distances must stay finite.
 constexpr float kFarthest = 1e18f;
-/// Share of the bins that lie evenly, whatever is scattered where.
+/// Share of the bins that are spaced evenly, whatever is scattered where.
 constexpr float kEvenShare = 0.25f;
-/// Out of the media it is this many times as far as to the nearer of their ends on the span, in optical depth. Measured
-/// in a plume of depth 10 among a thousand lights: without this bound the variance is 1.8 times as high, with 1 or 3
-/// nearly as low.
+/// The optical depth out of the media is taken as this many times that to the nearer of their ends on the span
+/// (docs/measurements.md).
 constexpr float kSideways = 2;
 
-/// What is left of light behind layers of depth x, and on average within the last of them.
-class Dimming {
+/// Transmittance of layers of optical depth x, and its mean within the last of them.
+class Attenuation {
  public:
   float pass(float x) {
     const float passed = std::exp(-x), before = left_;
@@ -78,7 +77,7 @@ class SpanOptics {
   CoarseRay ray_;
 };
 
-/// An end for spans without one: where what lies behind is too dim to matter.
+/// An end for spans without one: where what lies behind is too attenuated to matter.
 float last_distance(const Span& span, const Extent& e) {
   if (e.end < kInfinity) return e.end;
   const SpanPart& last = span.parts.back();
@@ -131,18 +130,18 @@ void SpanProfile::place_evenly(float begin, float end, float sigma_t) {
   edge_[bins_] = end;
 }
 
-/// Edges that follow sigma_s x sqrt(transmittance), so that light which is deep in the medium gets its bins as well; the
-/// medium is looked at half as many times as there are bins.
+/// Edges that follow sigma_s x sqrt(transmittance), so that light from deep in the medium gets its bins as well; the medium is
+/// read half as many times as there are bins.
 template <typename F>
 void SpanProfile::place_by_looks(const F& optics, float begin, float end) {
   const std::size_t looks = bins_ / 2;
   const float step = (end - begin) / static_cast<float>(looks);
   std::array<float, kMostBins / 2> scattered;
-  Dimming dimming;
+  Attenuation attenuation;
   float sum = 0;
   for (std::size_t i = 0; i < looks; ++i) {
     const CoarseOptics o = optics(begin + (static_cast<float>(i) + 0.5f) * step);
-    scattered[i] = o.sigma_s * step * dimming.pass(0.5f * o.sigma_t * step);
+    scattered[i] = o.sigma_s * step * attenuation.pass(0.5f * o.sigma_t * step);
     sum += scattered[i];
   }
   const float even = sum > 0 ? kEvenShare / (1 - kEvenShare) * sum / static_cast<float>(looks) : 1.0f;
@@ -173,13 +172,13 @@ void SpanProfile::place_at_shares(std::span<const float> at, std::span<const flo
 /// `optics`: of a distance.
 template <typename F>
 void SpanProfile::fill(const F& optics) {
-  Dimming dimming;
+  Attenuation attenuation;
   for (std::size_t i = 0; i < bins_; ++i) {
     const bool endless = edge_[i + 1] == kInfinity;
     const CoarseOptics o = optics(endless ? edge_[i] : 0.5f * (edge_[i] + edge_[i + 1]));
     const float length = endless ? kDeep / o.sigma_t : edge_[i + 1] - edge_[i];
     sigma_t_[i] = o.sigma_t;
-    scattering_[i] = o.sigma_s * dimming.pass(o.sigma_t * length);
+    scattering_[i] = o.sigma_s * attenuation.pass(o.sigma_t * length);
     depth_[i + 1] = depth_[i] + o.sigma_t * length;
     scattered_ += scattering_[i] * length;
     settled_ = edge_[i] + length;

@@ -5,14 +5,14 @@
 
 namespace tyndall {
 
-/// One stretch of a ray through an unchanging set of media.
+/// One segment of a ray through an unchanging set of media.
 struct Interval {
   float t0, t1;
   ActiveMedia media;  ///< never empty
   MediaView view() const { return {media.data(), media.size()}; }
 };
 
-/// Walks a ray's intervals in order: `while (auto i = walk.next()) ...`. Stretches without a medium are skipped.
+/// Walks a ray's intervals in order: `while (auto i = walk.next()) ...`. Segments without a medium are skipped.
 /// state() is the membership within the last interval given, and at t_end once next() gave nothing.
 class SpanWalk {
  public:

@@ -143,7 +143,7 @@ TEST_CASE("the powers of the lights are log-normal") {
   CHECK(deviation == doctest::Approx(1).epsilon(0.03));
 }
 
-TEST_CASE("the lights of the ceiling shine down from under it") {
+TEST_CASE("the lights of the ceiling emit downward from under it") {
   const auto files = make_example("ceiling", {.lights = 500});
   const PlyMesh mesh = read_ply_bytes(files.at(1).bytes, files.at(1).name);
   for (std::size_t i = 0; i < mesh.triangles.size(); i += 3) {

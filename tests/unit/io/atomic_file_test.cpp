@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cctype>
 #include <filesystem>
 #include <string>
 
@@ -21,17 +22,28 @@ std::string gone() {
   return std::to_string(child);
 }
 
-TEST_CASE("what a killed process left of writing a file is removed, and nothing else") {
+/// "node7.1234", with the name of this machine as temporary files have it.
+std::string here(const std::string& process) {
+  char name[256] = "";
+  gethostname(name, sizeof name - 1);
+  std::string host = std::string(name).substr(0, 40);
+  for (char& c : host) c = std::isalnum(static_cast<unsigned char>(c)) != 0 ? c : '-';
+  return host + "." + process;
+}
+
+TEST_CASE("what a killed process of this machine left of writing a file is removed, and nothing else") {
   const test::Scratch folder;
-  const std::string dead = gone(), alive = std::to_string(getpid());
+  const std::string number = gone(), dead = here(number), alive = here(std::to_string(getpid()));
   const std::string kept[] = {".a.exr." + alive + ".0.part",
                               ".b.exr." + dead + ".0.part",
                               ".a.exr." + dead + ".0.partial",
                               "a.exr." + dead + ".0.part",
                               ".a.exr." + dead + ".x.part",
-                              ".a.exr.-1.0.part",
-                              ".a.exr.0.0.part",
-                              ".a.exr.99999999999999999.0.part",
+                              ".a.exr." + here("-1.0.part"),
+                              ".a.exr." + here("0.0.part"),
+                              ".a.exr." + here("99999999999999999.0.part"),
+                              ".a.exr.another-" + dead + ".0.part",
+                              ".a.exr." + number + ".0.part",
                               ".a.exr." + dead + ".part",
                               ".a.exr.x." + dead + ".0.part",
                               "a.exr"};

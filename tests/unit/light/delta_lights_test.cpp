@@ -79,7 +79,7 @@ TEST_CASE("spot cones from 0 to 180 degrees, under any transform: the bounds hol
   CHECK(lit > 50'000);
 }
 
-TEST_CASE("a distant light comes from where it shines from") {
+TEST_CASE("a distant light arrives from its direction") {
   const DistantEmitter light(DistantLight{{0, -2, 0}, Rgb(5)});
   CHECK(light.arrival().wi == Vec3{0, 1, 0});
   CHECK(light.arrival().distance == kInfinity);

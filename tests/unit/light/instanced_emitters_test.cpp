@@ -340,7 +340,7 @@ TEST_CASE("instances share where they can, and are lights like others where they
   CHECK(Similarity::of(Transform::scale(-2, 2, 2))->scale() == doctest::Approx(2));
 }
 
-TEST_CASE("instances with glowing media: both keep their ids") {
+TEST_CASE("instances with emissive media: both keep their ids") {
   const Stage stage;
   const std::vector<VolumeEmitter> bricks{{{{0, 0, 0}, {1, 1, 1}}, 2}, {{{1, 0, 0}, {2, 1, 1}}, 3}};
   const auto placed = stage.placed(true);

@@ -186,7 +186,7 @@ TEST_CASE("instances: importance is comparable with that of the same lights alon
   const auto compare = [&](const auto& q) {
     const LightCut a = shared->cut(q, settings), b = single->cut(q, settings);
     for (std::size_t i = 0; i < ids.size(); ++i) {
-      const double x = shared->expected(a, q, ids[i]), y = single->expected(b, q, static_cast<LightId>(i));
+      const double x = shared->n_pmf(a, q, ids[i]), y = single->n_pmf(b, q, static_cast<LightId>(i));
       if (x > 2000 && y > 2000) worst = std::max(worst, std::abs(std::log(x / y)));
     }
   };
@@ -252,9 +252,9 @@ TEST_CASE("instances: they are reckoned with where most of their power is") {
   Rng rng(3);
   for (int k = 0; k < 40; ++k) {
     const PointQuery q{.p = Vec3{20.0f * (k % 2), 0, 0} + test::random_direction(rng) * 6.0f, .n = {}};
-    const Vec3d lamp(0.9, 0.9, 0.9);
-    const double a = length(Vec3d(q.p) - input.instances[0].to_world.point(lamp)),
-                 b = length(Vec3d(q.p) - input.instances[1].to_world.point(lamp));
+    const Vec3d bright(0.9, 0.9, 0.9);
+    const double a = length(Vec3d(q.p) - input.instances[0].to_world.point(bright)),
+                 b = length(Vec3d(q.p) - input.instances[1].to_world.point(bright));
     CHECK(c.tree.pmf(q, c.leaf[0]) == doctest::Approx(b * b / (a * a + b * b)).epsilon(0.05));
   }
 }
@@ -274,12 +274,12 @@ TEST_CASE("instances: cuts go into them, and every light is drawn as often as ex
       for (int i = 0; i < kDraws; ++i) {
         for (const LightCandidate& c : selector->draw(cut, q, rng.uniform_wide())) {
           drawn[c.light] += 1;
-          REQUIRE(std::abs(c.tries - selector->expected(cut, q, c.light)) <= 1e-5f * c.tries);
+          REQUIRE(std::abs(c.n_pmf - selector->n_pmf(cut, q, c.light)) <= 1e-5f * c.n_pmf);
         }
       }
       double sum = 0;
       for (LightId light = 0; light < n; ++light) {
-        const double e = kDraws * double(selector->expected(cut, q, light));
+        const double e = kDraws * double(selector->n_pmf(cut, q, light));
         sum += e;
         CHECK(std::abs(drawn[light] - e) <= 6 * std::sqrt(e) + 6);
         if (e == 0) CHECK(drawn[light] == 0);
@@ -300,7 +300,7 @@ TEST_CASE("instances: splitting 1 without a limit goes down to single lights") {
   for (const PointQuery& q : test::instanced_queries(input, 12, 9)) {
     const LightCut all = selector->cut(q, {0, 1});
     for (LightId i = 0; i < test::size_of(input); ++i) {
-      const float expected = selector->expected(all, q, i);
+      const float expected = selector->n_pmf(all, q, i);
       CHECK((expected == 0 || expected == 1));
       if (selector->pmf(q, i) > 0) CHECK(expected == 1);
     }

@@ -91,7 +91,7 @@ TEST_CASE("kernels: cones") {
 }
 
 TEST_CASE("kernels: what segments see") {
-  check_kernel("angle of a stretch", [](Adversary& any) {
+  check_kernel("angle of a segment", [](Adversary& any) {
     const double h = any.positive(60), from = any.real(60),
                  till = any.chance() ? from + double(any.positive(60)) : double(kInfinity);
     if (!(till > from)) return Fault();

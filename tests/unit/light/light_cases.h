@@ -94,7 +94,7 @@ inline std::vector<LightCase> light_cases() {
   };
   Rng rng(99);
   add("coincident points", 300, [](std::size_t) { return point_bounds({0.25f, 0.5f, -0.75f}, 1); });
-  add("coincident triangles, opposite ways", 300, [](std::size_t i) {
+  add("coincident triangles, opposite orientations", 300, [](std::size_t i) {
     const Vec3 a{0, 0, 0}, b{0.5f, 0, 0}, c{0, 0.5f, 0};
     return i % 2 ? triangle_bounds(a, b, c, false, 1) : triangle_bounds(a, c, b, false, 1);
   });

@@ -85,11 +85,11 @@ TEST_CASE("light arrives on the lit part of a ray only, which is dark hardly any
         const RayPart part = lit_part(place, ray);
         const bool within = part.begin <= t && t <= part.end;
         const auto sample = lights.sample(id, ray.at(t), {x, y}, false);
-        const bool shines = sample && !is_black(sample->L);
-        REQUIRE((within || !shines));
-        lit += shines;
+        const bool arrives = sample && !is_black(sample->L);
+        REQUIRE((within || !arrives));
+        lit += arrives;
         inside += within;
-        dark_inside += within && !shines;
+        dark_inside += within && !arrives;
       }
       if (everywhere) CHECK(inside == 20'000);
       // By the margins; the narrowest beams are within theirs. Wide ones and those of distorted spots are not told apart.

@@ -123,28 +123,28 @@ TEST_CASE("ids run through the scene's lights, then the primitives of the shapes
   CHECK(!selector_of(lights_of({})).select(PointQuery{}, 0.5));
 }
 
-TEST_CASE("one-sided emitters shine on the side of their normal, two-sided ones on both") {
+TEST_CASE("one-sided emitters emit to the side of their normal, two-sided ones on both") {
   std::vector<Shape> shapes{emissive(quad(1, 0), Rgb(1))};
   const Vec3 above{0.1f, 0.2f, 1}, below{0.1f, 0.2f, -1};
   const EmitterHit hit{{0, 0, 0}, {0, 0, 1}, {0.5f, 0.5f}, 1};
-  const auto shines = [&](const Lights& l, Vec3 p) {
+  const auto lights_up = [&](const Lights& l, Vec3 p) {
     return l.sample(0, p, {0.4f, 0.4f}, false) && selector_of(l).pmf(PointQuery{p, {}}, 0) > 0;
   };
   const Lights one = lights_of(shapes);
-  CHECK(shines(one, above));
-  CHECK(!shines(one, below));
+  CHECK(lights_up(one, above));
+  CHECK(!lights_up(one, below));
   CHECK(one.emitted(0, hit, {0, 0, 1}) == Rgb(1));
   CHECK(is_black(one.emitted(0, hit, {0, 0, -1})));
   shapes[0].reverse_orientation = true;
-  CHECK(shines(lights_of(shapes), below));
-  CHECK(!shines(lights_of(shapes), above));
+  CHECK(lights_up(lights_of(shapes), below));
+  CHECK(!lights_up(lights_of(shapes), above));
   shapes[0].reverse_orientation = false;
   shapes[0].to_world = Transform::scale(-1, 1, 1);  // the mirrored winding is turned back
-  CHECK(shines(lights_of(shapes), above));
+  CHECK(lights_up(lights_of(shapes), above));
   shapes[0].emission->two_sided = true;
   const Lights two = lights_of(shapes);
-  CHECK(shines(two, above));
-  CHECK(shines(two, below));
+  CHECK(lights_up(two, above));
+  CHECK(lights_up(two, below));
   CHECK(two.emitted(0, hit, {0, 0, -1}) == Rgb(1));
   CHECK(two.power(0) == doctest::Approx(2 * one.power(0)));
 }

@@ -28,8 +28,8 @@ TEST_CASE("a segment's cut keeps to its candidates, and its clusters hold each l
         double sum = 0;
         for (LightId i = 0; i < (sun ? 301u : 300u); ++i) {
           if (selector->pmf(q, i) == 0) continue;
-          CHECK(selector->expected(cut, q, i) > 0);
-          sum += selector->expected(cut, q, i);
+          CHECK(selector->n_pmf(cut, q, i) > 0);
+          sum += selector->n_pmf(cut, q, i);
         }
         CHECK(sum <= test::total(cut) * (1 + 1e-5));
       }
@@ -47,12 +47,12 @@ TEST_CASE("draws from a segment's cut: each light comes as often as expected, an
       std::vector<double> count(41);
       for (int round = 0; round < kRounds; ++round) {
         for (const LightCandidate& c : selector->draw(cut, q, rng.uniform_wide())) {
-          REQUIRE(c.tries == doctest::Approx(selector->expected(cut, q, c.light)).epsilon(1e-5).scale(0));
+          REQUIRE(c.n_pmf == doctest::Approx(selector->n_pmf(cut, q, c.light)).epsilon(1e-5).scale(0));
           count[c.light] += 1;
         }
       }
       for (LightId i = 0; i < 41; ++i) {
-        const double expected = selector->expected(cut, q, i) * kRounds;
+        const double expected = selector->n_pmf(cut, q, i) * kRounds;
         // Strata make the count no more random than independent draws: over 5 deviations of a Poisson count, and room
         // for the few that fall where hardly any are expected.
         CHECK(std::abs(count[i] - expected) <= 5 * std::sqrt(expected) + 5);

@@ -80,7 +80,7 @@ TEST_CASE("the angle of a segment is the integral of h / r^2, far and short and 
   }
 }
 
-/// A light, or up to three of them, and a segment that passes near or grazes the rim of what they shine on.
+/// A light, or up to three of them, and a segment that passes near or grazes the rim of what they light.
 struct Scene {
   std::array<test::ContributionOracle, 3> lights;
   int count = 0;
@@ -152,7 +152,7 @@ TEST_CASE("importance of a point light: its fluence along the segment") {
   CHECK(of(MediaStrategy::product, 4) == of(MediaStrategy::integral, 4));  // there is no profile
 }
 
-TEST_CASE("importance of a spot: the largest cosine on the segment counts, and none where it shines elsewhere") {
+TEST_CASE("importance of a spot: the largest cosine on the segment counts, and none outside of its cone") {
   const ClusterBounds up = ClusterBounds::from(test::spot_bounds({0, 0, 0}, {0, 0, 1}, 0, kPi / 3, 1));
   const SegmentQuery across = segment({1, 0, -1}, {0, 0, 1}, 2, MediaStrategy::integral);  // up to 45 degrees
   const double full = std::atan(1.0) * 2;

@@ -107,10 +107,10 @@ TEST_CASE("where one light alone has power nothing is asked: it is chosen, from 
       REQUIRE(drawn.size() == 3);
       for (const LightCandidate& c : drawn) {
         CHECK(c.light == 2);
-        CHECK(c.tries == 3);
+        CHECK(c.n_pmf == 3);
       }
-      CHECK(selector->expected(cut, q, 2) == 3);
-      CHECK(selector->expected(cut, q, 1) == 0);
+      CHECK(selector->n_pmf(cut, q, 2) == 3);
+      CHECK(selector->n_pmf(cut, q, 1) == 0);
     }
     for (const SegmentQuery& q : segments()) {
       CHECK(selector->select(q, 0.9)->light == 2);

@@ -42,8 +42,8 @@ std::vector<PointQuery> queries() {
 }
 
 TEST_CASE("where no light of the tree keeps what their common bounds promise, the sun has all candidates") {
-  // Bundles of narrow spots around the point. In each one the spots look past it to all sides: together they may shine
-  // anywhere, and none does.
+  // Bundles of narrow spots around the point. In each one the spots look past it to all sides: their common bounds may
+  // light anything, and none lights it.
   SelectionInput input;
   const auto add_near = [&input](Vec3 p, Vec3 axis) {
     input.near.push_back({test::spot_bounds(p, axis, 0.1f, 0.2f, 1e6f), static_cast<LightId>(input.power.size())});
@@ -63,7 +63,7 @@ TEST_CASE("where no light of the tree keeps what their common bounds promise, th
   for (const int n : {1, 4}) {
     const LightCut cut = selector->cut(q, {.candidates = n, .splitting = 0.9f});
     CHECK(test::total(cut) == doctest::Approx(n));
-    CHECK(selector->expected(cut, q, sun) == doctest::Approx(n));
+    CHECK(selector->n_pmf(cut, q, sun) == doctest::Approx(n));
     CHECK(selector->draw(cut, q, 0.3).size() == static_cast<std::size_t>(n));
   }
 }
@@ -81,7 +81,7 @@ TEST_CASE("a cut keeps to its candidates, and its clusters hold each light once"
         // Every cluster gives its candidates one light each, but for what falls on dead branches.
         double sum = 0;
         for (LightId i = 0; i < n; ++i) {
-          const double expected = selector->expected(cut, q, i);
+          const double expected = selector->n_pmf(cut, q, i);
           if (cut.empty() || selector->pmf(q, i) == 0) continue;
           sum += expected;
           CHECK(expected > 0);
@@ -104,8 +104,8 @@ TEST_CASE("candidates go to clusters by importance, also where there are enough 
   const PointQuery middle{};
   const LightCut cut = selector->cut(middle, {.candidates = 16, .splitting = 1});
   REQUIRE(cut.size() == 8);
-  CHECK(selector->expected(cut, middle, 0) == doctest::Approx(16 * 100.0 / 107).epsilon(0.01));
-  CHECK(selector->expected(cut, middle, 1) == doctest::Approx(16 * 1.0 / 107).epsilon(0.05));
+  CHECK(selector->n_pmf(cut, middle, 0) == doctest::Approx(16 * 100.0 / 107).epsilon(0.01));
+  CHECK(selector->n_pmf(cut, middle, 1) == doctest::Approx(16 * 1.0 / 107).epsilon(0.05));
 }
 
 TEST_CASE("splitting 0 leaves all lights as one; 1 without a limit goes down to single lights") {
@@ -114,7 +114,7 @@ TEST_CASE("splitting 0 leaves all lights as one; 1 without a limit goes down to 
     CHECK(selector->cut(q, {7, 0}).size() <= 1);
     const LightCut all = selector->cut(q, {0, 1});
     for (LightId i = 0; i < 200; ++i) {
-      const float expected = selector->expected(all, q, i);
+      const float expected = selector->n_pmf(all, q, i);
       CHECK((expected == 0 || expected == 1));
       if (selector->pmf(q, i) > 0) CHECK(expected == 1);
     }
@@ -155,12 +155,12 @@ TEST_CASE("draws from a cut: each light comes as often as expected, and its weig
       std::vector<double> count(41);
       for (int round = 0; round < kRounds; ++round) {
         for (const LightCandidate& c : selector->draw(cut, q, rng.uniform_wide())) {
-          REQUIRE(c.tries == test::relative(selector->expected(cut, q, c.light)).epsilon(1e-5));
+          REQUIRE(c.n_pmf == test::relative(selector->n_pmf(cut, q, c.light)).epsilon(1e-5));
           count[c.light] += 1;
         }
       }
       for (LightId i = 0; i < 41; ++i) {
-        const double expected = selector->expected(cut, q, i) * kRounds;
+        const double expected = selector->n_pmf(cut, q, i) * kRounds;
         // Strata make the count no more random than independent draws: over 5 deviations of a Poisson count, and room
         // for the few that fall where hardly any are expected.
         CHECK(std::abs(count[i] - expected) <= 5 * std::sqrt(expected) + 5);

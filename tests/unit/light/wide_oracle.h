@@ -139,8 +139,8 @@ inline OracleImportance oracle_importance(const Cluster& c, const WideSegment& w
       const double a = bin.begin - along, b = bin.end - along, part = subtended_angle(h, a, b);
       const double place = middle_of_angle(h, a, b), r = std::hypot(h, place);
       const double blur = std::max(1 - 3 * spread / (r * r), 0.0) * (1 - part * part / 24);
-      const double way = std::max(r - std::min(3 * bin.sigma * spread, 2 * std::sqrt(spread)), 0.0);
-      const double T = std::exp(-std::min(bin.sigma * way, double(bin.escape)));
+      const double through = std::max(r - std::min(3 * bin.sigma * spread, 2 * std::sqrt(spread)), 0.0);
+      const double T = std::exp(-std::min(bin.sigma * through, double(bin.escape)));
       sum += part * bin.scattering * T * phase_ratio(w.g * blur, -place / r) * emission(place);
     }
     value = c.intensity / h / w.length * std::max(sum, kLeastScattering * bound * angle);

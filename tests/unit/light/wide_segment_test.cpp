@@ -9,7 +9,7 @@
 namespace tyndall {
 namespace {
 
-/// Eight clusters of one to three lights, and a segment that passes near some or grazes the rim of what they shine on.
+/// Eight clusters of one to three lights, and a segment that passes near some or grazes the rim of what they light.
 struct Scene {
   std::array<std::array<test::ContributionOracle, 3>, 8> lights;
   std::array<std::size_t, 8> counts{};

@@ -48,7 +48,7 @@ class Files {
   Image merge(const std::vector<std::string>& names, const MergeSettings& settings = {}) const {
     std::vector<std::string> paths;
     for (const std::string& name : names) paths.push_back(scratch_ / name);
-    return merge_slices(paths, settings);
+    return merge_slices(paths, settings).image;
   }
   std::string refusal(const std::vector<std::string>& names) const {
     try {

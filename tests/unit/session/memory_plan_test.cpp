@@ -19,7 +19,7 @@ std::size_t part(const MemoryPlan& plan, const std::string& name) {
   return found->second;
 }
 
-TEST_CASE("pictures that shine are planned wherever they hang, and once") {
+TEST_CASE("images on area lights are planned wherever they hang, and once") {
   const test::Scratch folder;
   Image image{.data = {0, 0, 64, 32}, .display = {0, 0, 64, 32}, .channels = {}, .attributes = {}, .chromaticities = {}};
   for (const char* name : {"R", "G", "B"}) image.add_channel(name);
@@ -40,7 +40,7 @@ TEST_CASE("pictures that shine are planned wherever they hang, and once") {
   CHECK(part(plan_memory(both, kTree), "textures") == bytes);
 }
 
-TEST_CASE("what pixels know of shining surfaces is planned where there are such surfaces") {
+TEST_CASE("what pixels know of emitters is planned where there are emitters") {
   Scene scene;
   scene.film.crop = {0, 0, 1000, 500};
   const auto film = [&] { return part(plan_memory(scene, kTree), "film"); };

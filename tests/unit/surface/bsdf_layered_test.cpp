@@ -30,8 +30,8 @@ std::vector<LayeredCase> layered_cases() {
           {"metal, rough coat", CoatedConductorLobe{glass(1.5f, 0.32f, 0.32f), metal(0.45f, 0.45f), kThin}},
           {"metal, smooth coat", CoatedConductorLobe{glass(1.5f, 0, 0), metal(0.4f, 0.25f), kThin}},
           {"mirror, rough coat", CoatedConductorLobe{glass(1.4f, 0.4f, 0.4f), metal(0, 0), kThin}},
-          {"diffuse, one event", CoatedDiffuseLobe{glass(1.5f, 0.45f, 0.45f), {Rgb(0.7f)}, {.max_depth = 1}}},
-          {"diffuse, milky, three events",
+          {"diffuse, one bounce", CoatedDiffuseLobe{glass(1.5f, 0.45f, 0.45f), {Rgb(0.7f)}, {.max_depth = 1}}},
+          {"diffuse, milky, three bounces",
            CoatedDiffuseLobe{glass(1.5f, 0.4f, 0.4f), {Rgb(0.7f)}, {.thickness = 1, .albedo = Rgb(0.9f), .max_depth = 3}}}};
 }
 

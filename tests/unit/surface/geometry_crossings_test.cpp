@@ -201,7 +201,7 @@ TEST_CASE("trace, trace_shadow and trace_all tell one story") {
   CHECK(blocked > 1000);
 }
 
-TEST_CASE("the way through media ends at a boundary that is too near to the surface behind") {
+TEST_CASE("a segment through media ends at a boundary that is too near to the surface behind") {
   Scene scene = empty_scene();
   scene.shapes.push_back(make_shape(box_mesh(), {}, kInterface));
   TriangleMesh floor;  // so large that its place is known to 2e-3 only

@@ -8,7 +8,7 @@ using namespace tyndall::test;
 namespace {
 
 struct SelfHits {
-  int tried = 0, met = 0;
+  int candidate = 0, met = 0;
   float worst_offset = 0;  // relative to the scene's scale
 };
 
@@ -18,12 +18,12 @@ SelfHits count_self_hits(const Scene& scene, float size, Vec3 center, int rays) 
   const Geometry geometry(scene, nullptr, 1);
   Rng rng(21);
   SelfHits result;
-  while (result.tried < rays) {
+  while (result.candidate < rays) {
     const Vec3 from = random_direction(rng) * (3 * size);
     const Ray in{center + from, normalize(random_point(rng, 0.6f * size) - from)};
     const auto hit = geometry.trace(in, 0, kInfinity).hit;
     if (!hit) {
-      ++result.tried;
+      ++result.candidate;
       continue;
     }
     for (int k = 0; k < 4; ++k) {
@@ -31,7 +31,7 @@ SelfHits count_self_hits(const Scene& scene, float size, Vec3 center, int rays) 
       if (k == 3) d = normalize(cross(hit->ng, d) + hit->ng * between(rng, 1e-6f, 1e-3f));  // grazing
       if (dot(d, hit->ng) < 0) d = -d;
       const Vec3 origin = geometry.offset_origin(*hit, d);
-      ++result.tried;
+      ++result.candidate;
       result.met += geometry.trace({origin, d}, 0, kInfinity).hit.has_value();
       result.worst_offset = std::max(result.worst_offset, length(origin - hit->p) / size);
     }
@@ -42,7 +42,7 @@ SelfHits count_self_hits(const Scene& scene, float size, Vec3 center, int rays) 
 }  // namespace
 
 TEST_CASE("rays that leave a surface do not meet it again, at any scale and offset") {
-  int tried = 0;
+  int candidate = 0;
   for (const double scale : {1e-6, 1e-3, 1.0, 1e3, 1e6}) {
     for (const double offset : {0.0, 1e3, 1e6}) {
       if (offset * 1e-5 > scale) continue;  // the scene would be a handful of floats wide
@@ -63,7 +63,7 @@ TEST_CASE("rays that leave a surface do not meet it again, at any scale and offs
         const SelfHits result = count_self_hits(scene, static_cast<float>(scale), center, 14000);
         CHECK(result.met == 0);
         CHECK(result.worst_offset < 1e-4f + 1e-6f * static_cast<float>(offset / scale));
-        tried += result.tried;
+        candidate += result.candidate;
       };
       for (const bool as_instance : {false, true}) {
         check(make_shape(box_mesh(), turned), as_instance);
@@ -76,7 +76,7 @@ TEST_CASE("rays that leave a surface do not meet it again, at any scale and offs
       }
     }
   }
-  CHECK(tried > 1000000);
+  CHECK(candidate > 1000000);
 }
 
 TEST_CASE("position_error bounds the distance from p to the plane of its triangle") {
@@ -113,7 +113,7 @@ TEST_CASE("thin triangles are left cleanly too") {
   mesh.indices = {0, 1, 2};
   scene.shapes.push_back(make_shape(mesh, Transform::rotate(40, 1, 1, 0)));
   const Geometry geometry(scene, nullptr, 1);
-  int tried = 0, met = 0;
+  int candidate = 0, met = 0;
   for (int i = 0; i < 50000; ++i) {
     const float a = rng.uniform(), b = rng.uniform() * (1 - a);
     const Vec3 target =
@@ -122,9 +122,9 @@ TEST_CASE("thin triangles are left cleanly too") {
     const auto hit = geometry.trace({o, normalize(target - o)}, 0, kInfinity).hit;
     if (!hit) continue;
     const Vec3 d = random_direction(rng);
-    ++tried;
+    ++candidate;
     met += geometry.trace({geometry.offset_origin(*hit, d), d}, 0, kInfinity).hit.has_value();
   }
-  CHECK(tried > 5000);
+  CHECK(candidate > 5000);
   CHECK(met == 0);
 }

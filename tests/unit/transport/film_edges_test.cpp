@@ -1,4 +1,4 @@
-/// Edges of shining surfaces on the film, by brute force.
+/// Edges of emitters on the film, by brute force.
 #include "transport/film_edges.h"
 
 #include <doctest/doctest.h>
@@ -12,7 +12,7 @@
 namespace tyndall {
 namespace {
 
-/// Some dark, some of two lamps that are a little and much apart.
+/// Most of it dark, with emitters whose brightness differs a little and much.
 std::vector<float> random_brightness(const PixelBounds& pixels, Rng& rng) {
   std::vector<float> brightness(pixels.size());
   for (float& b : brightness) {
@@ -56,7 +56,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("where nothing shines, or all shines alike, there are no edges") {
+TEST_CASE("where nothing emits, or all emits alike, there are no edges") {
   const FilmEdges::View view{{0, 0, 6, 5}, {1.5f, 1.5f}};
   for (const float everywhere : {0.0f, 7.0f}) {
     const FilmEdges none(view, std::vector<float>(view.around().size(), everywhere));

@@ -9,19 +9,19 @@
 namespace tyndall {
 namespace {
 
-/// Counts in a world with as many point lights, and a lamp with an area or none.
+/// Counts in a world with as many point lights, and an area light or none.
 class Counted {
  public:
-  Counted(int points, bool lamp) : world_(test::world_of(scene(points, lamp), {})) {}
+  Counted(int points, bool area_light) : world_(test::world_of(scene(points, area_light), {})) {}
 
   /// `lobe`: its share of what is scattered.
-  LightCounts vertex(const RenderSettings& settings, int event, float lobe = 0) {
+  LightCounts vertex(const RenderSettings& settings, int bounce, float lobe = 0) {
     PointQuery query{.p = {0, 0, 0}, .n = {0, 0, -1}, .diffuse = 1 - lobe};
     query.lobe_count = lobe > 0 ? 1 : 0;
-    return counts_at_vertex(context(settings, event), query);
+    return counts_at_vertex(context(settings, bounce), query);
   }
-  SpanCounts span(const RenderSettings& settings, int event, float scattered, float depth = 1) {
-    return counts_along_span(context(settings, event), scattered, depth);
+  SpanCounts span(const RenderSettings& settings, int bounce, float scattered, float depth = 1) {
+    return counts_along_span(context(settings, bounce), scattered, depth);
   }
 
   float splitting(const RenderSettings& settings, int candidates) {
@@ -29,14 +29,14 @@ class Counted {
   }
 
  private:
-  static std::string scene(int points, bool lamp) {
+  static std::string scene(int points, bool area_light) {
     std::string text = test::sphere_scene(4, 4);
     for (int i = 1; i < points; ++i) text += "LightSource \"point\" \"point3 from\" [2 0 " + std::to_string(i) + "]\n";
-    if (lamp) text += "AreaLightSource \"diffuse\"\nShape \"sphere\" \"float radius\" 0.1\n";
+    if (area_light) text += "AreaLightSource \"diffuse\"\nShape \"sphere\" \"float radius\" 0.1\n";
     return text;
   }
-  LightContext context(const RenderSettings& settings, int event) {
-    return {world_.parts().built, world_.parts().built.lights.selector(settings.lights), settings, sampler_, counters_, event};
+  LightContext context(const RenderSettings& settings, int bounce) {
+    return {world_.parts().built, world_.parts().built.lights.selector(settings.lights), settings, sampler_, counters_, bounce};
   }
 
   World world_;
@@ -49,25 +49,25 @@ void check(LightCounts counts, int candidates, int shadow_rays) {
   CHECK(counts.shadow_rays == shadow_rays);
 }
 
-TEST_CASE("events look at more lights where less follows them, and on glossy surfaces") {
+TEST_CASE("single scattering has more candidates, and so have glossy surfaces") {
   Counted many(8, true);
   RenderSettings deep, direct;
   deep.max_depth = 5;
   direct.max_depth = 1;
-  for (const int event : {0, 1, 4}) {
-    check(many.vertex(deep, event), 2, 2);
-    check(many.vertex(deep, event, 0.9f), 4, 2);
-    check(many.vertex(deep, event, 0.1f), 2, 2);  // coated
-    check(many.span(deep, event, 0.5f), 3, 2);
+  for (const int bounce : {0, 1, 4}) {
+    check(many.vertex(deep, bounce), 2, 2);
+    check(many.vertex(deep, bounce, 0.9f), 4, 2);
+    check(many.vertex(deep, bounce, 0.1f), 2, 2);  // coated
+    check(many.span(deep, bounce, 0.5f), 3, 2);
   }
   check(many.vertex(direct, 0), 8, 0);
   check(many.vertex(direct, 0, 0.9f), 8, 0);
   check(many.span(direct, 0, 0.5f), 16, 0);
 }
 
-TEST_CASE("stretches that scatter next to nothing look at one light") { check(Counted(3, true).span({}, 0, 0.9e-3f), 1, 1); }
+TEST_CASE("segments that scatter next to nothing have one candidate") { check(Counted(3, true).span({}, 0, 0.9e-3f), 1, 1); }
 
-TEST_CASE("stretches that scatter little look seldom, but on the only event and where candidates are counted") {
+TEST_CASE("segments that scatter little seldom have pairs, but in single scattering and where candidates are set") {
   Counted many(3, true);
   RenderSettings direct, set;
   direct.max_depth = 1;
@@ -75,12 +75,12 @@ TEST_CASE("stretches that scatter little look seldom, but on the only event and 
   CHECK(many.span({}, 0, 0.5f).chance == 1);
   CHECK(many.span({}, 0, 0.05f).chance == doctest::Approx(0.5));
   CHECK(many.span({}, 2, 1e-4f).chance == 1 / 16.0f);
-  CHECK(many.span({}, 0, 0).chance == 1 / 16.0f);  // perhaps there is something that was not looked at
+  CHECK(many.span({}, 0, 0).chance == 1 / 16.0f);  // perhaps the coarse profile has missed something
   CHECK(many.span(direct, 0, 0.05f).chance == 1);
   CHECK(many.span(set, 0, 0.05f).chance == 1);
 }
 
-TEST_CASE("along dense stretches candidates are looked at from two distances where nothing follows") {
+TEST_CASE("along dense segments candidates have two distances in single scattering") {
   Counted many(3, true);
   RenderSettings direct, set;
   direct.max_depth = set.max_depth = 1;
@@ -94,15 +94,15 @@ TEST_CASE("along dense stretches candidates are looked at from two distances whe
   CHECK(many.span(set, 0, 0.9f, 10).distances == 1);  // as many pairs as were asked for
 }
 
-TEST_CASE("from one point a light without extent is looked at once") {
+TEST_CASE("at one point a light without extent is one candidate") {
   RenderSettings direct;
   direct.max_depth = 1;
   check(Counted(5, false).vertex(direct, 0), 5, 0);
   check(Counted(5, true).vertex(direct, 0), 8, 0);
-  check(Counted(1, false).span(direct, 0, 0.5f), 16, 0);  // from several points along the stretch
+  check(Counted(1, false).span(direct, 0, 0.5f), 16, 0);  // from several points along the segment
 }
 
-TEST_CASE("few lights need few looks, unless the path ends there") {
+TEST_CASE("few lights need few candidates, unless the path ends there") {
   RenderSettings deep, direct;
   deep.max_depth = 5;
   direct.max_depth = 1;
@@ -132,10 +132,10 @@ TEST_CASE("what is set holds everywhere") {
   RenderSettings set;
   set.candidates = 12;
   set.shadow_rays = 0;
-  for (const int event : {0, 1}) {
-    check(many.vertex(set, event), 12, 0);
-    check(many.vertex(set, event, 0.9f), 12, 0);
-    for (const float scattered : {0.5f, 1e-5f}) check(many.span(set, event, scattered), 12, 0);
+  for (const int bounce : {0, 1}) {
+    check(many.vertex(set, bounce), 12, 0);
+    check(many.vertex(set, bounce, 0.9f), 12, 0);
+    for (const float scattered : {0.5f, 1e-5f}) check(many.span(set, bounce, scattered), 12, 0);
   }
 }
 

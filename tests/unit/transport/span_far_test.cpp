@@ -9,14 +9,14 @@
 namespace tyndall {
 namespace {
 
-/// A world with the lights of `text`, asked about stretches of homogeneous media on the z axis from -1 on.
+/// A world with the lights of `text`, asked about segments of homogeneous media on the z axis from -1 on.
 /// All in the units of the scene.
 class Asked {
  public:
   explicit Asked(const std::string& text) : world_(test::world_of("Camera \"perspective\"\nWorldBegin\n" + text, {})) {}
 
-  /// A stretch of `length` from there on, in two parts.
-  bool suffice(float sigma_s, float length = 2, const RenderSettings& settings = {}, int event = 1) {
+  /// A segment of `length` from there on, in two parts.
+  bool suffice(float sigma_s, float length = 2, const RenderSettings& settings = {}, int bounce = 1) {
     const float unit = world_.parts().unit;
     const ParticipatingMedium medium = fog(sigma_s * unit);
     Span span;
@@ -28,7 +28,7 @@ class Asked {
       part.t1 = t1 / unit;
       part.media.push_back(&medium);
     }
-    return collisions_suffice(context(settings, event), span);
+    return collisions_suffice(context(settings, bounce), span);
   }
 
   /// The same in one part, known by the box around it.
@@ -50,8 +50,8 @@ class Asked {
     description.optics.sigma_s = Rgb(sigma_s);
     return build_medium(description, {}, notes);
   }
-  LightContext context(const RenderSettings& settings, int event) {
-    return {world_.parts().built, world_.parts().built.lights.selector(settings.lights), settings, sampler_, counters_, event};
+  LightContext context(const RenderSettings& settings, int bounce) {
+    return {world_.parts().built, world_.parts().built.lights.selector(settings.lights), settings, sampler_, counters_, bounce};
   }
 
   World world_;
@@ -60,28 +60,28 @@ class Asked {
 };
 
 constexpr const char* kSun = "LightSource \"distant\"\n";
-constexpr const char* kLamp = "LightSource \"point\" \"point3 from\" [10 0 0]\n";
-constexpr const char* kLampWithin = "LightSource \"point\" \"point3 from\" [0.5 0 0]\n";
+constexpr const char* kPoint = "LightSource \"point\" \"point3 from\" [10 0 0]\n";
+constexpr const char* kPointWithin = "LightSource \"point\" \"point3 from\" [0.5 0 0]\n";
 
-TEST_CASE("collisions suffice in dense stretches, all lights far from them") {
+TEST_CASE("collisions suffice in dense segments, all lights far from them") {
   CHECK(Asked(kSun).suffice(2));
   CHECK_FALSE(Asked(kSun).suffice(0.9f));
-  CHECK(Asked(kLamp).suffice(2));
-  CHECK_FALSE(Asked(kLamp).suffice(2, 20));  // beside it now
-  CHECK_FALSE(Asked(kLampWithin).suffice(2));
-  CHECK_FALSE(Asked(std::string(kSun) + kLamp + kLampWithin).suffice(2));
+  CHECK(Asked(kPoint).suffice(2));
+  CHECK_FALSE(Asked(kPoint).suffice(2, 20));  // beside it now
+  CHECK_FALSE(Asked(kPointWithin).suffice(2));
+  CHECK_FALSE(Asked(std::string(kSun) + kPoint + kPointWithin).suffice(2));
   CHECK(Asked("Translate 0 0 30\nAreaLightSource \"diffuse\"\nShape \"sphere\" \"float radius\" 10\n").suffice(2));
   CHECK_FALSE(Asked("Translate 0 0 11\nAreaLightSource \"diffuse\"\nShape \"sphere\" \"float radius\" 10\n").suffice(2));
 }
 
-TEST_CASE("a stretch without end is near every light but those at infinity") {
+TEST_CASE("a segment without end is near every light but those at infinity") {
   CHECK(Asked(kSun).suffice(1, kInfinity));
-  CHECK_FALSE(Asked(kLamp).suffice(1, kInfinity));
+  CHECK_FALSE(Asked(kPoint).suffice(1, kInfinity));
 }
 
-TEST_CASE("collisions suffice after the first event in media that are all but opaque among the lights") {
-  const std::string lamp = "LightSource \"point\" \"point3 from\" ";
-  Asked pair(lamp + "[0.5 0 -1]\n" + lamp + "[0.5 0 9]\n");
+TEST_CASE("collisions suffice after the first bounce in media that are all but opaque among the lights") {
+  const std::string point = "LightSource \"point\" \"point3 from\" ";
+  Asked pair(point + "[0.5 0 -1]\n" + point + "[0.5 0 9]\n");
   const RenderSettings settings;
   CHECK(pair.suffice(1, 9, settings, 1));
   CHECK_FALSE(pair.suffice(1, 9, settings, 0));
@@ -93,35 +93,35 @@ TEST_CASE("collisions suffice after the first event in media that are all but op
   CHECK_FALSE(pair.suffice_inside(0.7f, 90));
 }
 
-TEST_CASE("collisions suffice in dense stretches that no lamp comes close to before they are opaque") {
+TEST_CASE("collisions suffice in dense segments that no light comes close to before they are opaque") {
   const std::string place =
       "MakeNamedMedium \"m\" \"string type\" \"homogeneous\"\nAttributeBegin\nMaterial \"interface\"\n"
       "MediumInterface \"m\" \"\"\nShape \"sphere\" \"float radius\" 2\nAttributeEnd\n";
-  const auto lamp = [](const std::string& at) { return "LightSource \"point\" \"point3 from\" [" + at + "]\n"; };
-  const std::string beside = lamp("0.5 0 -1") + lamp("-0.5 0 1");
+  const auto point = [](const std::string& at) { return "LightSource \"point\" \"point3 from\" [" + at + "]\n"; };
+  const std::string beside = point("0.5 0 -1") + point("-0.5 0 1");
   Asked aside(place + beside);
   CHECK(aside.suffice(5, 2, {}, 0));
   CHECK_FALSE(aside.suffice(0.9f, 2, {}, 0));       // few collide
-  CHECK_FALSE(aside.suffice(1.2f, 2, {}, 0));       // in as far as one sees, a lamp is close
+  CHECK_FALSE(aside.suffice(1.2f, 2, {}, 0));       // within what is not opaque, a light is close
   CHECK_FALSE(aside.suffice(0.45f, 2, {}, 1));      // later, fewer are enough,
-  CHECK(aside.suffice(0.6f, 2, {}, 1));             // and lamps may be closer
-  CHECK_FALSE(aside.suffice(5, kInfinity, {}, 0));  // looks would be infinitely far apart
-  CHECK_FALSE(Asked(place + beside + lamp("0 0.05 -0.8")).suffice(5, 2, {}, 0));
-  CHECK(Asked(place + beside + lamp("0 0.05 0.8")).suffice(5, 2, {}, 0));  // behind what is opaque
-  CHECK_FALSE(Asked(beside).suffice(5, 2, {}, 0));                         // no medium of the world has bounds
+  CHECK(aside.suffice(0.6f, 2, {}, 1));             // and lights may be closer
+  CHECK_FALSE(aside.suffice(5, kInfinity, {}, 0));  // places to ask at would be infinitely far apart
+  CHECK_FALSE(Asked(place + beside + point("0 0.05 -0.8")).suffice(5, 2, {}, 0));
+  CHECK(Asked(place + beside + point("0 0.05 0.8")).suffice(5, 2, {}, 0));  // behind what is opaque
+  CHECK_FALSE(Asked(beside).suffice(5, 2, {}, 0));                          // no medium of the world has bounds
 }
 
-TEST_CASE("of a ray in media, its stretch to the end of their boxes counts") {
-  Asked sun(kSun), lamp(kLamp);
+TEST_CASE("of a ray in media, its segment to the end of their boxes counts") {
+  Asked sun(kSun), point(kPoint);
   for (const float sigma : {0.2f, 2.0f}) {
     for (const float length : {2.0f, 20.0f}) {
       CHECK(sun.suffice_inside(sigma, length) == (sigma * length > 2));
-      CHECK(lamp.suffice_inside(sigma, length) == (sigma * length > 2 && length == 2));
+      CHECK(point.suffice_inside(sigma, length) == (sigma * length > 2 && length == 2));
     }
   }
 }
 
-TEST_CASE("methods that are asked for are not replaced, nor the many pairs of paths of one event") {
+TEST_CASE("methods that are asked for are not replaced, nor the many pairs of single scattering") {
   Asked sun(kSun);
   RenderSettings profile, closest, direct;
   profile.distance = DistanceStrategy::profile;

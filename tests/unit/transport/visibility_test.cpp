@@ -27,7 +27,7 @@ TEST_CASE("shadow rays: through homogeneous fog exp(-sigma_t d) passes, all the 
   const Vec3 origin = parts.to_user.inverse().point({0, 0, 0});
   for (const float d : {0.01f, 0.5f, 2.0f, 8.0f}) {
     const Rgb T = visibility(context, parts.built.camera_media, origin, {-1, 0, 0}, d / parts.unit, sampler);
-    // The way ends at the light, not where the search for occluders does, 1e-4 before it.
+    // The segment ends at the light, not where the search for occluders does, 1e-4 before it.
     for (const auto& [channel, sigma_t] : {std::pair{T.r, 0.4}, {T.g, 1.0}, {T.b, 2.3}}) {
       CHECK(std::log(double{channel}) == doctest::Approx(-sigma_t * d).epsilon(1e-5));
     }

@@ -105,8 +105,8 @@ CoarseOptics coarse_optics(MediaView media, Vec3 p) { return CoarseRay(media, {p
 
 TEST_CASE("coarse optics are channel means: exact for homogeneous media, sums where media overlap, nothing outside") {
   const auto fog = test::homogeneous({{0.1f, 0.2f, 0.6f}, {1, 2, 6}, 0.5f});
-  const auto smoke = hills({{3, 0, 0}, {6, 6, 0}, 0}), glow = hills({Rgb{2.0f}, {}, 0});
-  const ParticipatingMedium *a[] = {&fog}, *b[] = {&smoke}, *all[] = {&fog, &smoke, &glow};
+  const auto smoke = hills({{3, 0, 0}, {6, 6, 0}, 0}), emissive = hills({Rgb{2.0f}, {}, 0});
+  const ParticipatingMedium *a[] = {&fog}, *b[] = {&smoke}, *all[] = {&fog, &smoke, &emissive};
   const Vec3 inside{0.1f, -0.2f, 0.3f}, outside{0, 0, 1.5f};
   CHECK(coarse_optics(a, inside).sigma_t == doctest::Approx(3.3));
   CHECK(coarse_optics(a, inside).sigma_s == doctest::Approx(3));
@@ -119,7 +119,7 @@ TEST_CASE("coarse optics are channel means: exact for homogeneous media, sums wh
   const Coefficients exact = smoke.at(inside);
   CHECK(coarse_optics(b, inside).sigma_t == doctest::Approx(mean(exact.sigma_t())).epsilon(0.1));
   CHECK(coarse_optics(b, inside).sigma_s == doctest::Approx(mean(exact.sigma_s)).epsilon(0.1));
-  const ParticipatingMedium* c[] = {&glow};
+  const ParticipatingMedium* c[] = {&emissive};
   CHECK(coarse_optics(c, inside).sigma_t > 0);
   CHECK(coarse_optics(c, inside).sigma_s == 0);
   CHECK(coarse_optics(all, inside).sigma_t ==

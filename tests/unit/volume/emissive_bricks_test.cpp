@@ -1,4 +1,4 @@
-/// Bricks that glow: what they emit against integration, and the points drawn in them against their density along rays.
+/// Bricks that emit: their intensity against integration, and the points drawn in them against their density along rays.
 #include "volume/emissive_bricks.h"
 
 #include <doctest/doctest.h>
@@ -26,7 +26,7 @@ Transform skewed() {
          Transform::rotate(20, 0, 1, 1);
 }
 
-ParticipatingMedium fire(const Transform& to_world = {}) { return clumpy(kHot, 3, kLe, to_world); }
+ParticipatingMedium emissive_clumps(const Transform& to_world = {}) { return clumpy(kHot, 3, kLe, to_world); }
 
 Vec3 random_point(const Bounds3& box, Rng& rng) {
   return box.min + box.extent() * Vec3{rng.uniform(), rng.uniform(), rng.uniform()};
@@ -55,7 +55,7 @@ double brute_intensity(const ParticipatingMedium& medium) {
 
 /// A medium straight from voxels, of sigma_a 1 and Le 1; where `temperatures` are given they make the light instead. It
 /// ends so many cells within the grid.
-ParticipatingMedium glowing(const VoxelSource& source, const VoxelSource* temperatures = nullptr, double margin = 0) {
+ParticipatingMedium emissive(const VoxelSource& source, const VoxelSource* temperatures = nullptr, double margin = 0) {
   auto data = std::make_unique<MediumData>();
   const auto place = [](const VoxelSource& from) {
     PlacedGrid placed{build_brick_grid(from, {}), {}};
@@ -108,7 +108,7 @@ Brute brute_along(const EmissiveBricks& bricks, const Ray& ray, double length) {
 
 TEST_CASE("emissive bricks: what they emit together is what the medium emits") {
   for (const Transform& to_world : {Transform(), skewed()}) {
-    const ParticipatingMedium medium = fire(to_world);
+    const ParticipatingMedium medium = emissive_clumps(to_world);
     const EmissiveBricks bricks(medium);
     REQUIRE(bricks.size() > 20);
     CHECK(total_intensity(bricks) == doctest::Approx(brute_intensity(medium)).epsilon(0.01));
@@ -116,7 +116,7 @@ TEST_CASE("emissive bricks: what they emit together is what the medium emits") {
 }
 
 TEST_CASE("emissive bricks: too many are gathered into larger ones that emit the same") {
-  const ParticipatingMedium medium = fire(skewed());
+  const ParticipatingMedium medium = emissive_clumps(skewed());
   const EmissiveBricks fine(medium), coarse(medium, 30), one(medium, 1);
   CHECK(coarse.size() <= 30);
   CHECK(coarse.size() > 1);
@@ -128,7 +128,7 @@ TEST_CASE("emissive bricks: too many are gathered into larger ones that emit the
 TEST_CASE("emissive bricks: a large box of one value is not taken apart") {
   OracleSource box;
   box.add_tile({0, 0, 0}, {511, 511, 511}, 1);
-  const ParticipatingMedium medium = glowing(box, nullptr, 60);
+  const ParticipatingMedium medium = emissive(box, nullptr, 60);
   const Vec3 middle{255.5f, 255.5f, 255.5f};
   for (const std::size_t most : {EmissiveBricks::kMost, std::size_t{500}, std::size_t{1}}) {
     const EmissiveBricks bricks(medium, most);
@@ -141,11 +141,11 @@ TEST_CASE("emissive bricks: a large box of one value is not taken apart") {
   }
 }
 
-TEST_CASE("emissive bricks: a small fire in a large box of one density") {
-  OracleSource box, fire;
+TEST_CASE("emissive bricks: a small hot part in a large box of one density") {
+  OracleSource box, hot;
   box.add_tile({0, 0, 0}, {511, 511, 511}, 1);
-  fire.add_tile({200, 200, 200}, {215, 215, 215}, 3000);
-  const ParticipatingMedium medium = glowing(box, &fire);
+  hot.add_tile({200, 200, 200}, {215, 215, 215}, 3000);
+  const ParticipatingMedium medium = emissive(box, &hot);
   const EmissiveBricks bricks(medium), few(medium, 3);
   CHECK(bricks.size() >= 8);
   CHECK(bricks.size() <= 27);
@@ -155,7 +155,7 @@ TEST_CASE("emissive bricks: a small fire in a large box of one density") {
   CHECK(total_intensity(few) == doctest::Approx(total_intensity(bricks)).epsilon(1e-5));
 }
 
-TEST_CASE("emissive bricks: fires at the ends of index space") {
+TEST_CASE("emissive bricks: emission at the ends of index space") {
   OracleSource near, both;
   const auto blob = [](std::int64_t x, std::int64_t y, std::int64_t z) {
     const auto inside = [](std::int64_t i) { return (i & 7) >= 2 && (i & 7) <= 5; };
@@ -165,7 +165,7 @@ TEST_CASE("emissive bricks: fires at the ends of index space") {
   near.add_leaf({0, 0, 0}, blob);
   both.add_leaf({0, 0, 0}, blob);
   both.add_leaf({far, far, far}, blob);
-  const EmissiveBricks one(glowing(near)), two(glowing(both));
+  const EmissiveBricks one(emissive(near)), two(emissive(both));
   CHECK(one.size() == 1);
   CHECK(total_intensity(one) == doctest::Approx(64).epsilon(1e-3));
   REQUIRE(two.size() == 2);
@@ -182,7 +182,7 @@ TEST_CASE("emissive bricks: none without emission, without a grid, or where noth
 
 TEST_CASE("emissive bricks: integrals along rays") {
   Rng rng(5);
-  const ParticipatingMedium medium = fire(skewed());
+  const ParticipatingMedium medium = emissive_clumps(skewed());
   for (const std::size_t most : {EmissiveBricks::kMost, std::size_t{20}}) {
     const EmissiveBricks bricks(medium, most);
     const Bounds3 box = medium.bounds();
@@ -219,7 +219,7 @@ TEST_CASE("emissive bricks: rays along axes, in faces and from corners tile what
 }
 
 TEST_CASE("emissive bricks: directions of the points drawn follow the density along rays, from without and from within") {
-  const ParticipatingMedium medium = fire(skewed());
+  const ParticipatingMedium medium = emissive_clumps(skewed());
   const EmissiveBricks bricks(medium, 30);
   const auto brick = static_cast<std::uint32_t>(bricks.size() / 2);
   const Vec3 center = bricks.box(brick).center(), size = bricks.box(brick).extent();

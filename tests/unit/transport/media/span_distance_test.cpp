@@ -24,13 +24,13 @@ ParticipatingMedium homogeneous(float sigma_s) {
   return build_medium(medium, {}, notes);
 }
 
-/// Two stretches of a ray, the second denser, with a gap in between; or one without an end.
+/// Two intervals of a ray, the second denser, with a gap in between; or one without an end.
 struct Case {
   std::vector<ParticipatingMedium> media;
   Span span;
 };
 
-Case two_stretches(float scale) {
+Case two_intervals(float scale) {
   Case c;
   c.media.push_back(homogeneous(0.5f / scale));
   c.media.push_back(homogeneous(4 / scale));
@@ -48,7 +48,7 @@ Case two_stretches(float scale) {
 }
 
 /// From 1 to `border` one medium, from there on without end another.
-Case touching_stretches(float sigma_s, float border, float sigma_s_behind) {
+Case touching_intervals(float sigma_s, float border, float sigma_s_behind) {
   Case c;
   for (const float sigma : {sigma_s, sigma_s_behind}) c.media.push_back(homogeneous(sigma));
   c.span.ray = {{0, 0, 0}, {0, 0, 1}};
@@ -64,11 +64,11 @@ Case touching_stretches(float sigma_s, float border, float sigma_s_behind) {
   return c;
 }
 
-/// Nothing is seen of the fog behind, in numbers: the way through the box is beyond what exp() holds.
-Case box_before_endless_fog() { return touching_stretches(2, 101, 0.01f); }
+/// Nothing is seen of the fog behind, in numbers: the optical depth of the box is beyond what exp() holds.
+Case box_before_endless_fog() { return touching_intervals(2, 101, 0.01f); }
 
-Case one_stretch(float length) {
-  Case c = two_stretches(length / 3);
+Case one_interval(float length) {
+  Case c = two_intervals(length / 3);
   c.span.parts.erase(c.span.parts.begin() + 1);
   c.span.parts[0].t0 = 0;
   c.span.parts[0].t1 = c.span.t_end = length;
@@ -181,7 +181,7 @@ TEST_CASE("out of media it is twice as far as to their nearer end on the span") 
       CHECK(coarse.escape[j] == test::relative(expected).epsilon(1e-4));
     }
   };
-  Case c = two_stretches(1);
+  Case c = two_intervals(1);
   check(c, true, true);
   c.span.t_end = 8;  // a surface in the medium
   check(c, true, false);
@@ -192,8 +192,8 @@ TEST_CASE("out of media it is twice as far as to their nearer end on the span") 
   for (const float escape : SpanProfile::of(endless(1).span)->coarse(0).escape) CHECK(escape == kInfinity);
 }
 
-TEST_CASE("a profile is of what scatters: not of clear stretches, nor of fog without coefficients") {
-  Case c = touching_stretches(0.5f, 4, 0);
+TEST_CASE("a profile is of what scatters: not of clear intervals, nor of fog without coefficients") {
+  Case c = touching_intervals(0.5f, 4, 0);
   const auto profile = SpanProfile::of(c.span);
   REQUIRE(profile);
   CHECK(profile->begin() == 1);
@@ -212,16 +212,16 @@ TEST_CASE("distances toward lights follow their density") {
                                        {Vec3(0, 0, 5.5f), 0},
                                        {Vec3(2, 1, -30), 0},
                                        {std::nullopt, 0},
-                                       // Flat ones that face along the ray, against it, both ways; a beam across it.
+                                       // Flat ones that face along the ray, against it, both sides; a beam across it.
                                        {.center = Vec3(0.5f, 0, 2.2f), .radius = 0.1f, .normal = {-0.6f, 0, 0.8f}},
                                        {.center = Vec3(0.5f, 1, 7.1f), .radius = 0.1f, .normal = {0, -0.6f, -0.8f}},
                                        {.center = Vec3(0.5f, 0, 2), .normal = {0.6f, 0, 0.8f}, .two_sided = true},
                                        {.center = Vec3(3, 0, 0), .beam = DirectionCone::around({-0.6f, 0, 0.8f}, 0.2f)}};
   int seed = 0;
   using Bins = SpanProfile::Bins;
-  for (const auto& [make, bins] : {std::pair{+[] { return two_stretches(1); }, Bins::many},
+  for (const auto& [make, bins] : {std::pair{+[] { return two_intervals(1); }, Bins::many},
                                    {+[] { return endless(0.7f); }, Bins::many},
-                                   {+[] { return two_stretches(1); }, Bins::few},
+                                   {+[] { return two_intervals(1); }, Bins::few},
                                    {+[] { return box_before_endless_fog(); }, Bins::many},
                                    {+[] { return box_before_endless_fog(); }, Bins::few}}) {
     const Case c = make();
@@ -254,9 +254,9 @@ TEST_CASE("what lies behind a box that nothing gets through keeps its place") {
   }
 }
 
-TEST_CASE("distances toward a flat light go by the cosine at it, and none is where it does not shine") {
+TEST_CASE("distances toward a flat light go by the cosine at it, and none is where no light arrives") {
   // Against an even light of the same place, in a clear medium: the squared weight of cos / r^2, which is 1 at best.
-  const Case c = one_stretch(6);
+  const Case c = one_interval(6);
   const auto profile = SpanProfile::of(c.span);
   REQUIRE(profile);
   Rng rng(11);
@@ -313,7 +313,7 @@ TEST_CASE("distances stay sound at every scale") {
   for (int k = -30; k <= 30; k += 5) {
     CAPTURE(k);
     const float scale = std::ldexp(1.0f, k);
-    const Case c = two_stretches(scale);
+    const Case c = two_intervals(scale);
     const auto profile = SpanProfile::of(c.span);
     REQUIRE(profile);
     Rng rng(7);
@@ -336,9 +336,9 @@ TEST_CASE("distances stay sound at every scale") {
   }
 }
 
-TEST_CASE("the equi-angular density keeps its digits for short stretches far away and long ones close by") {
+TEST_CASE("the equi-angular density keeps its digits for short segments far away and long ones close by") {
   for (const float length : {1e-6f, 1e-3f, 1.0f, 1e3f, 1e6f}) {
-    const Case c = one_stretch(length);
+    const Case c = one_interval(length);
     const auto profile = SpanProfile::of(c.span);
     REQUIRE(profile);
     for (const float off : {1e-6f, 1e-3f, 1.0f, 1e3f, 1e6f}) {

@@ -1,0 +1,41 @@
+#include "session/resolved_settings.h"
+
+#include "tyndall/error.h"
+
+namespace tyndall {
+namespace {
+
+void check(const RenderSettings& settings) {
+  sample_range(settings);  // throws when there are none
+  if (settings.spp < 1) throw Error(Failure::usage, "spp is " + std::to_string(settings.spp) + "; give 1 or more");
+  if (settings.candidates && *settings.candidates < 0) throw Error(Failure::usage, "candidates is negative; give 0 or more");
+  if (settings.splitting && !(*settings.splitting >= 0 && *settings.splitting <= 1))
+    throw Error(Failure::usage, "splitting must be from 0 to 1");
+  const bool along_spans = settings.distance != DistanceStrategy::automatic && settings.distance != DistanceStrategy::tracking;
+  if (settings.media == MediaStrategy::vertex && along_spans) {
+    throw Error(Failure::usage,
+                "media vertex chooses a light at a collision that has been tracked, so its distance is tracking; "
+                "leave distance out, or choose media closest, integral or product");
+  }
+  if (settings.shadow_rays && *settings.shadow_rays < 0) throw Error(Failure::usage, "shadow rays is negative; give 0 or more");
+  if (settings.max_depth < 0) throw Error(Failure::usage, "max depth is negative; give 0 or more");
+  if (settings.error && !(*settings.error > 0)) throw Error(Failure::usage, "error must be positive; give a relMSE");
+  if (settings.time && !(*settings.time > 0)) throw Error(Failure::usage, "time must be positive; give seconds");
+}
+
+}  // namespace
+
+RenderSettings resolved(RenderSettings settings, const World::Parts& world) {
+  check(settings);
+  world.built.lights.selector(settings.lights);  // throws when it was not built
+  if (settings.emission == EmissionStrategy::lights && !world.built.has_volume_lights)
+    throw Error(Failure::usage, "the world was not built for emission as lights; set BuildSettings::volume_lights");
+  // Settings that stand for other programs' methods have neither guiding nor joint sampling.
+  const bool ours = settings.media == MediaStrategy::product;
+  if (settings.guiding == GuidingStrategy::automatic) settings.guiding = ours ? GuidingStrategy::media : GuidingStrategy::off;
+  if (settings.joint == JointStrategy::automatic) settings.joint = ours ? JointStrategy::points : JointStrategy::off;
+  if (settings.media == MediaStrategy::vertex) settings.distance = DistanceStrategy::tracking;
+  return settings;
+}
+
+}  // namespace tyndall

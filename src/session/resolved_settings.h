@@ -1,0 +1,11 @@
+/// Settings that have been looked at, with the methods that "auto" stands for.
+#pragma once
+
+#include "session/world_parts.h"
+
+namespace tyndall {
+
+/// Throws Error (usage) for settings that cannot be, or that the world was not built for.
+RenderSettings resolved(RenderSettings settings, const World::Parts& world);
+
+}  // namespace tyndall

@@ -1,0 +1,85 @@
+#include <algorithm>
+#include <sstream>
+
+#include "session/film_buffer.h"
+#include "session/slice_header.h"
+#include "tyndall/error.h"
+#include "tyndall/slice.h"
+
+namespace tyndall {
+namespace {
+
+Film film_of(const Image& header, const std::string& path) {
+  Film film;
+  film.width = header.display.width();
+  film.height = header.display.height();
+  if (header.chromaticities) film.chromaticities = *header.chromaticities;
+  const auto* rows = header.attribute<std::array<float, 16>>(kFilmSpace);
+  if (!rows) refuse_slice(path, "has no attribute " + std::string(kFilmSpace));
+  std::copy_n(rows->begin(), film.from_rec709.size(), film.from_rec709.begin());
+  return film;
+}
+
+std::vector<std::string> split(const std::string& list) {
+  std::vector<std::string> names;
+  std::istringstream stream(list);
+  for (std::string name; std::getline(stream, name, ',');) names.push_back(name);
+  return names;
+}
+
+/// Those that `asked` names, and what merging tells besides.
+std::vector<Aov> aovs_of(std::vector<std::string> asked, const std::string& path) {
+  asked.insert(asked.end(), {"Variance", "SampleCount"});
+  try {
+    return parse_aovs(asked);
+  } catch (const Error&) {
+    refuse_slice(path, "attribute " + std::string(kAovs) + " names channels that this Tyndall does not know");
+  }
+}
+
+}  // namespace
+
+class SliceSum::Impl {
+ public:
+  Impl(const Image& header, const std::string& path)
+      : asked_(split(text_attribute(header, path, kAovs))), film_(film_of(header, path), header.data, aovs_of(asked_, path)) {}
+
+  void add(const Image& slice, const std::string& path) {
+    const auto info = slice_info(slice, path);
+    if (!info || slice.data != film_.crop()) refuse_slice(path, "is no slice of these");
+    if (!film_.has_sums(slice) || hash_of_sums(slice) != text_attribute(slice, path, kSumHash))
+      refuse_slice(path, "is damaged: its sums do not fit their checksum");
+    film_.add_sums(slice);
+    samples_ += info->range.count;
+  }
+
+  Image image(bool with_variance) const {
+    Image image = film_.image(samples_);
+    if (with_variance) return image;
+    const auto asked = [&](const std::string& aov) { return std::find(asked_.begin(), asked_.end(), aov) != asked_.end(); };
+    std::erase_if(image.channels, [&](const Channel& c) {
+      return (c.name.starts_with("Variance.") && !asked("Variance")) || (c.name == "SampleCount" && !asked("SampleCount"));
+    });
+    return image;
+  }
+
+  int samples() const { return samples_; }
+  double estimated_relmse() const { return film_.estimated_relmse(samples_); }
+
+ private:
+  std::vector<std::string> asked_;
+  FilmBuffer film_;
+  int samples_ = 0;
+};
+
+SliceSum::SliceSum(const Image& header, const std::string& path) : impl_(std::make_unique<Impl>(header, path)) {}
+SliceSum::SliceSum(SliceSum&&) noexcept = default;
+SliceSum& SliceSum::operator=(SliceSum&&) noexcept = default;
+SliceSum::~SliceSum() = default;
+
+void SliceSum::add(const Image& slice, const std::string& path) { impl_->add(slice, path); }
+int SliceSum::samples() const { return impl_->samples(); }
+double SliceSum::estimated_relmse() const { return impl_->estimated_relmse(); }
+Image SliceSum::image(bool with_variance) const { return impl_->image(with_variance); }
+
+}  // namespace tyndall
