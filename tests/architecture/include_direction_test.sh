@@ -17,8 +17,9 @@ BEGIN {
   allow("transport", "transport/media volume surface light texture math")
   allow("session", "transport transport/media math")
   allow("report", "")  # io and session through include/tyndall
+  allow("farm", "report")  # how words are quoted for a shell
   allow("example", "math")  # writes files through include/tyndall
-  allow("cli", "report io session example")
+  allow("cli", "farm report io session example")
 
   # A library as its include lines begin, and the files that may see it.
   door("^(openvdb|nanovdb)/", "^src/volume/vdb_")
@@ -29,7 +30,7 @@ BEGIN {
   # report: a page carries its pictures deflated, for the browser; that is no file format of io.
   door("^zlib\\.h", "^src/(io/|volume/vdb_|report/page_picture\\.cpp$)")
   door("^blosc\\.h", "^src/volume/vdb_")
-  door("^(nlohmann|fmt)/", "^src/(report|cli)/")
+  door("^(nlohmann|fmt)/", "^src/(report|farm|cli)/")
   door("^(CLI|spdlog)/", "^src/cli/")
   # Not libraries: the compiler and the operating system.
   door("^[a-z]*intrin\\.h$", "^src/")

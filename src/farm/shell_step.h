@@ -1,0 +1,13 @@
+/// What the scripts of engines that run a shell have in common.
+#pragma once
+
+#include <string>
+
+#include "farm/farm_job.h"
+
+namespace tyndall {
+
+/// Sets what the templates name, then becomes the command. `slice`: where the shell finds the task's number.
+std::string shell_body(const FarmJob& job, const FarmStep& step, const std::string& slice);
+
+}  // namespace tyndall
