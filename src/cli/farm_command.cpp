@@ -34,9 +34,6 @@ struct FarmOptions {
   RenderOptions render;
 };
 
-/// What render has and a farm decides.
-constexpr const char* kNotOfAFarm[] = {"--slice", "--reference", "--error-log", "--resume",    "--checkpoint",
-                                       "--error", "--quiet",     "--json",      "--max-memory"};
 /// What is the farm's own; everything else is passed on to render.
 constexpr const char* kOwn[] = {"engine",       "scene",      "--output",  "--slices",        "--folder",   "--program",
                                 "--checkpoint", "--error",    "--memory",  "--engine-option", "--no-trial", "--print",
@@ -188,8 +185,7 @@ void declare(CLI::App& command, FarmOptions& o) {
   command.add_option("engine", o.engine, "slurm, openjd (Open Job Description 2023-09: Deadline Cloud and others) or parallel")
       ->required()
       ->check(CLI::IsMember({"slurm", "openjd", "parallel"}));
-  declare(command, o.render);
-  for (const char* name : kNotOfAFarm) command.remove_option(command.get_option(name));
+  declare_task(command, o.render);
   command.add_option("--slices", o.slices, "how many; each begins at a multiple of 16 samples; --slices 64")
       ->required()
       ->check(CLI::Range(2, 100000));

@@ -139,7 +139,7 @@ void declare_scene(CLI::App& command, std::string& scene) {
   command.add_option("scene", scene, "scene file, .pbrt or .pbrt.gz")->required();
 }
 
-void declare(CLI::App& command, RenderOptions& o) {
+void declare_task(CLI::App& command, RenderOptions& o) {
   declare_scene(command, o.scene);
   command.add_option("-o,--output", o.output, "image to write, .exr or .png [the Film's name, else SCENE.exr]; -o plume.exr");
   command.add_option("--spp", o.spp, "samples a pixel, at most [the Sampler's, else 16]; --spp 256")
@@ -148,6 +148,18 @@ void declare(CLI::App& command, RenderOptions& o) {
       .add_option("--time", o.time,
                   "seconds to render for, at most; without --spp the samples are as many as that gives [none]; --time 60")
       ->check(positive());
+  command.add_option("--threads", o.threads, "threads [0: one a core]; --threads 2")->check(CLI::Range(0, 4096));
+  command.add_option("--seed", o.seed, "of the random numbers [0]; --seed 7")->check(whole_number());
+  declare(command, o.picture);
+  declare(command, o.methods);
+  command.add_option("--aov", o.aovs,
+                     "extra channels, comma-separated: " + join(aov_names(), ", ") + " [none]; --aov Albedo,N");
+  command.add_flag("--reproducible", o.reproducible, "leave dates and times out of the image header");
+  declare_progress(command, o.progress);
+}
+
+void declare(CLI::App& command, RenderOptions& o) {
+  declare_task(command, o);
   command
       .add_option("--error", o.error,
                   "stop when the estimated relMSE, mean of variance / (mean^2 + 0.01), is below this; looked at when the "
@@ -157,12 +169,6 @@ void declare(CLI::App& command, RenderOptions& o) {
       "--slice", o.slice,
       "only the I-th of N slices of the samples, of which --spp is the number of all; tyndall merge adds them up to the "
       "same image, bit for bit [all samples]; --slice 3/16");
-  command.add_option("--threads", o.threads, "threads [0: one a core]; --threads 2")->check(CLI::Range(0, 4096));
-  command.add_option("--seed", o.seed, "of the random numbers [0]; --seed 7")->check(whole_number());
-  declare(command, o.picture);
-  declare(command, o.methods);
-  command.add_option("--aov", o.aovs,
-                     "extra channels, comma-separated: " + join(aov_names(), ", ") + " [none]; --aov Albedo,N");
   auto* reference = command.add_option("--reference", o.reference,
                                        "image that the error is measured against for --error-log; --reference best.exr");
   auto* log = command.add_option("--error-log", o.error_log,
@@ -179,8 +185,6 @@ void declare(CLI::App& command, RenderOptions& o) {
       "--resume", o.resume,
       "go on from OUTPUT.checkpoint if there is one: the same bits as an unbroken render; an interrupt saves there again");
   declare_memory(command, o.max_memory);
-  command.add_flag("--reproducible", o.reproducible, "leave dates and times out of the image header");
-  declare_progress(command, o.progress);
   command.add_flag("--quiet", o.quiet, "no progress, notes or summary; errors only");
   command.add_flag("--json", o.json, "summary as JSON on stdout");
 }

@@ -42,7 +42,8 @@ struct RenderOptions {
 
 void declare(CLI::App& command, MethodOptions& options);
 void declare(CLI::App& command, PictureOptions& options);
-void declare(CLI::App& command, RenderOptions& options);  ///< these and the rest
+void declare_task(CLI::App& command, RenderOptions& options);  ///< these, and what else a slice shares with the whole
+void declare(CLI::App& command, RenderOptions& options);       ///< all of them
 void declare_progress(CLI::App& command, std::string& progress);
 void declare_memory(CLI::App& command, std::optional<double>& max_memory);
 void declare_scene(CLI::App& command, std::string& scene);
