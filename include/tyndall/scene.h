@@ -145,9 +145,11 @@ struct UniformGridMedium {
   int nx = 1, ny = 1, nz = 1;
   std::vector<float> density;
   std::vector<float> Le_scale;     ///< empty: 1 everywhere
-  std::vector<float> temperature;  ///< kelvin, scaled and offset already; empty: none. Le = Le_factor * blackbody_rgb
+  std::vector<float> temperature;  ///< empty: none; else Le = Le_factor * blackbody_rgb(kelvin)
   Rgb Le;                          ///< constant emission colour; ignored when temperature is given
   float Le_factor = 1;
+  /// kelvin = (value - offset) * scale, where the value is interpolated.
+  float temperature_scale = 1, temperature_offset = 0;
 };
 struct RgbGridMedium {
   Bounds3 bounds{{0, 0, 0}, {1, 1, 1}};

@@ -107,8 +107,8 @@ Medium uniform_grid(State& state, ParamList& params) {
   const auto Le = find_color(state, params, "Le", ColorUse::light);
   if (Le && !g.temperature.empty()) throw params.error("Le", "a medium takes \"Le\" or \"temperature\", not both; remove one");
   g.Le = Le.value_or(Rgb(0.0f));
-  const float offset = read_temperature_offset(params), scale = params.number("temperaturescale", 1);
-  for (float& t : g.temperature) t = (t - offset) * scale;
+  g.temperature_offset = read_temperature_offset(params);
+  g.temperature_scale = params.number("temperaturescale", 1);
   Medium m;
   m.optics = read_optics(state, params, read_scale(params));
   m.kind = std::move(g);

@@ -27,8 +27,9 @@ constexpr int field_count() {
   if (kOneOf<T, TextureMapping, PixelFilter>) return 6;
   if (kOneOf<T, Coating>) return 7;
   if (kOneOf<T, ImageTexture, RgbGridMedium, Shape, Camera>) return 8;
-  if (kOneOf<T, UniformGridMedium, Film>) return 9;
+  if (kOneOf<T, Film>) return 9;
   if (kOneOf<T, VdbMedium>) return 10;
+  if (kOneOf<T, UniformGridMedium>) return 11;
   if (kOneOf<T, Scene>) return 13;
   return -1;
 }

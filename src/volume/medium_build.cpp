@@ -178,7 +178,10 @@ void build(const UniformGridMedium& uniform, const BuildContext& context, Medium
   if (!(uniform.Le_factor > 0)) return;
   if (!uniform.temperature.empty()) {
     emission.values = cells.place({uniform.temperature}, "temperature", false);
-    if (emits(*emission.values, 1, 0)) emission.kind = EmissionField::Kind::blackbody;
+    emission.temperature_scale = uniform.temperature_scale;
+    emission.temperature_offset = uniform.temperature_offset;
+    if (emits(*emission.values, uniform.temperature_scale, uniform.temperature_offset))
+      emission.kind = EmissionField::Kind::blackbody;
   } else if (!is_black(uniform.Le)) {
     emission.Le = uniform.Le;
     emission.kind = EmissionField::Kind::constant;

@@ -70,7 +70,9 @@ TEST_CASE("uniformgrid") {
   CHECK(g.density == std::vector<float>{.5f, 1});
   CHECK(g.bounds.min == Vec3{0, 0, 0});
   CHECK(g.bounds.max == Vec3{2, 2, 2});
-  CHECK(g.temperature == std::vector<float>{500, 1500});
+  CHECK(g.temperature == std::vector<float>{10, 20});
+  CHECK(g.temperature_offset == 5);
+  CHECK(g.temperature_scale == 100);
   CHECK(g.Le_scale == std::vector<float>{1, 3});
   CHECK_CONTAINS(medium_error("\"string type\" \"uniformgrid\""), "has no density");
   CHECK_CONTAINS(medium_error("\"string type\" \"uniformgrid\" \"integer nx\" 3 \"float density\" [1 2]"),

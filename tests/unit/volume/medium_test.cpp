@@ -73,9 +73,11 @@ TEST_CASE("uniformgrid reads as pbrt's, whatever the transform") {
   for (int i = 0; i < n[0] * n[1] * n[2]; ++i) {
     uniform.density.push_back(rng.uniform() < 0.3f ? 0 : rng.uniform());
     uniform.Le_scale.push_back(rng.uniform());
-    uniform.temperature.push_back(rng.uniform() * 6000 - 1000);
+    uniform.temperature.push_back(rng.uniform() * 6 - 1);
   }
   uniform.Le_factor = 0.5f;
+  uniform.temperature_scale = 1200;
+  uniform.temperature_offset = 0.4f;
   const MediumOptics optics{{1, 2, 3}, {4, 5, 0.5f}, HenyeyGreenstein{0.7f}};
   const Bounds3 wide{{-1.5f, -0.5f, 1.5f}, {2.5f, 1.5f, 3.5f}};
   for (const Transform& to_world : kTransforms) {
@@ -99,7 +101,7 @@ TEST_CASE("uniformgrid reads as pbrt's, whatever the transform") {
       worst = std::max({worst, std::abs(k.sigma_a.b - 3 * d), std::abs(k.sigma_s.g - 5 * d)});
       if (d > 0) {
         outside += medium.bounds().contains(world) ? 0 : 1;
-        const float kelvin = static_cast<float>(sampled_grid(uniform.temperature, n, uniform.bounds, p));
+        const float kelvin = static_cast<float>((sampled_grid(uniform.temperature, n, uniform.bounds, p) - 0.4) * 1200);
         const Rgb expected = kelvin > 100 ? blackbody_rgb(kelvin) *
                                                 static_cast<float>(0.5 * sampled_grid(uniform.Le_scale, n, uniform.bounds, p))
                                           : Rgb{};
