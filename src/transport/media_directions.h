@@ -20,10 +20,14 @@ class MediaDirections {
   float pdf(Vec3 w) const;  ///< 1/sr
 
  private:
-  const BrightMedia* media_;
-  Vec3 p_;
+  using PerCell = BrightMedia::PerCell<float>;
+
+  std::size_t size_;
   float total_ = 0, share_ = 0;
-  alignas(32) BrightMedia::PerCell<float> importance_;
+  // Of each cell, as seen from the point: the offset to its center, the square of its radius, importance over solid angle / 2
+  // pi.
+  alignas(32) PerCell x_, y_, z_, radius2_, density_;
+  alignas(32) PerCell height_;  ///< 1 - cos of the angle of its cone; 2 is the whole sphere
 };
 
 }  // namespace tyndall
