@@ -22,13 +22,14 @@ enum class MediaStrategy { vertex, closest, integral, product };
 /// MediaStrategy::vertex, which knows no other, tracking. MediaStrategy::product then chooses lights as vertex does where they
 /// all are far from a dense segment.
 enum class DistanceStrategy { automatic, tracking, equiangular, both, profile };
-/// How the volume emission of media reaches what it illuminates: by scattered rays that happen to pass through it, or by
-/// next-event estimation toward it as well, with MIS. The second needs a grid, whose bricks are then lights among the others;
-/// it pays where small flames illuminate surfaces, not where smoke that scatters their light fills the picture.
+/// How the volume emission of media reaches what it illuminates: by scattered rays that pass through it, which surfaces guide
+/// toward it (GuidingStrategy), or by next-event estimation toward it as well, with MIS: the cells of a medium that emit are
+/// then lights among the others, unless it is homogeneous and unbounded. The second has less noise on walls for a sample, and
+/// takes longer.
 enum class EmissionStrategy { paths, lights };
-/// Where paths go from the first surface: as it scatters, or also toward grids and clouds that scatter or emit much light, with
-/// MIS. `automatic`: the latter with MediaStrategy::product, the former with what stands for other programs' methods. Not
-/// toward homogeneous media, and not in single scattering.
+/// Where paths go from the first surface, and from later ones where media emit: as it scatters, or also toward grids and clouds
+/// that scatter or emit much light, with MIS. `automatic`: the latter with MediaStrategy::product, the former with what stands
+/// for other programs' methods. Not toward homogeneous media, and not in single scattering.
 enum class GuidingStrategy { automatic, off, media };
 /// Whether rays are also drawn close to point and spot lights in media, with MIS: a collision draws the next one near lights
 /// that reach it, and a pinhole's pixel takes film positions near the images of those that its filter covers. The pixel also

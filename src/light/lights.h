@@ -24,12 +24,12 @@ namespace tyndall {
 class Textures;
 
 struct LightSample {
-  Vec3 wi;              ///< unit, toward the light
-  float distance;       ///< infinity for distant and infinite lights
-  Rgb L;                ///< radiance that arrives when nothing is in between; delta lights: irradiance facing them
-  float pdf;            ///< 1/sr; 1 for delta lights
-  bool delta;           ///< no scattered ray can find it
-  bool volume = false;  ///< a medium that emits: the light is all along wi, and L an approximation
+  Vec3 wi;                          ///< unit, toward the light
+  float distance;                   ///< infinity for distant and infinite lights
+  Rgb L;                            ///< radiance that arrives when nothing is in between; delta lights: irradiance facing them
+  float pdf;                        ///< 1/sr; 1 for delta lights
+  bool delta;                       ///< no scattered ray can find it
+  std::optional<LightId> volume{};  ///< a point of a medium that emits, of this light: it counts if the medium is there
 };
 
 /// What the render side knows of an emissive primitive that its ray hit.

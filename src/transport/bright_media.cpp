@@ -114,6 +114,7 @@ BrightMedia::BrightMedia(const std::vector<ParticipatingMedium>& media, const Su
   }
   if (filled.empty()) return;
 
+  emits_ = std::any_of(filled.begin(), filled.end(), [](const Filled& f) { return f.medium.emissive(); });
   const std::vector<Near> near = gather_near_lights(lights, volume_lights);
   near_ = lights.near_box();
   for (const Near& light : near) near_power_ += light.power;

@@ -34,6 +34,7 @@ class BrightMedia {
   BrightMedia(const std::vector<ParticipatingMedium>& media, const Surroundings& around);
 
   bool empty() const { return size_ == 0; }
+  bool emits() const { return emits_; }  ///< some of it is volume emission
   std::size_t size() const { return size_; }
   /// Fluence at `p` of all lights together without visibility; of the order of what surfaces around scatter.
   float in_scattered(Vec3 p) const;
@@ -46,6 +47,7 @@ class BrightMedia {
 
  private:
   std::size_t size_ = 0;
+  bool emits_ = false;
   alignas(32) PerCell<float> x_{}, y_{}, z_{}, radius_{}, radiance_{};
   Bounds3 near_;
   float near_power_ = 0, far_light_ = 0;

@@ -1,5 +1,7 @@
 #include "transport/direct_light.h"
 
+#include <algorithm>
+
 #include "transport/joint_ray.h"
 #include "transport/light_counts.h"
 #include "transport/vertex_light.h"
@@ -9,6 +11,12 @@ namespace {
 
 /// Shadow rays end this fraction short of the light, so that they do not meet the emitter itself.
 constexpr float kShadowEnd = 1 - 1e-4f;
+
+/// How many of the groups that hold a point bring the medium whose emission the light is.
+float times_present(const BuiltWorld& world, LightId light, const MediaState& there) {
+  const ActiveMedia media = there.active(world.geometry.groups(), world.media);
+  return static_cast<float>(std::count(media.begin(), media.end(), &world.volume_lights.medium(light)));
+}
 
 }  // namespace
 
@@ -21,20 +29,27 @@ Rgb transmittance_along(const LightContext& context, SpanWalk& walk, const Ray& 
   return T;
 }
 
-Rgb visibility(const LightContext& context, const MediaState& media, Vec3 origin, Vec3 wi, float distance, Sampler& sampler) {
+std::optional<LightSample> sample_light(const LightContext& context, LightId light, Vec3 p, Vec2 u) {
+  const BuiltWorld& world = context.world;
+  if (!world.volume_lights.holds(light)) return world.lights.sample(light, p, u, true);
+  // A ray that is scattered here would pass emission after the last bounce, where none counts.
+  return is_last_bounce(context) ? std::nullopt : world.volume_lights.sample(light, p, u);
+}
+
+Rgb arriving(const LightContext& context, const MediaState& media, Vec3 origin, const LightSample& light, Sampler& sampler) {
   const BuiltWorld& world = context.world;
   ++context.counters.shadow_rays;
-  const Ray ray{origin, wi};
-  const auto crossings = world.geometry.trace_shadow(ray, 0, distance * kShadowEnd);
+  const Ray ray{origin, light.wi};
+  const auto crossings = world.geometry.trace_shadow(ray, 0, light.volume ? light.distance : light.distance * kShadowEnd);
   if (!crossings) return {};
   if (!world.has_media()) return Rgb(1.0f);
 
   Rng rng = sampler.stream();
   // Through media the whole distance counts: at optical depth 4 the last 1e-4 of it is 4e-4 of the light.
-  SpanWalk walk(world.media_context(), media, *crossings, distance);
+  SpanWalk walk(world.media_context(), media, *crossings, light.distance);
   const Rgb T = transmittance_along(context, walk, ray, rng);
   context.counters.parity_errors += walk.parity_errors();
-  return T;
+  return light.volume && !is_black(T) ? T * times_present(world, *light.volume, walk.state()) : T;
 }
 
 LightSearch light_search(const LightContext& context, const Vertex& vertex) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <optional>
 
 #include "transport/directions.h"
 #include "transport/media/span_walk.h"
@@ -27,8 +28,11 @@ inline float mis_weight(float a, float b, float c) {
 /// Of a shadow ray's media, by `walk`, which is left where nothing more gets through.
 Rgb transmittance_along(const LightContext& context, SpanWalk& walk, const Ray& ray, Rng& rng);
 
-/// Transmittance and visibility over `distance` from `origin` along `wi`.
-Rgb visibility(const LightContext& context, const MediaState& media, Vec3 origin, Vec3 wi, float distance, Sampler& sampler);
+/// As Lights::sample, for all kinds of light.
+std::optional<LightSample> sample_light(const LightContext& context, LightId light, Vec3 p, Vec2 u);
+
+/// Transmittance and visibility from `origin` to `light`.
+Rgb arriving(const LightContext& context, const MediaState& media, Vec3 origin, const LightSample& light, Sampler& sampler);
 
 /// How lights are sampled at one vertex: direct_light uses it, and MIS must know it when a scattered ray hits one.
 struct LightSearch {

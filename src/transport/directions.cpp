@@ -11,10 +11,12 @@ float guided_pdf_ratio(float pdf, float scattered) {
   return scattered > 0 ? std::min(pdf / scattered, kMost) : kMost;
 }
 
-/// The first bounce only: later ones contribute a smaller share of the picture (docs/measurements.md).
+/// The first bounce only: later ones contribute a smaller share of the picture (docs/measurements.md). All where volume
+/// emission is found by such rays alone.
 bool guides(const LightContext& context, const Vertex& vertex) {
   if (context.settings.guiding == GuidingStrategy::off || context.world.bright_media.empty()) return false;
-  return context.bounce == 0 && !is_last_bounce(context) && vertex.on_surface() && vertex.has_smooth();
+  const bool all = context.world.bright_media.emits() && !seeks_volume_lights(context);
+  return (context.bounce == 0 || all) && !is_last_bounce(context) && vertex.on_surface() && vertex.has_smooth();
 }
 
 }  // namespace

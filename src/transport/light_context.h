@@ -30,6 +30,11 @@ inline bool is_last_bounce(const LightContext& context) { return context.bounce 
 /// It is the only bounce of its path.
 inline bool is_single_scattering(const LightContext& context) { return context.bounce == 0 && is_last_bounce(context); }
 
+/// Whether volume emission is sampled by next-event estimation, and scattered rays that pass it are weighted by MIS.
+inline bool seeks_volume_lights(const LightContext& context) {
+  return !context.world.volume_lights.empty() && context.settings.emission == EmissionStrategy::lights;
+}
+
 /// Transmittance along shadow rays. Half the step for single scattering, whose noise nothing else hides (docs/measurements.md).
 inline TransmittanceMethod shadow_method(const LightContext& context) {
   return {context.settings.transmittance, is_single_scattering(context) ? 0.25f : 0.5f};

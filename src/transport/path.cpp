@@ -69,6 +69,13 @@ void Path::follow(std::optional<Vertex> vertex) {
 /// Light sampling may draw as many numbers as it likes: the path stays the same.
 void Path::begin(Step step) { context_.sampler.begin_step(1 + kSteps * depth_ + static_cast<int>(step)); }
 
+/// For the emission along the path's ray, which has a step of its own beyond all others.
+Rng Path::stream_for_emission() {
+  constexpr int kBeyond = 1 << 29;
+  context_.sampler.begin_step(kBeyond + depth_);
+  return context_.sampler.stream();
+}
+
 /// Next-event estimation, then the direction of the next ray. False ends the path.
 bool Path::scatter(const Vertex& vertex) {
   context_.bounce = depth_ - 1;

@@ -25,10 +25,13 @@ class Path {
   PathRecord run();
 
  private:
+  class ScatteredEmission;
+
   /// What a path draws random numbers for from one bounce to the next.
   enum class Step { gather, fly, light, scatter };
   static constexpr int kSteps = 4;
   void begin(Step step);
+  Rng stream_for_emission();
 
   /// What is behind the media that the camera's ray collides in.
   struct Beyond {
@@ -50,11 +53,11 @@ class Path {
   void gather(const Span& span);
   bool lit_at_collisions(const Span& span) const;
   std::optional<Vertex> fly(const Span& span, const Trace& trace);
+  void add_volume_emission(const Span& span);
   void dim(const Span& span);
   Rgb light_at(const Directions& directions, Rgb beta);
   float scattering_mis_weight(LightId id, float light_pdf) const;
   Vertex surface_vertex(const SurfaceHit& hit);
-  float emission_mis_weight() const;
   void add_environment();
   void add_surface_emission(const SurfaceHit& hit);
   void add(Rgb contribution, int events);

@@ -1,9 +1,16 @@
 /// The light that a path gathers: at its bounces, and where its rays end.
+#include <algorithm>
+
 #include "transport/path.h"
 #include "transport/shine_light.h"
-#include "transport/volume_light.h"
 
 namespace tyndall {
+namespace {
+
+/// Look-ups of the emission that the camera sees, for each one of what paths meet later (docs/measurements.md).
+constexpr float kSeenDensity = 2;
+
+}  // namespace
 
 /// Light from emitters that is scattered at the vertex, by a path of throughput `beta`, without what the span's pairs estimate.
 Rgb Path::light_at(const Directions& directions, Rgb beta) {
@@ -27,13 +34,53 @@ float Path::scattering_mis_weight(LightId id, float light_pdf) const {
   return mis_weight(pdf_, context_.selector.n_pmf(search_.cut, search_.query, id) * light_pdf);
 }
 
-/// MIS weight of the volume emission along a scattered ray.
-float Path::emission_mis_weight() const {
-  if (!light_sampled_ || !seeks_volume_lights(context_)) return 1;
-  const VolumesOnRay volumes = context_.world.volume_lights.along({from_, ray_.d});
-  if (!span_collision_) return mis_weight(pdf_, volume_density(context_, search_, volumes));
-  const SpanDensities others = span_volume_densities(context_, *span_collision_, volumes);
-  return mis_weight(span_collision_->density * pdf_, others.pair, others.tracked);
+/// What a ray that was scattered from a vertex counts of the emission that it passes.
+class Path::ScatteredEmission final : public EmissionGauge {
+ public:
+  explicit ScatteredEmission(const Path& path) : path_(path) {}
+
+  Rgb counted(MediaView media, Vec3 p, Rgb emission) const override {
+    const auto emits = [](const ParticipatingMedium* medium) { return medium->emissive(); };
+    const auto first = std::find_if(media.begin(), media.end(), emits);
+    if (std::find_if(first + 1, media.end(), emits) == media.end()) return emission * mis_weight_of(**first, p);
+    Rgb sum;
+    for (const ParticipatingMedium* medium : media) {
+      if (!medium->emissive()) continue;
+      const Coefficients c = medium->at(p);
+      sum += c.sigma_a * c.Le * mis_weight_of(*medium, p);
+    }
+    return sum;
+  }
+
+ private:
+  float mis_weight_of(const ParticipatingMedium& medium, Vec3 p) const {
+    const auto held = path_.context_.world.volume_lights.at(medium, p, path_.from_);
+    return held ? path_.scattering_mis_weight(held->light, held->pdf) : 1.0f;
+  }
+
+  const Path& path_;
+};
+
+/// All of it that reaches the span's origin: how far the path goes does not matter.
+void Path::add_volume_emission(const Span& span) {
+  const auto emits = [](const SpanPart& part) { return any_emissive(part.view()); };
+  const auto last = std::find_if(span.parts.rbegin(), span.parts.rend(), emits).base();
+  if (last == span.parts.begin()) return;
+  Rng rng = stream_for_emission();
+  const ScatteredEmission gauge(*this);
+  const bool weighs = light_sampled_ && seeks_volume_lights(context_);
+  const EmissionLook look{weighs ? &gauge : nullptr, depth_ == 0 ? kSeenDensity : 1.0f};
+  Rgb T = beta_;
+  for (auto part = span.parts.begin(); part != last && !is_black(T); ++part) {
+    TrackingStats& stats = context_.counters.tracking;
+    if (emits(*part)) {
+      const auto passed = emission_and_transmittance(part->view(), ray_, part->t0, part->t1, look, rng, stats);
+      add(T * passed.emitted, depth_);
+      T *= passed.transmittance;
+    } else {
+      T *= transmittance(span_method(context_), part->view(), ray_, part->t0, part->t1, rng, stats);
+    }
+  }
 }
 
 void Path::add_environment() {

@@ -25,17 +25,18 @@ Rgb tracked_transmittance(const LightContext& context, const Span& span, Rng& rn
 }  // namespace
 
 /// In dense homogeneous media whose lights are chosen at collisions, the collision is drawn first: the ray need not be traced
-/// beyond it. Nothing: something is in between, or this is not such a place. Where the choice of lights was decided here it
+/// beyond it. Nothing: something is in between, or this is not such a place: nor where media emit, whose light is gathered
+/// beyond the collision too. Where the choice of lights was decided here it
 /// stays so for the traced span: decided again, it would depend on the collision that was drawn.
 std::optional<Vertex> Path::collide_untraced() {
   span_search_.reset();
   lit_at_collisions_.reset();
-  if (depth_ == 0 || depth_ >= limits_.max_depth) return std::nullopt;
   const BuiltWorld& world = context_.world;
+  if (depth_ == 0 || depth_ >= limits_.max_depth || world.media_emit) return std::nullopt;
   const auto& groups = world.geometry.groups();
   const Interval inside{0, media_.first_exit(groups, ray_), media_.active(groups, world.media)};
   const MediaView media = inside.view();
-  if (media.empty() || inside.t1 == kInfinity || any_emissive(media) || !all_homogeneous(media)) return std::nullopt;
+  if (media.empty() || inside.t1 == kInfinity || !all_homogeneous(media)) return std::nullopt;
   context_.bounce = depth_;
   if (seeks_along_spans(context_)) lit_at_collisions_ = collisions_suffice(context_, ray_, inside);
   if (!lit_at_collisions_.value_or(is_deep(ray_, inside))) return std::nullopt;
@@ -64,6 +65,7 @@ std::optional<Vertex> Path::pass_media(const Trace& trace) {
     dim(span);
     return std::nullopt;
   }
+  if (context_.world.media_emit) add_volume_emission(span);
   gather(span);
   const auto seen = seen_beyond(span, trace);
   auto collision = fly(span, trace);
@@ -113,7 +115,6 @@ std::optional<Vertex> Path::fly(const Span& span, const Trace& trace) {
   float u = context_.sampler.next_1d();
   for (const SpanPart& part : span.parts) {
     const Flight flight = free_flight(part.view(), ray_, part.t0, part.t1, beta_, u, rng, context_.counters.tracking);
-    if (!is_black(flight.emission)) add(beta_ * flight.emission * emission_mis_weight(), depth_);
     beta_ *= flight.weight;
     if (is_black(beta_)) return std::nullopt;
     if (flight.collided) {

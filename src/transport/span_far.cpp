@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <span>
 
-#include "transport/volume_light.h"
+#include "transport/direct_light.h"
 #include "volume/coarse.h"
 
 namespace tyndall {

@@ -8,7 +8,6 @@
 #include "transport/light_counts.h"
 #include "transport/media/scattering.h"
 #include "transport/resampling.h"
-#include "transport/volume_light.h"
 #include "volume/coarse.h"
 #include "volume/phase/phase.h"
 
@@ -34,9 +33,7 @@ DistanceSampler distances_to(const LightContext& context, const SpanSearch& sear
   const DistanceStrategy distance = context.settings.distance;
   const bool plain = distance == DistanceStrategy::equiangular || distance == DistanceStrategy::both;
   const auto weights = plain ? std::nullopt : std::optional(DistanceSampler::Weights{search.g});
-  const LightPlace place =
-      context.world.volume_lights.holds(id) ? context.world.volume_lights.place() : context.world.lights.place(id);
-  return DistanceSampler(search.profile, {search.query.o, search.query.d}, place, weights);
+  return DistanceSampler(search.profile, {search.query.o, search.query.d}, context.world.lights.place(id), weights);
 }
 
 /// Samples the pairs of one span.
@@ -64,7 +61,7 @@ class PairFinder {
     const Vec3 p = span_.ray.at(distance.t);
     const Scattering scattering = Scattering::at(part.media, p);
     if (is_black(scattering.sigma_s)) return std::nullopt;
-    const auto light = sample_light(context_, search_, {id, n_pmf}, p, on_light);
+    const auto light = sample_light(context_, id, p, on_light);
     // What is not a number is kept, so that the film sees and counts it.
     if (!light || is_black(light->L)) return std::nullopt;
 
@@ -223,18 +220,6 @@ Rgb span_light(const LightContext& context, const Span& span, const SpanSearch& 
 
 float collision_density(const Span& span, const SpanSearch& search, float t) {
   return Scattering::at(span.part_at(t).media, span.ray.at(t)).sigma_t * search.profile.transmittance(t);
-}
-
-SpanDensities span_volume_densities(const LightContext& context, const SpanCollision& collision, const VolumesOnRay& volumes) {
-  if (volumes.empty()) return {};
-  const float found = volume_density(context, collision.search, volumes);
-  const float pairs =
-      collision.search.chance * static_cast<float>(collision.search.distances);  // for each candidate, on average
-  const RenderSettings& settings = context.settings;
-  return {.pair = pairs_along_spans(settings)
-                      ? found * pairs * distances_to(context, collision.search, volumes[0].light).pdf(collision.t)
-                      : 0.0f,
-          .tracked = tracks(settings) ? found * collision.density : 0.0f};
 }
 
 SpanDensities span_densities(const LightContext& context, const SpanCollision& collision, LightId id) {

@@ -47,8 +47,6 @@ struct SpanDensities {
   float tracked = 0;  ///< chosen at a collision
 };
 SpanDensities span_densities(const LightContext& context, const SpanCollision& collision, LightId id);
-/// Of all volume emission on a ray from the collision: 1/(length sr).
-SpanDensities span_volume_densities(const LightContext& context, const SpanCollision& collision, const VolumesOnRay& volumes);
 
 /// Next-event estimation at a collision, with the span's choice of lights: the part of `--distance tracking` and `both`.
 Rgb collision_light(const LightContext& context, const Vertex& vertex, const SpanCollision& collision, Rgb beta);

@@ -6,7 +6,6 @@
 #include "math/small_vector.h"
 #include "transport/direct_light.h"
 #include "transport/resampling.h"
-#include "transport/volume_light.h"
 
 namespace tyndall {
 
@@ -30,7 +29,7 @@ class VertexLight {
   };
 
   std::optional<Candidate> look_at(LightCandidate candidate, Vec2 u) const {
-    const auto light = sample_light(context_, search_, candidate, vertex_.p(), u);
+    const auto light = sample_light(context_, candidate.light, vertex_.p(), u);
     // What is not a number is kept, so that the film sees and counts it.
     if (!light || is_black(light->L)) return std::nullopt;
     const float density = candidate.n_pmf * light->pdf;

@@ -1,7 +1,6 @@
 #include "transport/volume_lights.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 
@@ -17,30 +16,6 @@ float third(Vec2 u) {
   return static_cast<float>(hash(bits) >> 40) * 0x1p-24f;
 }
 
-/// Mean and standard deviation of the positions of volume emission.
-LightPlace place_of(const std::vector<VolumeEmitter>& emitters) {
-  double total = 0;
-  std::array<double, 3> sum{}, squares{};
-  for (const VolumeEmitter& e : emitters) {
-    const Vec3 p = e.box.center();
-    total += double{e.intensity};
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double x = p[static_cast<int>(i)];
-      sum[i] += e.intensity * x;
-      squares[i] += e.intensity * x * x;
-    }
-  }
-  if (!(total > 0)) return {};
-  Vec3 center;
-  double variance = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double mean = sum[i] / total;
-    center[static_cast<int>(i)] = static_cast<float>(mean);
-    variance += squares[i] / total - mean * mean;
-  }
-  return {center, static_cast<float>(std::sqrt(std::max(variance, 0.0)))};
-}
-
 }  // namespace
 
 VolumeLights::VolumeLights(const std::vector<ParticipatingMedium>& media, const std::vector<BoundaryGroup>& groups,
@@ -50,22 +25,21 @@ VolumeLights::VolumeLights(const std::vector<ParticipatingMedium>& media, const 
     if (!media[i].emissive()) continue;
     const Bounds3 reach = reach_of(static_cast<MediumId>(i), groups, unbounded);
     if (reach.empty()) continue;
-    EmissiveBricks bricks(media[i]);
-    if (bricks.empty()) continue;
-    const auto count = static_cast<LightId>(bricks.size());
-    emissive_.push_back({i, next, std::move(bricks), reach});
+    EmissiveCells cells(media[i], reach);
+    if (cells.empty()) continue;
+    const auto count = static_cast<LightId>(cells.size());
+    emissive_.push_back({&media[i], i, next, std::move(cells), reach});
     next += count;
   }
   count_ = next;
-  place_ = place_of(emitters());
 }
 
 std::vector<VolumeEmitter> VolumeLights::emitters() const {
   std::vector<VolumeEmitter> all;
   for (const EmissiveMedium& medium : emissive_) {
-    for (std::uint32_t i = 0; i < medium.bricks.size(); ++i) {
-      const Bounds3 box = medium.bricks.box(i);
-      all.push_back({box, overlap(box, medium.reach).empty() ? 0.0f : medium.bricks.intensity(i)});
+    for (std::uint32_t i = 0; i < medium.cells.size(); ++i) {
+      const Bounds3 box = medium.cells.box(i);
+      all.push_back({box, overlap(box, medium.reach).empty() ? 0.0f : medium.cells.intensity(i)});
     }
   }
   return all;
@@ -79,33 +53,44 @@ const VolumeLights::EmissiveMedium& VolumeLights::medium_of(LightId light) const
   return *found;
 }
 
-Vec3 VolumeLights::sample(LightId light, Vec3 p, Vec2 u) const {
+std::optional<LightSample> VolumeLights::sample(LightId light, Vec3 p, Vec2 u) const {
   const EmissiveMedium& medium = medium_of(light);
-  return normalize(medium.bricks.sample(light - first_ - medium.begin, {u.x, u.y, third(u)}) - p);
+  const std::uint32_t cell = light - first_ - medium.begin;
+  const Vec3 y = medium.cells.sample(cell, {u.x, u.y, third(u)}), to = y - p;
+  const float t2 = length_squared(to), t = std::sqrt(t2), area = medium.area(cell);
+  const auto per_volume = static_cast<float>(medium.cells.pdf(cell, y));
+  if (!(t > 0 && t < kInfinity && per_volume > 0)) return std::nullopt;
+  const Coefficients c = medium.medium->at(y);
+  const Rgb emission = c.sigma_a * c.Le;
+  if (is_black(emission)) return std::nullopt;
+  return LightSample{.wi = to * (1 / t),
+                     .distance = t,
+                     .L = emission * (1 / (area * per_volume)),
+                     .pdf = t2 / area,
+                     .delta = false,
+                     .volume = light};
 }
 
-VolumesOnRay VolumeLights::along(const Ray& ray) const {
-  VolumesOnRay volumes;
-  for (const EmissiveMedium& medium : emissive_) {
-    for (const BrickOnRay& b : medium.bricks.along(ray)) {
-      volumes.push_back({first_ + medium.begin + b.brick, static_cast<float>(b.column * medium.bricks.intensity(b.brick)),
-                         static_cast<float>(b.direction)});
-    }
+std::optional<VolumeLights::Held> VolumeLights::at(const ParticipatingMedium& medium, Vec3 y, Vec3 from) const {
+  for (const EmissiveMedium& m : emissive_) {
+    if (m.medium != &medium) continue;
+    const auto cell = m.cells.at(y);
+    if (cell) return Held{first_ + m.begin + *cell, length_squared(y - from) / m.area(*cell)};
   }
-  return volumes;
+  return std::nullopt;
 }
 
 std::size_t VolumeLights::memory_bytes() const {
   std::size_t bytes = 0;
-  for (const EmissiveMedium& medium : emissive_) bytes += medium.bricks.memory_bytes();
+  for (const EmissiveMedium& medium : emissive_) bytes += medium.cells.memory_bytes();
   return bytes;
 }
 
 std::vector<std::string> VolumeLights::notes(const std::vector<Medium>& media) const {
   std::vector<std::string> notes;
   for (const EmissiveMedium& medium : emissive_) {
-    notes.push_back("medium \"" + media[medium.medium].name + "\" emits light: its " + std::to_string(medium.bricks.size()) +
-                    " emissive bricks are lights with --emission lights");
+    notes.push_back("medium \"" + media[medium.id].name + "\" emits light: its " + std::to_string(medium.cells.size()) +
+                    " cells that emit are lights with --emission lights");
   }
   return notes;
 }

@@ -3,7 +3,6 @@
 #include "transport/direct_light.h"
 #include "transport/media/scattering.h"
 #include "transport/media/span_walk.h"
-#include "transport/volume_light.h"
 
 namespace tyndall {
 

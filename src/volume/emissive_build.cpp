@@ -1,4 +1,4 @@
-// Finds the bricks of a medium that emit, and gathers them into larger ones while there are too many.
+// Finds the cells of a medium that emit, and gathers them into larger ones while there are too many.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,50 +10,20 @@
 namespace tyndall {
 namespace {
 
-class BrickFinder {
- public:
-  BrickFinder(const ParticipatingMedium& medium, std::size_t most)
-      : medium_(medium), data_(medium.data()), most_(std::max<std::size_t>(most, 1)) {}
-
-  EmissiveBrickData find();
-
- private:
-  static constexpr std::size_t kBlocks = EmissiveBrickData::kBlocksInBrick;
-  static constexpr double kUniform = 0.1;  // of the points, wherever they are in the brick: reads miss thin sheets
-  static constexpr double kMostPlaces = 1 << 24;
-  using Blocks = std::array<double, kBlocks>;  // sums over the cells of each block of mean(sigma_a Le)
-
-  struct Extent {
-    Cell lo, size;
-    double places() const { return double(size[0]) * size[1] * size[2]; }
-  };
-
-  Box3d where_it_emits() const;
-  Box3d reach_of(const PlacedGrid& grid) const;
-  void find_in(std::uint32_t node, int level, const Index3& corner);
-  void read(const Index3& corner, std::int64_t side);
-  void fill(const Index3& corner, std::int64_t side);
-  double emission_in(const Box3d& box) const;
-  void add(const Cell& place, const Blocks& blocks);
-  void merge_if_too_many();
-  void merge();
-  Extent extent() const;
-  void place(EmissiveBrickData& bricks, const Extent& box) const;
-  void append(EmissiveBrickData& bricks, const Cell& place, const Blocks& blocks) const;
-
-  const ParticipatingMedium& medium_;
-  const MediumData& data_;
-  std::size_t most_;
-  Transform to_world_;                      // from the grid's local coordinates
-  Box3d emitting_;                          // local coordinates beyond which nothing is emitted
-  std::int64_t cells_ = BrickStore::kSide;  // a side of a brick: a power of 2
-  std::map<Cell, Blocks> found_;            // by corner / cells_
-};
+constexpr int kBlocks = EmissiveCellData::kBlocks;
+constexpr int kHomogeneousSide = 8;  ///< cells along an edge of what a homogeneous medium fills
+/// Of a cell's points these lie anywhere in it: what its lattice reads may miss thin sheets.
+constexpr float kEven = 0.1f;
 
 Transform transform_of(const Affine& map) {
   Transform::Matrix rows = Transform().matrix();
   for (std::size_t i = 0; i < 3; ++i) rows[i] = map.rows[i];
   return Transform(rows);
+}
+
+double determinant(const Transform::Matrix& m) {
+  return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+         m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
 }
 
 Box3d overlap(const Box3d& a, const Box3d& b) {
@@ -80,13 +50,67 @@ double volume(const Box3d& box) {
   return v;
 }
 
-/// A box around all of `grid` that is not 0, in local coordinates of the density.
-Box3d BrickFinder::reach_of(const PlacedGrid& grid) const {
+/// What a part of a medium sends and absorbs: integrals over it, means of channels.
+struct Sums {
+  double emission = 0;    ///< of sigma_a Le
+  double extinction = 0;  ///< of sigma_t, where something is emitted
+  Sums& operator+=(const Sums& other) {
+    emission += other.emission;
+    extinction += other.extinction;
+    return *this;
+  }
+  Sums operator*(double s) const { return {emission * s, extinction * s}; }
+};
+
+/// The emission of a medium with a grid, in local coordinates of its density.
+class GridEmission {
+ public:
+  explicit GridEmission(const ParticipatingMedium& medium)
+      : data_(medium.data()), to_world_(transform_of(data_.density.to_local).inverse()), extent_(where_it_emits()) {}
+
+  const MediumData& data() const { return data_; }
+  const Transform& to_world() const { return to_world_; }
+  const Box3d& extent() const { return extent_; }  ///< beyond it nothing is emitted
+
+  /// As in the middle of the part of the box within extent(), all over that part.
+  Sums in(const Box3d& box) const {
+    const Box3d left = overlap(box, extent_);
+    const double size = volume(left);
+    if (!(size > 0)) return {};
+    GridVec middle;
+    for (int i = 0; i < 3; ++i) middle[i] = 0.5 * (left.lo[i] + left.hi[i]);
+    return at(middle) * size;
+  }
+
+  /// A unit of volume there; nothing where the emission is not a number.
+  Sums at(const GridVec& p) const {
+    if (!extent_.contains(p)) return {};
+    float values[kMaxChannels];
+    data_.density.grid.lookup(p, values);
+    Rgb sigma_a, sigma_s;
+    data_.scale_by(values, sigma_a, sigma_s);
+    if (is_black(sigma_a)) return {};
+    const Vec3 local{static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])};
+    const float e = mean(sigma_a * data_.emission.at(to_world_.point(local)));
+    return std::isfinite(e) && e > 0 ? Sums{e, mean(sigma_a + sigma_s)} : Sums{};
+  }
+
+ private:
+  Box3d where_it_emits() const;
+  Box3d reach_of(const PlacedGrid& grid) const;
+
+  const MediumData& data_;
+  Transform to_world_;
+  Box3d extent_;
+};
+
+/// A box around all of `grid` that is not 0.
+Box3d GridEmission::reach_of(const PlacedGrid& grid) const {
   if (grid.grid.empty()) return {{{0, 0, 0}}, {{-1, -1, -1}}};
   const Transform::Matrix m = (to_world_.inverse() * transform_of(grid.to_local).inverse()).matrix();
   Box3d box;
   for (std::size_t i = 0; i < 3; ++i) {
-    constexpr double kSlack = 1;  // cells, for rounding
+    constexpr double kSlack = 1;  // for rounding
     box.lo.v[i] = m[i][3] - kSlack;
     box.hi.v[i] = m[i][3] + kSlack;
     for (std::size_t j = 0; j < 3; ++j) {
@@ -98,7 +122,7 @@ Box3d BrickFinder::reach_of(const PlacedGrid& grid) const {
   return box;
 }
 
-Box3d BrickFinder::where_it_emits() const {
+Box3d GridEmission::where_it_emits() const {
   const EmissionField& e = data_.emission;
   Box3d box = data_.clip;
   if (e.scale) box = overlap(box, reach_of(*e.scale));
@@ -109,76 +133,84 @@ Box3d BrickFinder::where_it_emits() const {
   return box;
 }
 
-/// mean(sigma_a Le) in the middle of the part of the box within emitting_, times its volume, in cells.
-double BrickFinder::emission_in(const Box3d& box) const {
-  const Box3d left = overlap(box, emitting_);
-  const double size = volume(left);
-  if (!(size > 0)) return 0;
-  GridVec middle;
-  for (int i = 0; i < 3; ++i) middle[i] = 0.5 * (left.lo[i] + left.hi[i]);
-  float values[kMaxChannels];
-  data_.density.grid.lookup(middle, values);
-  Rgb sigma_a, sigma_s;
-  data_.scale_by(values, sigma_a, sigma_s);
-  if (is_black(sigma_a)) return 0;
-  const Vec3 local{static_cast<float>(middle[0]), static_cast<float>(middle[1]), static_cast<float>(middle[2])};
-  const double e = size * double{mean(sigma_a * data_.emission.at(to_world_.point(local)))};
-  return std::isfinite(e) && e > 0 ? e : 0;
+/// Sums emission by places of equal cubes, whose side is doubled whenever there are too many.
+class CellFinder {
+ public:
+  CellFinder(const GridEmission& emission, std::size_t most) : emission_(emission), most_(std::max<std::size_t>(most, 1)) {}
+
+  EmissiveCellData find();
+
+ private:
+  static constexpr double kMostPlaces = 1 << 24;
+
+  struct Extent {
+    Place lo, size;
+    double places() const { return double(size[0]) * size[1] * size[2]; }
+  };
+
+  void find_in(std::uint32_t node, int level, const Index3& corner);
+  void read(const Index3& corner, std::int64_t side);
+  void fill(const Index3& corner, std::int64_t side);
+  void merge_if_too_many();
+  void merge();
+  Place place_of(const Index3& corner) const;
+  Extent extent() const;
+  void append_lattice(EmissiveCellData& cells, const Place& place) const;
+  float read_node(const GridVec& p) const;
+  EmissiveCellData placed(const Extent& box) const;
+
+  const GridEmission& emission_;
+  std::size_t most_;
+  std::int64_t side_ = kBlocks;  // of a cell, in voxels: a power of 2
+  std::map<Place, Sums> found_;  // by corner / side_, those that emit
+};
+
+Place CellFinder::place_of(const Index3& corner) const {
+  Place place;
+  for (std::size_t k = 0; k < 3; ++k) place[k] = static_cast<int>(corner[k] / side_);
+  return place;
 }
 
-void BrickFinder::add(const Cell& place, const Blocks& blocks) {
-  if (!std::any_of(blocks.begin(), blocks.end(), [](double e) { return e > 0; })) return;
-  Blocks& into = found_.try_emplace(place, Blocks{}).first->second;
-  for (std::size_t i = 0; i < kBlocks; ++i) into[i] += blocks[i];
-}
-
-/// `side` cells at `corner`, at most those of a brick, of which 8^3 equal parts are read in their middles.
-void BrickFinder::read(const Index3& corner, std::int64_t side) {
-  const std::int64_t step = side / 8, block = cells_ / EmissiveBrickData::kBlocks;
-  Cell place;
-  for (std::size_t k = 0; k < 3; ++k) place[k] = static_cast<int>(corner[k] / cells_);
-  Blocks blocks{};
-  for (int i = 0; i < 512; ++i) {
-    const Index3 part{corner[0] + i % 8 * step, corner[1] + i / 8 % 8 * step, corner[2] + i / 64 * step};
-    const auto in_brick = [&](std::size_t k) { return static_cast<int>(part[k] % cells_ / block); };
-    blocks[EmissiveBrickData::block_index(in_brick(0), in_brick(1), in_brick(2))] += emission_in(cube(part, step));
+/// `side` voxels at `corner`, a brick's at most or a cell's, of which 8^3 equal parts are read in their middles.
+void CellFinder::read(const Index3& corner, std::int64_t side) {
+  constexpr int kParts = 8;
+  const std::int64_t step = std::max<std::int64_t>(side / kParts, 1);
+  for (int i = 0; i < kParts * kParts * kParts; ++i) {
+    const Index3 part{corner[0] + i % kParts * step, corner[1] + i / kParts % kParts * step,
+                      corner[2] + i / (kParts * kParts) * step};
+    const Sums sums = emission_.in(cube(part, step));
+    if (sums.emission > 0) found_[place_of(part)] += sums;
   }
-  add(place, blocks);
   merge_if_too_many();
 }
 
-/// `side` cells at `corner` with one emission: read once.
-void BrickFinder::fill(const Index3& corner, std::int64_t side) {
-  const Box3d all = overlap(cube(corner, side), emitting_);
-  const double emission = emission_in(all) / volume(all);
-  if (!(emission > 0)) return;
-  const auto too_many = [&] { return std::pow(std::max(1.0, double(side) / double(cells_)), 3) > double(most_); };
+/// `side` voxels at `corner` with one emission: read once.
+void CellFinder::fill(const Index3& corner, std::int64_t side) {
+  const Box3d all = overlap(cube(corner, side), emission_.extent());
+  const Sums all_of_it = emission_.in(all);
+  if (!(all_of_it.emission > 0)) return;
+  const auto too_many = [&] { return std::pow(std::max(1.0, double(side) / double(side_)), 3) > double(most_); };
   while (too_many()) merge();
-  const int count = static_cast<int>(std::max<std::int64_t>(1, side / cells_));
-  const std::int64_t block = cells_ / EmissiveBrickData::kBlocks;
+  const int count = static_cast<int>(std::max<std::int64_t>(1, side / side_));
   for (int i = 0; i < count * count * count; ++i) {
-    const Cell place{static_cast<int>(corner[0] / cells_) + i % count, static_cast<int>(corner[1] / cells_) + i / count % count,
-                     static_cast<int>(corner[2] / cells_) + i / (count * count)};
-    Blocks blocks;
-    for (int b = 0; b < static_cast<int>(kBlocks); ++b) {
-      const Index3 at{place[0] * cells_ + b % 4 * block, place[1] * cells_ + b / 4 % 4 * block,
-                      place[2] * cells_ + b / 16 * block};
-      blocks[static_cast<std::size_t>(b)] = emission * volume(overlap(cube(at, block), all));
-    }
-    add(place, blocks);
+    const Place first = place_of(corner);
+    const Place place{first[0] + i % count, first[1] + i / count % count, first[2] + i / (count * count)};
+    const Index3 at{place[0] * side_, place[1] * side_, place[2] * side_};
+    const double size = volume(overlap(cube(at, side_), all));
+    if (size > 0) found_[place] += all_of_it * (size / volume(all));
   }
   merge_if_too_many();
 }
 
 /// A leaf of a higher level has one density everywhere, and still an emission that may vary.
-void BrickFinder::find_in(std::uint32_t node, int level, const Index3& corner) {
-  const BrickGrid& grid = data_.density.grid;
+void CellFinder::find_in(std::uint32_t node, int level, const Index3& corner) {
+  const BrickGrid& grid = emission_.data().density.grid;
   const std::int64_t side = BrickGrid::extent(level);
-  if (node == BrickGrid::kNone || !(volume(overlap(cube(corner, side), emitting_)) > 0)) return;
+  if (node == BrickGrid::kNone || !(volume(overlap(cube(corner, side), emission_.extent())) > 0)) return;
   const bool leaf = grid.node(node).is_leaf();
-  const EmissionField& e = data_.emission;
+  const EmissionField& e = emission_.data().emission;
   if (level > 0 && leaf && e.kind == EmissionField::Kind::constant && !e.scale) return fill(corner, side);
-  if (level == 0 || (leaf && side <= cells_)) return read(corner, side);
+  if (level == 0 || (leaf && side <= side_)) return read(corner, side);
   const std::int64_t part = BrickGrid::extent(level - 1);
   for (int i = 0; i < 64; ++i) {
     const Index3 child{corner[0] + i % 4 * part, corner[1] + i / 4 % 4 * part, corner[2] + i / 16 * part};
@@ -186,27 +218,21 @@ void BrickFinder::find_in(std::uint32_t node, int level, const Index3& corner) {
   }
 }
 
-void BrickFinder::merge_if_too_many() {
+void CellFinder::merge_if_too_many() {
   while (found_.size() > most_) merge();
 }
 
-/// Bricks of twice the side: the blocks of eight become one.
-void BrickFinder::merge() {
-  std::map<Cell, Blocks> merged;
-  for (const auto& [place, blocks] : found_) {
-    Blocks& into = merged.try_emplace({place[0] >> 1, place[1] >> 1, place[2] >> 1}, Blocks{}).first->second;
-    const int half[3] = {(place[0] & 1) * 2, (place[1] & 1) * 2, (place[2] & 1) * 2};
-    for (int i = 0; i < 64; ++i)
-      into[static_cast<std::size_t>(((half[2] + i / 32) * 4 + half[1] + i / 8 % 2) * 4 + half[0] + i % 4 / 2)] +=
-          blocks[static_cast<std::size_t>(i)];
-  }
+/// Of twice the side: eight become one.
+void CellFinder::merge() {
+  std::map<Place, Sums> merged;
+  for (const auto& [place, sums] : found_) merged[{place[0] >> 1, place[1] >> 1, place[2] >> 1}] += sums;
   found_ = std::move(merged);
-  cells_ *= 2;
+  side_ *= 2;
 }
 
-BrickFinder::Extent BrickFinder::extent() const {
+CellFinder::Extent CellFinder::extent() const {
   Extent box{found_.begin()->first, {}};
-  Cell hi = box.lo;
+  Place hi = box.lo;
   for (const auto& entry : found_)
     for (std::size_t k = 0; k < 3; ++k) {
       box.lo[k] = std::min(box.lo[k], entry.first[k]);
@@ -216,55 +242,101 @@ BrickFinder::Extent BrickFinder::extent() const {
   return box;
 }
 
-void BrickFinder::append(EmissiveBrickData& bricks, const Cell& place, const Blocks& blocks) const {
-  double total = 0;
-  for (const double e : blocks) total += e;
-  const double a_block = double(cells_) / EmissiveBrickData::kBlocks;
-  bricks.places.push_back(place);
-  bricks.intensities.push_back(static_cast<float>(total * bricks.block_volume / (a_block * a_block * a_block)));
+/// At a voxel exactly; where nodes are farther apart the mean of what is around it.
+float CellFinder::read_node(const GridVec& p) const {
+  const double block = double(side_) / kBlocks;
+  if (block <= 1) return static_cast<float>(emission_.at(p).emission);
   double sum = 0;
-  for (std::size_t i = 0; i < kBlocks; ++i) {
-    sum += (1 - kUniform) * blocks[i] / total + kUniform / kBlocks;
-    bricks.cumulative.push_back(i + 1 < kBlocks ? static_cast<float>(std::min(sum, 1.0)) : 1.0f);
+  for (int i = 0; i < 8; ++i) {
+    const auto aside = [&](int bit) { return (i >> bit & 1 ? 0.25 : -0.25) * block; };
+    sum += emission_.at({{p[0] + aside(0), p[1] + aside(1), p[2] + aside(2)}}).emission;
   }
+  return static_cast<float>(sum / 8);
 }
 
-void BrickFinder::place(EmissiveBrickData& bricks, const Extent& box) const {
-  const auto cells = double(cells_), side = cells / EmissiveBrickData::kBlocks;
-  const Transform local_of_block =
-      Transform::translate(box.lo[0] * cells, box.lo[1] * cells, box.lo[2] * cells) * Transform::scale(side, side, side);
-  bricks.to_world = to_world_ * local_of_block;
-  bricks.to_local = Affine::of(bricks.to_world.inverse());
-  const auto& m = bricks.to_world.matrix();
-  bricks.block_volume =
-      std::abs(m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
-               m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]));
-  bricks.size = box.size;
-  bricks.index.assign(static_cast<std::size_t>(box.places()), EmissiveBrickData::kNone);
-  for (const auto& [corner, blocks] : found_) {
-    const Cell at{corner[0] - box.lo[0], corner[1] - box.lo[1], corner[2] - box.lo[2]};
-    bricks.index[bricks.index_of(at)] = static_cast<std::uint32_t>(bricks.places.size());
-    append(bricks, at, blocks);
+void CellFinder::append_lattice(EmissiveCellData& cells, const Place& place) const {
+  std::array<float, EmissiveCellData::kNodesInCell> nodes;
+  const double block = double(side_) / kBlocks;
+  float most = 0, mean = 0;
+  for (int i = 0; i < static_cast<int>(nodes.size()); ++i) {
+    constexpr int kNodes = EmissiveCellData::kNodes;
+    const std::array<int, 3> number{i % kNodes, i / kNodes % kNodes, i / (kNodes * kNodes)};
+    GridVec at;
+    float share = 1.0f / (kBlocks * kBlocks * kBlocks);  // of the cell's integral
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      at.v[axis] = double(place[axis]) * double(side_) + number[axis] * block;
+      if (number[axis] % kBlocks == 0) share *= 0.5f;
+    }
+    float& node = nodes[static_cast<std::size_t>(i)];
+    node = read_node(at);
+    most = std::max(most, node);
+    mean += share * node;
   }
+  const float even = most > 0 ? kEven / (1 - kEven) * mean : 1.0f;
+  const float scale = 65535 / (most + even);
+  for (const float node : nodes) cells.lattice.push_back(static_cast<std::uint16_t>((node + even) * scale + 0.5f));
 }
 
-EmissiveBrickData BrickFinder::find() {
-  EmissiveBrickData bricks;
-  const BrickGrid& grid = data_.density.grid;
-  if (!medium_.emissive() || data_.kind != MediumData::Kind::grid || grid.empty()) return bricks;
-  to_world_ = transform_of(data_.density.to_local).inverse();
-  emitting_ = where_it_emits();
+EmissiveCellData CellFinder::placed(const Extent& box) const {
+  EmissiveCellData cells;
+  const auto side = double(side_);
+  cells.to_world = emission_.to_world() * Transform::translate(box.lo[0] * side, box.lo[1] * side, box.lo[2] * side) *
+                   Transform::scale(side, side, side);
+  cells.to_local = Affine::of(cells.to_world.inverse());
+  cells.cell_volume = std::abs(determinant(cells.to_world.matrix()));
+  cells.size = box.size;
+  cells.index.assign(static_cast<std::size_t>(box.places()), EmissiveCellData::kNone);
+  const double voxels = side * side * side;
+  std::vector<float> sigma_t;
+  for (const auto& [corner, sums] : found_) {
+    const Place at{corner[0] - box.lo[0], corner[1] - box.lo[1], corner[2] - box.lo[2]};
+    cells.index[cells.index_of(at)] = static_cast<std::uint32_t>(cells.places.size());
+    cells.places.push_back(at);
+    cells.intensities.push_back(static_cast<float>(sums.emission * cells.cell_volume / voxels));
+    sigma_t.push_back(static_cast<float>(sums.extinction / voxels));
+    append_lattice(cells, corner);
+  }
+  gather_radiances(cells, sigma_t);
+  return cells;
+}
+
+EmissiveCellData CellFinder::find() {
+  const BrickGrid& grid = emission_.data().density.grid;
   find_in(grid.root(), grid.root_level(), {0, 0, 0});
-  if (found_.empty()) return bricks;
+  if (found_.empty()) return {};
   while (extent().places() > kMostPlaces) merge();
-  place(bricks, extent());
-  return bricks;
+  return placed(extent());
+}
+
+EmissiveCellData homogeneous_cells(const ParticipatingMedium& medium, const Bounds3& reach) {
+  EmissiveCellData cells;
+  const Vec3 side = reach.extent() / float{kHomogeneousSide};
+  cells.to_world = Transform::translate(reach.min.x, reach.min.y, reach.min.z) * Transform::scale(side.x, side.y, side.z);
+  cells.cell_volume = double{side.x} * side.y * side.z;
+  const Coefficients c = medium.at(reach.min);
+  const auto intensity = static_cast<float>(double{mean(c.sigma_a * c.Le)} * cells.cell_volume);
+  if (!(intensity > 0 && std::isfinite(intensity))) return {};
+  cells.to_local = Affine::of(cells.to_world.inverse());
+  cells.size = {kHomogeneousSide, kHomogeneousSide, kHomogeneousSide};
+  for (int i = 0; i < kHomogeneousSide * kHomogeneousSide * kHomogeneousSide; ++i) {
+    cells.index.push_back(static_cast<std::uint32_t>(i));
+    cells.places.push_back(
+        {i % kHomogeneousSide, i / kHomogeneousSide % kHomogeneousSide, i / (kHomogeneousSide * kHomogeneousSide)});
+  }
+  cells.intensities.assign(cells.places.size(), intensity);
+  cells.lattice.assign(cells.places.size() * EmissiveCellData::kNodesInCell, 65535);
+  gather_radiances(cells, std::vector<float>(cells.places.size(), mean(c.sigma_t())));
+  return cells;
 }
 
 }  // namespace
 
-EmissiveBrickData find_emissive_bricks(const ParticipatingMedium& medium, std::size_t most) {
-  return BrickFinder(medium, most).find();
+EmissiveCellData find_emissive_cells(const ParticipatingMedium& medium, const Bounds3& reach, std::size_t most) {
+  if (!medium.emissive()) return {};
+  const MediumData& data = medium.data();
+  if (medium.homogeneous() && length(reach.extent()) < kInfinity) return homogeneous_cells(medium, reach);
+  if (data.kind != MediumData::Kind::grid || data.density.grid.empty()) return {};
+  return CellFinder(GridEmission(medium), most).find();
 }
 
 }  // namespace tyndall

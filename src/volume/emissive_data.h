@@ -1,44 +1,47 @@
-/// What EmissiveBricks is made of, and how it is found. Only src/volume sees it.
+/// What EmissiveCells is made of, and how it is found. Only src/volume sees it.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
-#include "volume/cell_walk.h"
+#include "volume/affine.h"
 #include "volume/medium.h"
 
 namespace tyndall {
 
-struct EmissiveBrickData {
-  static constexpr int kBlocks = 4;  ///< a side of a brick
-  static constexpr std::size_t kBlocksInBrick = 64;
-  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
-  static constexpr std::size_t block_index(int x, int y, int z) {
-    return static_cast<std::size_t>((z * kBlocks + y) * kBlocks + x);
-  }
+/// Three whole numbers along the axes.
+using Place = std::array<int, 3>;
 
-  // Local coordinates: a block is a unit cube, the corner of the box of bricks the origin.
+struct EmissiveCellData {
+  static constexpr int kBlocks = 4;  ///< along a side of a cell
+  static constexpr int kNodes = kBlocks + 1;
+  static constexpr std::size_t kNodesInCell = 125;
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+  static constexpr std::size_t node(int x, int y, int z) { return static_cast<std::size_t>((z * kNodes + y) * kNodes + x); }
+
+  // Local coordinates: a cell is a unit cube, the corner of the box of cells the origin.
   Affine to_local;
   Transform to_world;
-  double block_volume = 1;           ///< world space
-  Cell size{};                       ///< of the box of bricks, in bricks
-  std::vector<std::uint32_t> index;  ///< by place in the box; kNone
-  std::vector<Cell> places;          ///< by brick
-  std::vector<float> intensities;    ///< by brick
-  std::vector<float> cumulative;     ///< kBlocksInBrick a brick: probability of this block and those before it
+  double cell_volume = 1;              ///< world space
+  Place size{};                        ///< of the box of cells
+  std::vector<std::uint32_t> index;    ///< by place in the box; kNone
+  std::vector<Place> places;           ///< by cell
+  std::vector<float> intensities;      ///< by cell
+  std::vector<float> radiances;        ///< by cell
+  std::vector<std::uint16_t> lattice;  ///< kNodesInCell a cell: the density of its points at the nodes, in any unit
 
-  std::size_t index_of(const Cell& place) const {
+  std::size_t index_of(const Place& place) const {
     const auto at = [&](std::size_t i) { return static_cast<std::size_t>(place[i]); };
     return (at(2) * static_cast<std::size_t>(size[1]) + at(1)) * static_cast<std::size_t>(size[0]) + at(0);
   }
-  /// Density in a block, 1/volume.
-  double density(std::uint32_t brick, std::size_t block) const {
-    const float* c = cumulative.data() + brick * kBlocksInBrick;
-    return (double{c[block]} - (block > 0 ? double{c[block - 1]} : 0.0)) / block_volume;
-  }
+  const std::uint16_t* nodes_of(std::uint32_t cell) const { return lattice.data() + cell * kNodesInCell; }
 };
 
-/// At most `most` bricks.
-EmissiveBrickData find_emissive_bricks(const ParticipatingMedium& medium, std::size_t most);
+/// At most `most` cells.
+EmissiveCellData find_emissive_cells(const ParticipatingMedium& medium, const Bounds3& reach, std::size_t most);
+
+/// Fills `radiances`; `sigma_t`: of each cell, mean of channels.
+void gather_radiances(EmissiveCellData& cells, const std::vector<float>& sigma_t);
 
 }  // namespace tyndall

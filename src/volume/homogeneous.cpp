@@ -1,5 +1,6 @@
 #include "volume/homogeneous.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "volume/medium_data.h"
@@ -52,15 +53,13 @@ UniformOptics sum_of(MediaView media) {
 }
 
 /// The distance is drawn from the exponential of one channel and weighted by the density over all channels:
-/// p(t) = sum_c P_c sigma_c exp(-sigma_c t), P_c proportional to |beta_c|. Emission along the whole interval is
-/// added in closed form, whether the path collides or not.
+/// p(t) = sum_c P_c sigma_c exp(-sigma_c t), P_c proportional to |beta_c|.
 // NOLINTNEXTLINE(readability-function-size): as free_flight
 Flight homogeneous_flight(MediaView media, double t0, double t1, Rgb beta, float u_first, Rng& rng) {
   const UniformOptics m = sum_of(media);
   const double length = t1 - t0;
   Flight flight;
   flight.t = static_cast<float>(t1);
-  flight.emission = m.emitted(length);
   if (is_black(m.sigma_s)) {
     flight.weight = m.transmittance(length);
     return flight;
@@ -87,6 +86,19 @@ Flight homogeneous_flight(MediaView media, double t0, double t1, Rgb beta, float
   if (flight.collided)
     for (const ParticipatingMedium* medium : media) flight.phase.add(medium->data().optics.sigma_s, medium->phase());
   return flight;
+}
+
+/// The point is distributed by the transmittance of the clearest channel, which bounds all weights.
+Rgb homogeneous_emission(MediaView media, const Ray& ray, double t0, double t1, const EmissionGauge& gauge, Rng& rng) {
+  const UniformOptics m = sum_of(media);
+  const Rgb s = m.sigma_t();
+  const double sigma = std::min({s.r, s.g, s.b}), length = t1 - t0, u = rng.uniform();
+  const double reached = -std::expm1(-sigma * length);  // of the light from infinitely far, by that channel
+  const double t = sigma > 0 ? -std::log1p(-u * reached) / sigma : u * length;
+  if (!(t < std::numeric_limits<double>::infinity())) return {};
+  const double per_density = sigma > 0 ? reached / sigma * std::exp(sigma * t) : length;
+  return gauge.counted(media, ray.at(static_cast<float>(t0 + t)), m.emission) * m.transmittance(t) *
+         static_cast<float>(per_density);
 }
 
 }  // namespace tyndall

@@ -24,5 +24,7 @@ UniformOptics sum_of(MediaView media);
 
 /// `beta` with its largest channel 1.
 Flight homogeneous_flight(MediaView media, double t0, double t1, Rgb beta, float u_first, Rng& rng);
+/// Unbiased estimate of the emission along [t0, t1] that reaches t0 and that `gauge` counts, by one point.
+Rgb homogeneous_emission(MediaView media, const Ray& ray, double t0, double t1, const EmissionGauge& gauge, Rng& rng);
 
 }  // namespace tyndall

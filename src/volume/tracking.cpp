@@ -21,9 +21,8 @@ Rgb normalised(Rgb beta) {
 
 /// State of a flight between its tentative collisions.
 struct FlightState {
-  Rgb beta;  // normalised
-  bool emissive;
-  float depth;  // optical depth of the majorant still to go
+  Rgb beta;         // normalised
+  float depth = 0;  // optical depth of the majorant still to go
   Flight flight;
 };
 
@@ -36,10 +35,9 @@ template <typename Walk>
 bool collide(Walk& walk, double t, FlightState& state, Rng& rng, TrackingStats& stats) {
   Flight& flight = state.flight;
   const float rate = walk.rate();
-  const LocalOptics at = walk.optics_at(t, state.emissive);
+  const LocalOptics at = walk.optics_at(t, false);
   const Rgb sigma_t = at.sigma_a + at.sigma_s;
   count_lookup(max_component(sigma_t), rate, stats);
-  flight.emission += flight.weight * at.emission * (1 / rate);
 
   // Where nothing scatters a collision would only end the path: weigh instead, until too little is left.
   if (is_black(at.sigma_s)) {
@@ -98,16 +96,29 @@ void fly(Walk& walk, FlightState& state, Rng& rng, TrackingStats& stats) {
   }
 }
 
+/// Where emission is read on its way, and what counts of it.
+struct Passing {
+  MediaView media;
+  const Ray& ray;
+  const EmissionLook& look;
+  bool emissive;
+
+  Rgb counted(double t, Rgb emission) const {
+    return look.gauge && !is_black(emission) ? look.gauge->counted(media, ray.at(static_cast<float>(t)), emission) : emission;
+  }
+};
+
 /// Sum of emission and product of (1 - sigma_t / M) over tentative collisions: ratio tracking [Novak et al. 2014].
 template <typename Walk>
-void gather(Walk& walk, bool emissive, EmissionTransmittance& result, Rng& rng, TrackingStats& stats) {
-  for_each_collision(walk, result.transmittance, rng, stats, [&](double t, float rate) {
-    const LocalOptics at = walk.optics_at(t, emissive);
+void gather(Walk& walk, const Passing& passing, EmissionTransmittance& result, Rng& rng, TrackingStats& stats) {
+  const auto look = [&](double t, float rate) {
+    const LocalOptics at = walk.optics_at(t, passing.emissive);
     const Rgb sigma_t = at.sigma_a + at.sigma_s;
     count_lookup(max_component(sigma_t), rate, stats);
-    result.emitted += result.transmittance * at.emission * (1 / rate);
+    result.emitted += result.transmittance * passing.counted(t, at.emission) * (1 / rate);
     result.transmittance *= Rgb{1.0f} - sigma_t * (1 / rate);
-  });
+  };
+  for_each_collision(walk, result.transmittance, rng, stats, look, passing.look.density);
 }
 
 }  // namespace
@@ -119,7 +130,7 @@ bool any_emissive(MediaView media) {
 // NOLINTNEXTLINE(readability-function-size): one caller, once a span; a struct would be filled to be emptied
 Flight free_flight(MediaView media, const Ray& ray, float t0, float t1, Rgb beta, float u_first, Rng& rng,
                    TrackingStats& stats) {
-  FlightState state{normalised(beta), false, 0, {}};
+  FlightState state{normalised(beta), 0, {}};
   state.flight.t = t1;
   if (media.empty() || !(t0 < t1) || is_black(state.beta)) return state.flight;
   if (all_homogeneous(media)) {
@@ -128,7 +139,6 @@ Flight free_flight(MediaView media, const Ray& ray, float t0, float t1, Rgb beta
   }
   // A channel without throughput stays without: its weights mean nothing and must not overflow.
   state.flight.weight = {state.beta.r == 0 ? 0.0f : 1.0f, state.beta.g == 0 ? 0.0f : 1.0f, state.beta.b == 0 ? 0.0f : 1.0f};
-  state.emissive = any_emissive(media);
   state.depth = static_cast<float>(-std::log1p(-double{u_first}));
   with_walk<WalkMode::majorant>(media, ray, t0, t1, [&](auto& walk) {
     fly(walk, state, rng, stats);
@@ -138,18 +148,21 @@ Flight free_flight(MediaView media, const Ray& ray, float t0, float t1, Rgb beta
 }
 
 // NOLINTNEXTLINE(readability-function-size): as free_flight
-EmissionTransmittance emission_and_transmittance(MediaView media, const Ray& ray, float t0, float t1, Rng& rng,
-                                                 TrackingStats& stats) {
+EmissionTransmittance emission_and_transmittance(MediaView media, const Ray& ray, float t0, float t1, const EmissionLook& look,
+                                                 Rng& rng, TrackingStats& stats) {
   EmissionTransmittance result{{}, Rgb{1.0f}};
   if (media.empty() || !(t0 < t1)) return result;
   if (all_homogeneous(media)) {
     ++stats.segments;
     const UniformOptics m = sum_of(media);
     const double length = double{t1} - t0;
-    return {m.emitted(length), m.transmittance(length)};
+    if (is_black(m.emission)) return {{}, m.transmittance(length)};
+    return {look.gauge ? homogeneous_emission(media, ray, t0, t1, *look.gauge, rng) : m.emitted(length),
+            m.transmittance(length)};
   }
+  const Passing passing{media, ray, look, any_emissive(media)};
   with_walk<WalkMode::majorant>(media, ray, t0, t1, [&](auto& walk) {
-    gather(walk, any_emissive(media), result, rng, stats);
+    gather(walk, passing, result, rng, stats);
     finish(walk, stats);
   });
   return result;

@@ -39,7 +39,6 @@ struct Flight {
   bool collided = false;
   float t = 0;       ///< of the collision; the end of the interval if there was none
   Rgb weight{1.0f};  ///< multiplies the throughput. All zero after a collision: absorbed, the path ends
-  Rgb emission;      ///< add throughput (from before the interval) * this to the path's radiance
   PhaseMix phase;    ///< when collided and not absorbed
 };
 
@@ -60,12 +59,26 @@ struct TransmittanceMethod {
 Rgb transmittance(TransmittanceMethod method, MediaView media, const Ray& ray, float t0, float t1, Rng& rng,
                   TrackingStats& stats);
 
+/// What a path makes of the emission that it passes.
+class EmissionGauge {
+ public:
+  virtual ~EmissionGauge() = default;
+  /// Of `emission`, the sum of sigma_a Le of `media` at `p`, what the path counts: its MIS weight times it.
+  virtual Rgb counted(MediaView media, Vec3 p, Rgb emission) const = 0;
+};
+
+/// How emission is looked at on its way.
+struct EmissionLook {
+  const EmissionGauge* gauge = nullptr;  ///< null: all of it counts
+  float density = 1;                     ///< look-ups for each unit of the majorant's optical depth, > 0
+};
+
 /// Light emitted along an interval that reaches t0, and the transmittance of the whole interval.
 struct EmissionTransmittance {
   Rgb emitted, transmittance;
 };
-/// For a segment after which the path does not scatter: no collision, so no light from behind is lost to chance.
-EmissionTransmittance emission_and_transmittance(MediaView media, const Ray& ray, float t0, float t1, Rng& rng,
-                                                 TrackingStats& stats);
+/// Unbiased estimate of both, independent of where a path collides.
+EmissionTransmittance emission_and_transmittance(MediaView media, const Ray& ray, float t0, float t1, const EmissionLook& look,
+                                                 Rng& rng, TrackingStats& stats);
 
 }  // namespace tyndall

@@ -63,13 +63,14 @@ inline bool roulette(Rgb& T, Rng& rng) {
   return true;
 }
 
-/// Poisson points of density rate() along the walk: body(t, rate) for each, which scales down T; ends when that is 0.
+/// Poisson points along the walk, of a density `density` times rate(): body(t, that density) for each, which scales down T;
+/// ends when that is 0.
 template <typename Walk, typename Body>
-void for_each_collision(Walk& walk, Rgb& T, Rng& rng, TrackingStats& stats, const Body& body) {
+void for_each_collision(Walk& walk, Rgb& T, Rng& rng, TrackingStats& stats, const Body& body, float density = 1) {
   LoopGuard guard;
   float depth = exponential(rng);
   while (walk.next()) {
-    const float rate = walk.rate();
+    const float rate = walk.rate() * density;
     if (!(rate > 0)) continue;
     double t = walk.t();
     for (;;) {

@@ -137,3 +137,32 @@ TEST_CASE("thermal equilibrium with a white wall, volume emission sampled as lig
   vertex.variant.media = MediaStrategy::vertex;
   check_agrees("equilibrium by vertices", scene, {1.0, 1.0, 1.0}, vertex);
 }
+
+/// E = pi Le (R / d)^2 b in front of the sphere's centre, b = 1 - 2 (1 - (1 + tau) e^-tau) / tau^2, tau = 2 sigma_a R: the flux
+/// of a black disk, less what is not absorbed.
+TEST_CASE("irradiance of a sphere that emits and absorbs, thin and thick, in closed form") {
+  constexpr double kFacing = 0.5 * 0.5 / (0.8 * 0.8), kReflectance = 0.5;
+  const View oblique{.eye = {3, 0, -1}, .look = {0, 0, 0.8f}, .max_depth = 4};
+  const auto scene = [&](Rgb tau) {
+    return view(oblique) + diffuse_plane(0.8f, 2, static_cast<float>(kReflectance)) +
+           homogeneous("m", {.sigma_a = tau, .Le = Rgb(1.0f)}) +
+           block("Material \"interface\"\nMediumInterface \"m\" \"\"\nShape \"sphere\" \"float radius\" 0.5\n");
+  };
+  const auto expected = [&](std::array<double, 3> b) {
+    Expected e;
+    for (std::size_t i = 0; i < 3; ++i) e[i] = kReflectance * kFacing * b[i];
+    return e;
+  };
+  struct Case {
+    Rgb tau;
+    std::array<double, 3> b;
+  };
+  for (const auto& [tau, b] : {Case{{0.01f, 0.1f, 0.5f}, {0.00664173, 0.06423197, 0.27836792}},
+                               Case{{1, 5, 20}, {0.47151776, 0.92323421, 0.99500000}}}) {
+    for (const EmissionStrategy emission : {EmissionStrategy::paths, EmissionStrategy::lights}) {
+      const Agreement how{.variant = {.emission = emission}};
+      check_agrees("sphere of optical depth " + number(tau.r) + (emission == EmissionStrategy::lights ? ", lights" : ", paths"),
+                   scene(tau), expected(b), how);
+    }
+  }
+}
