@@ -142,7 +142,7 @@ class RenderJob::Impl {
     alive();
     film_points_ = film_points(search);
     film_emitters_ = film_emitters(search);
-    film_edges_ = film_edges(search);
+    film_edges_ = film_edges(search, film_emitters_);
     searched_ = true;
     preparing_seconds_ = search_timer.seconds();
   }
@@ -182,7 +182,7 @@ class RenderJob::Impl {
       for (float& v : image.add_channel("SampleCount").values) v = static_cast<float>(samples_);
     }
     for (Channel& channel : image.channels) {
-      if (channel.name != "SampleCount") continue;
+      if (channel.name != "SampleCount" && channel.name != "Replicate.SampleCount") continue;
       for (const PixelBounds& tile : unrendered_) {
         for (int y = tile.y0; y < tile.y1; ++y) {
           const auto row = static_cast<std::size_t>(y - image.data.y0) * static_cast<std::size_t>(image.width());

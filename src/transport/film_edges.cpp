@@ -52,4 +52,17 @@ FilmEdges::FilmEdges(const View& view, const std::vector<float>& brightness) : p
   if (std::find(edges.begin(), edges.end(), true) != edges.end()) edges_ = std::move(edges);
 }
 
+bool FilmEdges::is_outline(std::span<const float> brightness) {
+  Contrast contrast;
+  for (const float b : brightness) contrast.add({b, b});
+  return contrast.is_edge();
+}
+
+void FilmEdges::add(const View& view, const std::vector<char>& edges) {
+  if (std::all_of(edges.begin(), edges.end(), [](char e) { return e == 0; })) return;
+  pixels_ = view.pixels;
+  edges_.resize(edges.size());
+  for (std::size_t i = 0; i < edges.size(); ++i) edges_[i] = edges_[i] || edges[i];
+}
+
 }  // namespace tyndall

@@ -4,6 +4,7 @@
 /// the noise.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "tyndall/image.h"
@@ -24,6 +25,11 @@ class FilmEdges {
   /// `brightness`: of the directly visible emission at the center of each pixel of `view.around()`, row by row, in any unit.
   FilmEdges(const View& view, const std::vector<float>& brightness);
   bool at(int x, int y) const { return !edges_.empty() && edges_[pixels_.index(x, y)]; }
+
+  /// Whether brightnesses are those of an outline.
+  static bool is_outline(std::span<const float> brightness);
+  /// Pixels that are edges besides: those of `view.pixels` that are not 0, row by row.
+  void add(const View& view, const std::vector<char>& edges);
 
  private:
   PixelBounds pixels_;

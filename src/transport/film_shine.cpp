@@ -9,6 +9,8 @@ namespace {
 
 /// Of the filter's radius: what is larger is hit often enough.
 constexpr float kLargest = 1;
+/// Pixels; slivers of larger circles may lie between pixel centers too, but are seen at others.
+constexpr float kLargestMissed = 2;
 /// Share of the filter's support that the circles may cover together; they are larger than the emitters in them.
 constexpr float kMostFilled = 1;
 
@@ -30,18 +32,23 @@ Range rows_of(const FilmEmitters::View& view, const FilmEmitters::Spot& spot) {
 struct Gathered {
   std::vector<FilmEmitter> lights;
   float filled = 0;  ///< pixels^2
+  bool unaimed = false;
 };
 
 }  // namespace
 
 bool FilmEmitters::View::wants(const Spot& spot) const {
   const float least = std::min(filter_radius.x, filter_radius.y), widest = std::max(filter_radius.x, filter_radius.y);
-  if (!(widest <= kWidestFilter) || !(spot.radius < kLargest * least)) return false;
+  if (!(widest <= kWidestFilter) || !(spot.radius < std::max(kLargest * least, kLargestMissed))) return false;
   if (!(spot.brightness > 0 && spot.brightness < kInfinity)) return false;
   // In floats: places far off do not fit an int.
   const float rim = widest + spot.radius;
   return spot.at.x > static_cast<float>(pixels.x0) - rim && spot.at.x < static_cast<float>(pixels.x1) + rim &&
          spot.at.y > static_cast<float>(pixels.y0) - rim && spot.at.y < static_cast<float>(pixels.y1) + rim;
+}
+
+bool FilmEmitters::View::aims_at(const Spot& spot) const {
+  return spot.radius < kLargest * std::min(filter_radius.x, filter_radius.y);
 }
 
 FilmEmitters::FilmEmitters(const View& view, const std::vector<Spot>& spots) : pixels_(view.pixels) {
@@ -70,12 +77,18 @@ void FilmEmitters::add_row(const View& view, int y, const std::vector<Spot>& spo
       const float dx = (spot.at.x - (static_cast<float>(x) + 0.5f)) / radius.x;
       const float dy = (spot.at.y - (static_cast<float>(y) + 0.5f)) / radius.y;
       Gathered& g = row[static_cast<std::size_t>(x - pixels_.x0)];
-      g.lights.push_back({spot.light, spot.brightness * toward_rim(dx, dy)});
-      g.filled += kPi * spot.radius * spot.radius;
+      if (view.aims_at(spot)) {
+        g.lights.push_back({spot.light, spot.brightness * toward_rim(dx, dy)});
+        g.filled += kPi * spot.radius * spot.radius;
+      } else {
+        g.unaimed = true;
+      }
     }
   }
   for (Gathered& g : row) {
-    if (g.filled < kMostFilled * 4 * radius.x * radius.y) {
+    const bool aims = g.filled < kMostFilled * 4 * radius.x * radius.y;
+    unaimed_.push_back(g.unaimed || (!aims && !g.lights.empty()));
+    if (aims) {
       const auto end = g.lights.begin() + static_cast<std::ptrdiff_t>(std::min(g.lights.size(), PixelEmitters::kMost));
       std::partial_sort(g.lights.begin(), end, g.lights.end(), brighter<FilmEmitter>);
       lights_.insert(lights_.end(), g.lights.begin(), end);

@@ -36,14 +36,18 @@ class FilmEmitters {
   struct View {
     PixelBounds pixels;
     Vec2 filter_radius;
-    /// Whether a pixel's filter may cover some of it, and it is small enough to be missed by most samples.
+    /// Whether a pixel's filter may cover some of it, and it is so small that looks at pixel centers may miss it.
     bool wants(const Spot& spot) const;
+    /// It is even missed by most samples.
+    bool aims_at(const Spot& spot) const;
   };
 
   FilmEmitters() = default;
-  /// Pixels whose filters the footprints would fill together have none: their samples hit them anyhow.
+  /// Pixels whose filters the footprints would fill together have no aims: their samples hit them anyhow.
   FilmEmitters(const View& view, const std::vector<Spot>& spots);
   PixelEmitters of(int x, int y) const;
+  /// Whether the pixel sees some at which it does not aim.
+  bool unaimed(int x, int y) const { return !unaimed_.empty() && unaimed_[pixels_.index(x, y)]; }
 
  private:
   void add_row(const View& view, int y, const std::vector<Spot>& spots, const std::vector<std::uint32_t>& seen);
@@ -51,6 +55,7 @@ class FilmEmitters {
   PixelBounds pixels_;
   std::vector<std::uint32_t> begin_;  ///< of each pixel's lights, and the end of the last's; empty without any
   std::vector<FilmEmitter> lights_;
+  std::vector<bool> unaimed_;  ///< likewise
 };
 
 }  // namespace tyndall

@@ -61,7 +61,7 @@ std::size_t plan_film_search(const Scene& scene) {
   if (surfaces == 0 || !(radius <= FilmEmitters::kWidestFilter)) return 0;
   const double pixels = pixels_of(scene), pixels_of_surface = (4 * radius + 1) * (4 * radius + 1);
   ByteCount sum;
-  sum.add(pixels, sizeof(std::uint32_t) + sizeof(float) + 1);
+  sum.add(pixels, sizeof(std::uint32_t) + sizeof(float) + 2);
   sum.add(std::min(pixels * PixelEmitters::kMost, surfaces * pixels_of_surface), sizeof(FilmEmitter));
   return sum.bytes();
 }

@@ -1,6 +1,7 @@
 #include "transport/shine_light.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "math/similarity.h"
@@ -13,6 +14,8 @@ namespace {
 
 /// In the picture. More would take seconds to process, and are triangles of larger things rather than bulbs.
 constexpr std::size_t kMostSpots = 1'000'000;
+/// Places along each side of a filter's support where outlines of emitters of about a pixel are looked for.
+constexpr int kLooks = 6;
 /// A camera this near to an emitter, in its radii, may be inside it.
 constexpr float kNearest = 2;
 
@@ -81,7 +84,7 @@ class EmitterEstimate {
 
   /// By film positions that the filter draws.
   Rgb by_positions(Sampler& sampler) const {
-    const Vec2 shift = sampler.next_2d();
+    const Vec2 shift = lattice_shift(sampler.next_2d());
     Rgb sum;
     for (int i = 0; i < positions_; ++i) sum += through(context_.world.filter.sample(lattice_point(i, shift)), sampler);
     return sum * (1 / static_cast<float>(positions_));
@@ -89,6 +92,12 @@ class EmitterEstimate {
 
  private:
   static float wrapped(float u) { return std::min(u - std::floor(u), kOneMinusEpsilon); }
+  /// Within one cell of the lattice, between its two shortest vectors: so the lattices of all samples together are as even as
+  /// the points that shift them. A single position is its own lattice.
+  Vec2 lattice_shift(Vec2 u) const {
+    if (positions_ == 1) return u;
+    return {(2 * u.x + 3 * u.y) / kPositions, (3 * u.x - 2 * u.y) / kPositions};
+  }
   Vec2 lattice_point(int i, Vec2 shift) const {
     const float spacing = 1 / static_cast<float>(positions_);
     const int row = i * kLatticeStep % positions_;
@@ -116,6 +125,26 @@ class EmitterEstimate {
   int positions_;
 };
 
+Vec2 center_of(int x, int y) { return {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f}; }
+
+/// Of directly visible emission.
+float brightness_at(const BuiltWorld& world, Vec2 film) {
+  const Ray ray = world.camera.ray(film, {0.5f, 0.5f});
+  const auto seen = seen_light(world, ray);
+  return seen ? mean(seen->L) * attenuated_roughly(world, ray, *seen) : 0.0f;
+}
+
+/// Whether places spread over the filter of the pixel at `center` differ.
+bool sees_outline(const BuiltWorld& world, Vec2 center) {
+  std::array<float, kLooks * kLooks> brightness;
+  for (int i = 0; i < kLooks * kLooks; ++i) {
+    const Vec2 u{(static_cast<float>(i % kLooks) + 0.5f) / kLooks, (static_cast<float>(i / kLooks) + 0.5f) / kLooks};
+    const Vec2 offset = world.filter.sample(u).p;
+    brightness[static_cast<std::size_t>(i)] = brightness_at(world, {center.x + offset.x, center.y + offset.y});
+  }
+  return FilmEdges::is_outline(brightness);
+}
+
 }  // namespace
 
 FilmEmitters film_emitters(const FilmSearch& search) {
@@ -131,7 +160,7 @@ FilmEmitters film_emitters(const FilmSearch& search) {
   return spots.size() > kMostSpots ? FilmEmitters() : FilmEmitters(view, spots);
 }
 
-FilmEdges film_edges(const FilmSearch& search) {
+FilmEdges film_edges(const FilmSearch& search, const FilmEmitters& emitters) {
   const BuiltWorld& world = search.world;
   const FilmEdges::View view{search.pixels, world.scene.filter.radius};
   if (!is_wanted(world, search.settings) ||
@@ -142,13 +171,18 @@ FilmEdges film_edges(const FilmSearch& search) {
   search.pool.for_each(static_cast<std::size_t>(all.height()), 1, [&](std::size_t row) {
     search.alive();
     const int y = all.y0 + static_cast<int>(row);
-    for (int x = all.x0; x < all.x1; ++x) {
-      const Ray ray = world.camera.ray({static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f}, {0.5f, 0.5f});
-      const auto seen = seen_light(world, ray);
-      if (seen) brightness[all.index(x, y)] = mean(seen->L) * attenuated_roughly(world, ray, *seen);
-    }
+    for (int x = all.x0; x < all.x1; ++x) brightness[all.index(x, y)] = brightness_at(world, center_of(x, y));
   });
-  return {view, brightness};
+  FilmEdges edges(view, brightness);
+  std::vector<char> unaimed(view.pixels.size());
+  search.pool.for_each(static_cast<std::size_t>(view.pixels.height()), 1, [&](std::size_t row) {
+    search.alive();
+    const int y = view.pixels.y0 + static_cast<int>(row);
+    for (int x = view.pixels.x0; x < view.pixels.x1; ++x)
+      unaimed[view.pixels.index(x, y)] = emitters.unaimed(x, y) && !edges.at(x, y) && sees_outline(world, center_of(x, y));
+  });
+  edges.add(view, unaimed);
+  return edges;
 }
 
 Rgb visible_emitters(const LightContext& context, const EmitterView& view, Vec2 center, Sampler sampler) {

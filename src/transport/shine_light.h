@@ -17,8 +17,9 @@ namespace tyndall {
 /// out: only rays of a pinhole that is not distorted are aimed.
 FilmEmitters film_emitters(const FilmSearch& search);
 
-/// Pixels that average over several film positions. None where settings or the camera rule it out: only pinholes do.
-FilmEdges film_edges(const FilmSearch& search);
+/// Pixels that average over several film positions: those that see outlines of what is as large as a pixel, and of smaller
+/// `emitters` at which they do not aim. None where settings or the camera rule it out: only pinholes do.
+FilmEdges film_edges(const FilmSearch& search, const FilmEmitters& emitters);
 
 /// How a pixel's samples estimate directly visible emission.
 struct EmitterView {

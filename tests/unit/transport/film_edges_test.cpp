@@ -66,5 +66,22 @@ TEST_CASE("where nothing emits, or all emits alike, there are no edges") {
   CHECK_FALSE(FilmEdges().at(3, 2));
 }
 
+TEST_CASE("pixels can be edges besides those that centers tell of") {
+  CHECK(FilmEdges::is_outline(std::vector<float>{0, 0, 2, 0}));
+  CHECK(FilmEdges::is_outline(std::vector<float>{2, 2, 1.7f}));
+  CHECK_FALSE(FilmEdges::is_outline(std::vector<float>{2, 2, 1.9f}));
+  CHECK_FALSE(FilmEdges::is_outline(std::vector<float>{0, 0, 0}));
+  const FilmEdges::View view{{2, 1, 5, 3}, {0.5f, 0.5f}};
+  std::vector<float> brightness(view.around().size());
+  brightness[view.around().index(2, 1)] = 1;
+  for (const bool with_centers : {false, true}) {
+    FilmEdges edges = with_centers ? FilmEdges(view, brightness) : FilmEdges();
+    edges.add(view, {0, 0, 0, 0, 0, 1});
+    CHECK(edges.at(4, 2));
+    CHECK_FALSE(edges.at(4, 1));
+    CHECK(edges.at(2, 1) == with_centers);
+  }
+}
+
 }  // namespace
 }  // namespace tyndall

@@ -78,11 +78,14 @@ TEST_CASE("emitters are drawn with their pmf") {
   CHECK(emitters.draw(0x1.fffffep-1f).light == 13);
 }
 
-TEST_CASE("emitters that fill a pixel, that are large, far off the film or dark are left to the filter") {
+TEST_CASE("emitters that fill a pixel, that are large, far off the film or dark are not aimed at") {
   const PixelBounds pixels{0, 0, 8, 8};
   const FilmEmitters::View view{pixels, {1, 1}};
   CHECK(view.wants({0, {4, 4}, 0.5f, 1}));
-  CHECK_FALSE(view.wants({0, {4, 4}, 1.5f, 1}));
+  CHECK(view.aims_at({0, {4, 4}, 0.5f, 1}));
+  CHECK(view.wants({0, {4, 4}, 1.5f, 1}));
+  CHECK_FALSE(view.aims_at({0, {4, 4}, 1.5f, 1}));
+  CHECK_FALSE(view.wants({0, {4, 4}, 2.5f, 1}));
   CHECK_FALSE(view.wants({0, {4, 4}, 0.5f, 0}));
   CHECK_FALSE(view.wants({0, {4, 4}, 0.5f, kInfinity}));
   CHECK_FALSE(view.wants({0, {1e30f, 4}, 0.5f, 1}));
@@ -91,9 +94,16 @@ TEST_CASE("emitters that fill a pixel, that are large, far off the film or dark 
   std::vector<Footprint> crowd;
   for (LightId i = 0; i < 10; ++i) crowd.push_back({i, {4.5f, 4.5f}, 0.9f, 1});
   CHECK(FilmEmitters(view, crowd).of(4, 4).empty());
+  CHECK(FilmEmitters(view, crowd).unaimed(4, 4));
   crowd.resize(1);
   CHECK_FALSE(FilmEmitters(view, crowd).of(4, 4).empty());
+  CHECK_FALSE(FilmEmitters(view, crowd).unaimed(4, 4));
+  crowd.push_back({1, {4.5f, 4.5f}, 1.5f, 1});
+  CHECK_FALSE(FilmEmitters(view, crowd).of(4, 4).empty());
+  CHECK(FilmEmitters(view, crowd).unaimed(4, 4));
+  CHECK_FALSE(FilmEmitters(view, crowd).unaimed(0, 0));
   CHECK(FilmEmitters().of(4, 4).empty());
+  CHECK_FALSE(FilmEmitters().unaimed(4, 4));
 }
 
 }  // namespace
