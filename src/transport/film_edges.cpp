@@ -10,18 +10,7 @@ namespace {
 /// Relative to the brighter of two pixels: more than shading varies, less than another light does.
 constexpr float kLeastContrast = 0.1f;
 
-/// The darkest and the brightest of some pixels.
-struct Contrast {
-  float least = kInfinity, most = 0;
-  void add(const Contrast& other) {
-    least = std::min(least, other.least);
-    most = std::max(most, other.most);
-  }
-  bool is_edge() const { return most - least > kLeastContrast * most; }
-};
-
 }  // namespace
-
 PixelBounds FilmEdges::View::around() const {
   const int x = static_cast<int>(std::ceil(filter_radius.x)), y = static_cast<int>(std::ceil(filter_radius.y));
   return {pixels.x0 - x, pixels.y0 - y, pixels.x1 + x, pixels.y1 + y};
@@ -52,11 +41,7 @@ FilmEdges::FilmEdges(const View& view, const std::vector<float>& brightness) : p
   if (std::find(edges.begin(), edges.end(), true) != edges.end()) edges_ = std::move(edges);
 }
 
-bool FilmEdges::is_outline(std::span<const float> brightness) {
-  Contrast contrast;
-  for (const float b : brightness) contrast.add({b, b});
-  return contrast.is_edge();
-}
+bool Contrast::is_edge() const { return most - least > kLeastContrast * most; }
 
 void FilmEdges::add(const View& view, const std::vector<char>& edges) {
   if (std::all_of(edges.begin(), edges.end(), [](char e) { return e == 0; })) return;

@@ -4,13 +4,23 @@
 /// the noise.
 #pragma once
 
-#include <span>
+#include <algorithm>
 #include <vector>
 
 #include "tyndall/image.h"
 #include "tyndall/math.h"
 
 namespace tyndall {
+
+/// The darkest and the brightest of some places.
+struct Contrast {
+  float least = kInfinity, most = 0;
+  void add(const Contrast& other) {
+    least = std::min(least, other.least);
+    most = std::max(most, other.most);
+  }
+  bool is_edge() const;
+};
 
 class FilmEdges {
  public:
@@ -26,8 +36,6 @@ class FilmEdges {
   FilmEdges(const View& view, const std::vector<float>& brightness);
   bool at(int x, int y) const { return !edges_.empty() && edges_[pixels_.index(x, y)]; }
 
-  /// Whether brightnesses are those of an outline.
-  static bool is_outline(std::span<const float> brightness);
   /// Pixels that are edges besides: those of `view.pixels` that are not 0, row by row.
   void add(const View& view, const std::vector<char>& edges);
 

@@ -32,7 +32,7 @@ Range rows_of(const FilmEmitters::View& view, const FilmEmitters::Spot& spot) {
 struct Gathered {
   std::vector<FilmEmitter> lights;
   float filled = 0;  ///< pixels^2
-  bool unaimed = false;
+  bool too_large = false;
 };
 
 }  // namespace
@@ -81,13 +81,13 @@ void FilmEmitters::add_row(const View& view, int y, const std::vector<Spot>& spo
         g.lights.push_back({spot.light, spot.brightness * toward_rim(dx, dy)});
         g.filled += kPi * spot.radius * spot.radius;
       } else {
-        g.unaimed = true;
+        g.too_large = true;
       }
     }
   }
   for (Gathered& g : row) {
     const bool aims = g.filled < kMostFilled * 4 * radius.x * radius.y;
-    unaimed_.push_back(g.unaimed || (!aims && !g.lights.empty()));
+    unaimed_.push_back(g.too_large ? Unaimed::large : aims ? Unaimed::none : Unaimed::crowd);
     if (aims) {
       const auto end = g.lights.begin() + static_cast<std::ptrdiff_t>(std::min(g.lights.size(), PixelEmitters::kMost));
       std::partial_sort(g.lights.begin(), end, g.lights.end(), brighter<FilmEmitter>);

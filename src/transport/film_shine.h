@@ -46,8 +46,9 @@ class FilmEmitters {
   /// Pixels whose filters the footprints would fill together have no aims: their samples hit them anyhow.
   FilmEmitters(const View& view, const std::vector<Spot>& spots);
   PixelEmitters of(int x, int y) const;
-  /// Whether the pixel sees some at which it does not aim.
-  bool unaimed(int x, int y) const { return !unaimed_.empty() && unaimed_[pixels_.index(x, y)]; }
+  /// What a pixel sees at which it does not aim: nothing; some that would fill it together; some too large.
+  enum class Unaimed : char { none, crowd, large };
+  Unaimed unaimed(int x, int y) const { return unaimed_.empty() ? Unaimed::none : unaimed_[pixels_.index(x, y)]; }
 
  private:
   void add_row(const View& view, int y, const std::vector<Spot>& spots, const std::vector<std::uint32_t>& seen);
@@ -55,7 +56,7 @@ class FilmEmitters {
   PixelBounds pixels_;
   std::vector<std::uint32_t> begin_;  ///< of each pixel's lights, and the end of the last's; empty without any
   std::vector<FilmEmitter> lights_;
-  std::vector<bool> unaimed_;  ///< likewise
+  std::vector<Unaimed> unaimed_;  ///< likewise
 };
 
 }  // namespace tyndall

@@ -14,8 +14,8 @@ namespace {
 
 /// In the picture. More would take seconds to process, and are triangles of larger things rather than bulbs.
 constexpr std::size_t kMostSpots = 1'000'000;
-/// Places along each side of a filter's support where outlines of emitters of about a pixel are looked for.
-constexpr int kLooks = 6;
+/// Places along each side of a filter's support where emitters of about a pixel are looked for.
+constexpr int kLooks = 4;
 /// A camera this near to an emitter, in its radii, may be inside it.
 constexpr float kNearest = 2;
 
@@ -134,15 +134,38 @@ float brightness_at(const BuiltWorld& world, Vec2 film) {
   return seen ? mean(seen->L) * attenuated_roughly(world, ray, *seen) : 0.0f;
 }
 
-/// Whether places spread over the filter of the pixel at `center` differ.
-bool sees_outline(const BuiltWorld& world, Vec2 center) {
-  std::array<float, kLooks * kLooks> brightness;
-  for (int i = 0; i < kLooks * kLooks; ++i) {
-    const Vec2 u{(static_cast<float>(i % kLooks) + 0.5f) / kLooks, (static_cast<float>(i / kLooks) + 0.5f) / kLooks};
-    const Vec2 offset = world.filter.sample(u).p;
-    brightness[static_cast<std::size_t>(i)] = brightness_at(world, {center.x + offset.x, center.y + offset.y});
+/// Of `looks` x `looks` places spread over the filter of the pixel at `center`.
+Contrast contrast_of(const BuiltWorld& world, Vec2 center, int looks) {
+  Contrast contrast;
+  const auto place = [&](int i) { return (static_cast<float>(i) + 0.5f) / static_cast<float>(looks); };
+  for (int i = 0; i < looks * looks; ++i) {
+    const Vec2 offset = world.filter.sample({place(i % looks), place(i / looks)}).p;
+    const float brightness = brightness_at(world, {center.x + offset.x, center.y + offset.y});
+    contrast.add({brightness, brightness});
   }
-  return FilmEdges::is_outline(brightness);
+  return contrast;
+}
+
+/// Whether the pixel at `center` sees outlines of emitters at which it does not aim. Where a few looks meet nothing, large ones
+/// are there all the same, for they were seen; a crowd may be behind something, so that it is looked for again.
+bool sees_outline(const BuiltWorld& world, Vec2 center, FilmEmitters::Unaimed unaimed) {
+  if (unaimed == FilmEmitters::Unaimed::none) return false;
+  const Contrast contrast = contrast_of(world, center, kLooks);
+  if (contrast.most > 0) return contrast.is_edge();
+  return unaimed == FilmEmitters::Unaimed::large || contrast_of(world, center, 2 * kLooks).most > 0;
+}
+
+/// Whether the camera sees one of a few of its points.
+bool is_seen(const BuiltWorld& world, LightId light) {
+  const Vec3 eye = world.camera.center();
+  for (const Vec2 u : {Vec2{0.25f, 0.25f}, Vec2{0.75f, 0.25f}, Vec2{0.25f, 0.75f}, Vec2{0.75f, 0.75f}}) {
+    const auto drawn = world.lights.sample(light, eye, u, false);
+    if (!drawn || drawn->delta) continue;
+    const Ray ray{eye, drawn->wi};
+    const auto seen = seen_light(world, ray);
+    if (seen && seen->light == light && attenuated_roughly(world, ray, *seen) > 0) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -154,7 +177,8 @@ FilmEmitters film_emitters(const FilmSearch& search) {
   const std::size_t count = world.lights.first_volume();  // before them are all that instances do not share
   const auto look = [&](LightId light) {
     const auto spot = spot_of(world, light);
-    return spot && view.wants(*spot) ? spot : std::nullopt;
+    const bool wanted = spot && view.wants(*spot) && (view.aims_at(*spot) || is_seen(world, light));
+    return wanted ? spot : std::nullopt;
   };
   const auto spots = gather_lights(count, search.pool, look);
   return spots.size() > kMostSpots ? FilmEmitters() : FilmEmitters(view, spots);
@@ -179,7 +203,7 @@ FilmEdges film_edges(const FilmSearch& search, const FilmEmitters& emitters) {
     search.alive();
     const int y = view.pixels.y0 + static_cast<int>(row);
     for (int x = view.pixels.x0; x < view.pixels.x1; ++x)
-      unaimed[view.pixels.index(x, y)] = emitters.unaimed(x, y) && !edges.at(x, y) && sees_outline(world, center_of(x, y));
+      unaimed[view.pixels.index(x, y)] = !edges.at(x, y) && sees_outline(world, center_of(x, y), emitters.unaimed(x, y));
   });
   edges.add(view, unaimed);
   return edges;

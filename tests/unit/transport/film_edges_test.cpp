@@ -67,10 +67,10 @@ TEST_CASE("where nothing emits, or all emits alike, there are no edges") {
 }
 
 TEST_CASE("pixels can be edges besides those that centers tell of") {
-  CHECK(FilmEdges::is_outline(std::vector<float>{0, 0, 2, 0}));
-  CHECK(FilmEdges::is_outline(std::vector<float>{2, 2, 1.7f}));
-  CHECK_FALSE(FilmEdges::is_outline(std::vector<float>{2, 2, 1.9f}));
-  CHECK_FALSE(FilmEdges::is_outline(std::vector<float>{0, 0, 0}));
+  CHECK(Contrast{0, 2}.is_edge());
+  CHECK(Contrast{1.7f, 2}.is_edge());
+  CHECK_FALSE(Contrast{1.9f, 2}.is_edge());
+  CHECK_FALSE(Contrast{0, 0}.is_edge());
   const FilmEdges::View view{{2, 1, 5, 3}, {0.5f, 0.5f}};
   std::vector<float> brightness(view.around().size());
   brightness[view.around().index(2, 1)] = 1;

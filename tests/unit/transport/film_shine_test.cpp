@@ -94,16 +94,16 @@ TEST_CASE("emitters that fill a pixel, that are large, far off the film or dark 
   std::vector<Footprint> crowd;
   for (LightId i = 0; i < 10; ++i) crowd.push_back({i, {4.5f, 4.5f}, 0.9f, 1});
   CHECK(FilmEmitters(view, crowd).of(4, 4).empty());
-  CHECK(FilmEmitters(view, crowd).unaimed(4, 4));
+  CHECK(FilmEmitters(view, crowd).unaimed(4, 4) == FilmEmitters::Unaimed::crowd);
   crowd.resize(1);
   CHECK_FALSE(FilmEmitters(view, crowd).of(4, 4).empty());
-  CHECK_FALSE(FilmEmitters(view, crowd).unaimed(4, 4));
+  CHECK(FilmEmitters(view, crowd).unaimed(4, 4) == FilmEmitters::Unaimed::none);
   crowd.push_back({1, {4.5f, 4.5f}, 1.5f, 1});
   CHECK_FALSE(FilmEmitters(view, crowd).of(4, 4).empty());
-  CHECK(FilmEmitters(view, crowd).unaimed(4, 4));
-  CHECK_FALSE(FilmEmitters(view, crowd).unaimed(0, 0));
+  CHECK(FilmEmitters(view, crowd).unaimed(4, 4) == FilmEmitters::Unaimed::large);
+  CHECK(FilmEmitters(view, crowd).unaimed(0, 0) == FilmEmitters::Unaimed::none);
   CHECK(FilmEmitters().of(4, 4).empty());
-  CHECK_FALSE(FilmEmitters().unaimed(4, 4));
+  CHECK(FilmEmitters().unaimed(4, 4) == FilmEmitters::Unaimed::none);
 }
 
 }  // namespace
