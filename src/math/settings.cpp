@@ -52,7 +52,7 @@ constexpr Table<TransmittanceStrategy, 4> kTransmittances{{
     {"delta", TransmittanceStrategy::delta},
     {"raymarch", TransmittanceStrategy::raymarch},
 }};
-constexpr std::array<std::string_view, 13> kAovs{"Albedo",
+constexpr std::array<std::string_view, 14> kAovs{"Albedo",
                                                  "N",
                                                  "P",
                                                  "Z",
@@ -64,7 +64,8 @@ constexpr std::array<std::string_view, 13> kAovs{"Albedo",
                                                  "SurfaceIndirect",
                                                  "VolumeDirect",
                                                  "VolumeIndirect",
-                                                 "Emission"};
+                                                 "Emission",
+                                                 "Replicate"};
 
 template <typename Table, typename Strategy>
 std::string_view find_name(const Table& table, Strategy wanted) {

@@ -6,7 +6,18 @@
 
 namespace tyndall {
 
-MergeSum::Rule MergeSum::rule_of(const std::string& channel) {
+namespace {
+
+/// "Replicate." for a mean over the even samples, "" for one over all.
+std::string prefix_of(const std::string& channel) {
+  static const std::string replicate = "Replicate.";
+  return channel.starts_with(replicate) ? replicate : std::string();
+}
+
+}  // namespace
+
+MergeSum::Rule MergeSum::rule_of(const std::string& name) {
+  const std::string channel = name.substr(prefix_of(name).size());
   if (channel == "SampleCount") return Rule::samples;
   if (channel == "SurfaceCount" || channel == "VolumeCount") return Rule::sum;
   if (channel == "Z" || channel.starts_with("P.")) return Rule::surface_mean;
@@ -44,15 +55,17 @@ void MergeSum::add(const Image& slice, int samples) {
 }
 
 void MergeSum::add_channel(Plane& plane, const Image& slice, const std::vector<float>& counts) const {
-  const auto values_of = [&](const char* name) {
+  const auto values_of = [&](const std::string& name) {
     const Channel* channel = slice.find(name);
     return channel ? channel->values.data() : nullptr;
   };
-  const float* values = values_of(plane.name.c_str());
-  const float* surface = values_of("SurfaceCount");
-  const float* volume = values_of("VolumeCount");
+  const std::string prefix = prefix_of(plane.name);
+  const float* values = values_of(plane.name);
+  const float* surface = values_of(prefix + "SurfaceCount");
+  const float* volume = values_of(prefix + "VolumeCount");
+  const float* samples = prefix.empty() ? counts.data() : values_of(prefix + "SampleCount");
   const auto term = [&](std::size_t i) -> double {
-    const double n = counts[i];
+    const double n = samples[i];
     switch (plane.rule) {
       case Rule::mean:
         return n * values[i];
@@ -80,18 +93,19 @@ void MergeSum::add_channel(Plane& plane, const Image& slice, const std::vector<f
   }
 }
 
-/// What a rule's sum is divided by; null: by nothing.
-const std::vector<double>* MergeSum::weights_of(Rule rule) const {
-  switch (rule) {
+/// What a plane's sum is divided by; null: by nothing.
+const std::vector<double>* MergeSum::weights_of(const Plane& plane) const {
+  const std::string prefix = prefix_of(plane.name);
+  switch (plane.rule) {
     case Rule::surface_mean:
-      return &find("SurfaceCount")->sums;
+      return &find(prefix + "SurfaceCount")->sums;
     case Rule::volume_mean:
-      return &find("VolumeCount")->sums;
+      return &find(prefix + "VolumeCount")->sums;
     case Rule::sum:
     case Rule::samples:
       return nullptr;
     default:
-      return &find("SampleCount")->sums;
+      return &find(prefix + "SampleCount")->sums;
   }
 }
 
@@ -100,7 +114,7 @@ Image MergeSum::result() const {
   image.data = image.display = box_;
   for (const Plane& plane : planes_) {
     std::vector<float>& values = image.add_channel(plane.name).values;
-    const std::vector<double>* weights = weights_of(plane.rule);
+    const std::vector<double>* weights = weights_of(plane);
     for (std::size_t i = 0; i < values.size(); ++i) {
       const double sum = plane.sums[i], n = weights ? (*weights)[i] : 1;
       if (!(n > 0)) continue;  // black

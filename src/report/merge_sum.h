@@ -21,7 +21,8 @@ class MergeSum {
   Image result() const;  ///< windows and channels; display = data
 
  private:
-  /// What a channel's sum is of, x the channel's value, n the pixel's sample count.
+  /// What a channel's sum is of, x the channel's value, n the pixel's sample count. Means over the even samples are counted by
+  /// channels with the same prefix, "Replicate.".
   enum class Rule {
     mean,          ///< n x
     surface_mean,  ///< SurfaceCount x
@@ -40,7 +41,7 @@ class MergeSum {
   static Rule rule_of(const std::string& channel);
   void add_plane(const std::string& name);
   void add_channel(Plane& plane, const Image& slice, const std::vector<float>& counts) const;
-  const std::vector<double>* weights_of(Rule rule) const;
+  const std::vector<double>* weights_of(const Plane& plane) const;
   const Plane* find(const std::string& name) const;
 
   PixelBounds box_;

@@ -49,7 +49,7 @@ void require_same_channels(const Slice& first, const Slice& slice) {
   if (!difference.empty()) fail(slice, "channels differ: " + difference + "; render all slices with the same --aov");
 }
 
-/// Z, P and Zvol are means over the samples that hit something, so those must be counted.
+/// Z, P and Zvol are means over the samples that hit something, and replicates over the even ones, so those must be counted.
 void require_counts(const Slice& slice) {
   const auto channels = shared_channels(slice);
   const auto needs = [&](const std::string& channel, const std::string& count) {
@@ -60,6 +60,10 @@ void require_counts(const Slice& slice) {
   needs("Z", "SurfaceCount");
   needs("P.X", "SurfaceCount");
   needs("Zvol", "VolumeCount");
+  needs("Replicate.Z", "Replicate.SurfaceCount");
+  needs("Replicate.P.X", "Replicate.SurfaceCount");
+  needs("Replicate.Zvol", "Replicate.VolumeCount");
+  needs("Replicate.R", "Replicate.SampleCount");
   if (slice.header.attributes.contains("tyndall/slices") && !slice.header.find("SampleCount")) {
     fail(slice, "is a merged image without SampleCount, by which it is averaged; merge its slices again");
   }

@@ -9,7 +9,8 @@
 namespace tyndall {
 namespace {
 
-// A pixel's sums: even samples' RGB, odd samples' RGB, alpha, then each AOV's.
+// A pixel's sums: even samples' RGB, odd samples' RGB, alpha, then each AOV's over all samples and, with Aov::replicate, over
+// the even ones.
 constexpr double kRelativeEpsilon = 0.01;  ///< of relMSE, as everywhere
 
 constexpr std::size_t kEven = 0, kOdd = 3, kAlpha = 6, kFirstAov = 7;
@@ -18,6 +19,7 @@ std::size_t sums_of(Aov aov) {
   switch (aov) {
     case Aov::variance:
     case Aov::sample_count:
+    case Aov::replicate:
       return 0;  // follow from what is there anyway
     case Aov::z:
     case Aov::z_volume:
@@ -29,7 +31,9 @@ std::size_t sums_of(Aov aov) {
   }
 }
 
-bool is_light(Aov aov) { return aov >= Aov::surface_direct; }
+bool is_light(Aov aov) { return aov >= Aov::surface_direct && aov <= Aov::emission; }
+
+int even_of(int samples) { return samples - samples / 2; }
 
 std::string sum_channel(std::size_t number, std::size_t part) {
   constexpr std::array kParts{".high", ".mid", ".low"};
@@ -64,10 +68,10 @@ std::string aov_list(const std::vector<std::string>& names) {
 }
 
 FilmBuffer::FilmBuffer(const Film& film, PixelBounds crop, std::vector<Aov> aovs)
-    : film_(film), crop_(crop), aovs_(std::move(aovs)), stride_(kFirstAov) {
+    : film_(film), crop_(crop), aovs_(std::move(aovs)), replicate_(wants(Aov::replicate)), stride_(kFirstAov) {
   for (const Aov aov : aovs_) {
     offsets_.push_back(stride_);
-    stride_ += sums_of(aov);
+    stride_ += (replicate_ ? 2 : 1) * sums_of(aov);
   }
   sums_ = FilmSums(crop.size() * stride_);
 }
@@ -94,7 +98,11 @@ void FilmBuffer::add(int x, int y, int sample, const PathRecord& record, float w
   const std::size_t first = first_of(x, y);
   add3(first + ((sample & 1) ? kOdd : kEven), record.radiance(), weight);
   sums_.add(first + kAlpha, record.alpha * weight);
-  for (std::size_t i = 0; i < aovs_.size(); ++i) add_aov(aovs_[i], first + offsets_[i], record, weight);
+  const bool twice = replicate_ && !(sample & 1);
+  for (std::size_t i = 0; i < aovs_.size(); ++i) {
+    add_aov(aovs_[i], first + offsets_[i], record, weight);
+    if (twice) add_aov(aovs_[i], first + offsets_[i] + sums_of(aovs_[i]), record, weight);
+  }
 }
 
 void FilmBuffer::add3(std::size_t first, float x, float y, float z, float weight) {
@@ -133,6 +141,7 @@ void FilmBuffer::add_aov(Aov aov, std::size_t first, const PathRecord& r, float 
       return;
     case Aov::variance:
     case Aov::sample_count:
+    case Aov::replicate:
       return;
   }
 }
@@ -142,14 +151,14 @@ Rgb FilmBuffer::to_film_space(Rgb c) const {
   return {m[0] * c.r + m[1] * c.g + m[2] * c.b, m[3] * c.r + m[4] * c.g + m[5] * c.b, m[6] * c.r + m[7] * c.g + m[8] * c.b};
 }
 
-void FilmBuffer::store_color(Image& image, const std::string& prefix, std::size_t offset, int samples) const {
+void FilmBuffer::store_color(Image& image, const std::string& name, std::size_t offset, const Means& means) const {
   const std::size_t first = image.channels.size();
-  for (const char* suffix : {"R", "G", "B"}) image.add_channel(prefix + suffix);
+  for (const char* suffix : {"R", "G", "B"}) image.add_channel(means.prefix + name + suffix);
   const std::size_t pixels = image.channels[first].values.size();
   for (std::size_t i = 0; i < pixels; ++i) {
     const auto mean = [&](std::size_t k) {
-      const double odd = offset == kEven ? sum(i, kOdd + k) : 0;  // only the beauty sums come in two halves
-      return static_cast<float>((sum(i, offset + k) + odd) / samples);
+      const double odd = offset == kEven && !means.even_only ? sum(i, kOdd + k) : 0;  // the beauty's sums come in halves
+      return static_cast<float>((sum(i, offset + k) + odd) / means.samples);
     };
     const Rgb c = to_film_space({mean(0), mean(1), mean(2)});
     for (int k = 0; k < 3; ++k) image.channels[first + k].values[i] = c[k];
@@ -157,9 +166,9 @@ void FilmBuffer::store_color(Image& image, const std::string& prefix, std::size_
 }
 
 /// Albedo and transmittance: in the film's space, but white stays 1 whatever the space's white is.
-void FilmBuffer::store_ratio(Image& image, const std::string& prefix, std::size_t offset, int samples) const {
+void FilmBuffer::store_ratio(Image& image, const std::string& name, std::size_t offset, const Means& means) const {
   const std::size_t first = image.channels.size();
-  store_color(image, prefix, offset, samples);
+  store_color(image, name, offset, means);
   const Rgb white = to_film_space(Rgb(1.0f));
   for (int k = 0; k < 3; ++k) {
     for (float& v : image.channels[first + k].values) v /= white[k];
@@ -169,7 +178,7 @@ void FilmBuffer::store_ratio(Image& image, const std::string& prefix, std::size_
 void FilmBuffer::store_variance(Image& image, int samples) const {
   const std::size_t first = image.channels.size();
   for (const char* suffix : {"R", "G", "B"}) image.add_channel(std::string("Variance.") + suffix);
-  const int odd = samples / 2, even = samples - odd;
+  const int even = even_of(samples), odd = samples - even;
   const std::size_t pixels = image.channels[first].values.size();
   for (std::size_t i = 0; i < pixels; ++i) {
     Rgb difference;  // in double first: the halves are nearly equal
@@ -185,25 +194,28 @@ void FilmBuffer::store_variance(Image& image, int samples) const {
   }
 }
 
-void FilmBuffer::store_aov(Image& image, Aov aov, std::size_t offset, int samples) const {
-  const std::string name = name_of_aov(aov);
-  if (aov == Aov::variance) return store_variance(image, samples);
-  if (aov == Aov::albedo || aov == Aov::transmittance) return store_ratio(image, name + ".", offset, samples);
-  if (is_light(aov)) return store_color(image, name + ".", offset, samples);
+void FilmBuffer::store_aov(Image& image, Aov aov, std::size_t offset, const Means& means) const {
+  const std::string name = name_of_aov(aov), prefixed = means.prefix + name;
+  if (aov == Aov::replicate || (aov == Aov::variance && means.even_only)) return;
+  if (aov == Aov::variance) return store_variance(image, means.samples);
+  if (aov == Aov::albedo || aov == Aov::transmittance) return store_ratio(image, name + ".", offset, means);
+  if (is_light(aov)) return store_color(image, name + ".", offset, means);
   const std::size_t first = image.channels.size();
   const bool vector = aov == Aov::n || aov == Aov::p;
   if (vector) {
-    for (const char* suffix : {".X", ".Y", ".Z"}) image.add_channel(name + suffix);
+    for (const char* suffix : {".X", ".Y", ".Z"}) image.add_channel(prefixed + suffix);
+  } else if (aov != Aov::sample_count || !means.even_only) {
+    image.add_channel(prefixed);
   } else {
-    image.add_channel(name);
+    return;
   }
   const std::size_t pixels = image.channels[first].values.size();
   for (std::size_t i = 0; i < pixels; ++i) {
     const auto s = [&](std::size_t k) { return sum(i, offset + k); };
     if (aov == Aov::sample_count) {
-      image.channels[first].values[i] = static_cast<float>(samples);
+      image.channels[first].values[i] = static_cast<float>(means.samples);
     } else if (vector) {
-      const double count = aov == Aov::n ? samples : std::max(s(3), 1.0);
+      const double count = aov == Aov::n ? means.samples : std::max(s(3), 1.0);
       for (int k = 0; k < 3; ++k)
         image.channels[first + k].values[i] = static_cast<float>(s(static_cast<std::size_t>(k)) / count);
     } else {
@@ -249,7 +261,7 @@ double FilmBuffer::estimated_relmse(int samples) const {
   if (samples < 2) return kInfinity;
   Image halves;
   halves.data = crop_;
-  store_color(halves, "", kEven, samples);
+  store_color(halves, "", kEven, {"", samples});
   store_variance(halves, samples);
   double total = 0;
   const std::size_t pixels = halves.channels[0].values.size();
@@ -267,15 +279,22 @@ void FilmBuffer::store_count(Image& image, const std::string& name, std::size_t 
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(sum(i, offset));
 }
 
-void FilmBuffer::store_counts(Image& image) const {
+void FilmBuffer::store_counts(Image& image, const Means& means) const {
   bool surface_done = false;  // P and Z have the same
   for (std::size_t i = 0; i < aovs_.size(); ++i) {
-    const std::size_t count = offsets_[i] + sums_of(aovs_[i]) - 1;  // follows the sums
+    const std::size_t sums = sums_of(aovs_[i]);
+    const std::size_t count = offsets_[i] + (means.even_only ? 2 : 1) * sums - 1;  // follows the sums
     const bool surface = aovs_[i] == Aov::p || aovs_[i] == Aov::z;
-    if (surface && !surface_done) store_count(image, "SurfaceCount", count);
-    if (aovs_[i] == Aov::z_volume) store_count(image, "VolumeCount", count);
+    if (surface && !surface_done) store_count(image, means.prefix + "SurfaceCount", count);
+    if (aovs_[i] == Aov::z_volume) store_count(image, means.prefix + "VolumeCount", count);
     surface_done = surface_done || surface;
   }
+}
+
+void FilmBuffer::store_means(Image& image, const Means& means) const {
+  for (std::size_t i = 0; i < aovs_.size(); ++i)
+    store_aov(image, aovs_[i], offsets_[i] + (means.even_only ? sums_of(aovs_[i]) : 0), means);
+  store_counts(image, means);
 }
 
 Image FilmBuffer::image(int samples) const {
@@ -283,13 +302,18 @@ Image FilmBuffer::image(int samples) const {
   image.data = crop_;
   image.display = {0, 0, film_.width, film_.height};
   image.chromaticities = film_.chromaticities;
-  store_color(image, "", kEven, samples);
+  store_color(image, "", kEven, {"", samples});
   Channel& alpha = image.add_channel("A");
   for (std::size_t i = 0; i < alpha.values.size(); ++i) {
     alpha.values[i] = static_cast<float>(sum(i, kAlpha) / samples);
   }
-  for (std::size_t i = 0; i < aovs_.size(); ++i) store_aov(image, aovs_[i], offsets_[i], samples);
-  store_counts(image);
+  store_means(image, {"", samples});
+  if (!replicate_) return image;
+  const Means even{"Replicate.", even_of(samples), true};
+  store_color(image, "", kEven, even);
+  store_means(image, even);
+  std::vector<float>& count = image.add_channel("Replicate.SampleCount").values;
+  std::fill(count.begin(), count.end(), static_cast<float>(even.samples));
   return image;
 }
 

@@ -26,6 +26,7 @@ enum class Aov {
   volume_direct,
   volume_indirect,
   emission,
+  replicate,
 };
 
 /// AOVs by name, once each, in the order of aov_names(). Throws Error (usage) that lists the names for an unknown one.
@@ -56,7 +57,8 @@ class FilmBuffer {
   void clear(const PixelBounds& tile);
 
   /// Means of the `samples` samples that every pixel has received, in the film's colour space. Beside P and Z stands
-  /// SurfaceCount, beside Zvol VolumeCount: over how many samples their means are, so that renders can be merged.
+  /// SurfaceCount, beside Zvol VolumeCount: over how many samples their means are, so that renders can be merged. With
+  /// Aov::replicate each channel that is a mean comes a second time, as "Replicate.R" and so on: over the even samples.
   Image image(int samples) const;
 
   /// The exact sums as channels "Sum.N.high", ".mid" and ".low", floats that add up to sum number N; and back, added to those
@@ -74,18 +76,26 @@ class FilmBuffer {
   void add3(std::size_t first, float x, float y, float z, float weight);
   void add3(std::size_t first, Rgb c, float weight) { add3(first, c.r, c.g, c.b, weight); }
   void add_aov(Aov aov, std::size_t first, const PathRecord& record, float weight);
-  void store_color(Image& image, const std::string& prefix, std::size_t offset, int samples) const;
-  void store_ratio(Image& image, const std::string& prefix, std::size_t offset, int samples) const;
-  void store_aov(Image& image, Aov aov, std::size_t offset, int samples) const;
+  /// Which samples the channels of an image are means of.
+  struct Means {
+    std::string prefix;  ///< of the channels
+    int samples;
+    bool even_only = false;
+  };
+  void store_means(Image& image, const Means& means) const;
+  void store_color(Image& image, const std::string& name, std::size_t offset, const Means& means) const;
+  void store_ratio(Image& image, const std::string& name, std::size_t offset, const Means& means) const;
+  void store_aov(Image& image, Aov aov, std::size_t offset, const Means& means) const;
   void store_variance(Image& image, int samples) const;
   void store_count(Image& image, const std::string& name, std::size_t offset) const;
-  void store_counts(Image& image) const;
+  void store_counts(Image& image, const Means& means) const;
   Rgb to_film_space(Rgb c) const;
 
   Film film_;
   PixelBounds crop_;
   std::vector<Aov> aovs_;
-  std::vector<std::size_t> offsets_;  ///< of each AOV within a pixel's sums
+  std::vector<std::size_t> offsets_;  ///< of each AOV within a pixel's sums; those of its even samples follow when wanted
+  bool replicate_;
   std::size_t stride_;
   FilmSums sums_;
 };

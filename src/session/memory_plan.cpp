@@ -12,7 +12,9 @@ namespace {
 
 std::size_t plan_film(const Scene& scene) {
   const double pixels = pixels_of(scene);
-  const double channels = 4 + 4 * static_cast<double>(scene.settings.aovs.size());
+  const auto& aovs = scene.settings.aovs;
+  const bool twice = std::find(aovs.begin(), aovs.end(), "Replicate") != aovs.end();
+  const double channels = (twice ? 2 : 1) * (4 + 4 * static_cast<double>(aovs.size()));
   ByteCount sum;
   sum.add(pixels, 2 * (sizeof(double) + sizeof(float)) * (3 + channels));         // twice: a long pass keeps a copy to undo it
   sum.add(pixels, 2 * sizeof(float) * channels);                                  // the image, and its encoding

@@ -262,8 +262,13 @@ TEST_CASE("crops of one seed, merged, are the whole picture bit for bit; two see
   for (const Channel& c : whole.channels) CHECK_MESSAGE(joined.find(c.name)->values == c.values, c.name);
 
   const Image both = files.merge({"whole.exr", "other.exr"});
-  for (const std::string name : {"R", "Z", "Zvol"}) {
-    const std::string count = name == "R" ? "SampleCount" : name == "Z" ? "SurfaceCount" : "VolumeCount";
+  const std::vector<std::pair<std::string, std::string>> counted{{"R", "SampleCount"},
+                                                                 {"Z", "SurfaceCount"},
+                                                                 {"Zvol", "VolumeCount"},
+                                                                 {"Replicate.R", "Replicate.SampleCount"},
+                                                                 {"Replicate.Z", "Replicate.SurfaceCount"},
+                                                                 {"Replicate.Zvol", "Replicate.VolumeCount"}};
+  for (const auto& [name, count] : counted) {
     double worst = 0;
     for (std::size_t i = 0; i < 400; ++i) {
       const double n = whole.find(count)->values[i], m = other.find(count)->values[i];

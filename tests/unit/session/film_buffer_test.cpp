@@ -48,6 +48,37 @@ TEST_CASE("the mean of the samples, split into its parts, over a crop") {
   CHECK(image.find("VolumeCount") == nullptr);
 }
 
+TEST_CASE("replicates are the means over the even samples, of what was asked for") {
+  Film film;
+  film.width = 2;
+  film.height = 1;
+  FilmBuffer buffer(film, {0, 0, 2, 1}, parse_aovs({"Replicate", "SurfaceDirect", "N", "Z", "Variance", "SampleCount"}));
+  for (int s = 0; s < 5; ++s) {
+    PathRecord record = grey(static_cast<float>(s * s));
+    record.emission = Rgb(1);
+    record.n = {0, 0, static_cast<float>(s)};
+    record.hit_surface = s >= 3;
+    record.z = static_cast<float>(s);
+    buffer.add(0, 0, s, record, 1);
+  }
+  const Image image = buffer.image(5);
+  const auto value = [&](const char* channel) { return image.find(channel)->values[0]; };
+  CHECK(value("R") == doctest::Approx(7));                       // (0 + 1 + 4 + 9 + 16) / 5 + 1
+  CHECK(value("Replicate.R") == doctest::Approx(20 / 3.0 + 1));  // (0 + 4 + 16) / 3 + 1
+  CHECK(value("Replicate.SurfaceDirect.B") == doctest::Approx(20 / 3.0));
+  CHECK(value("SurfaceDirect.B") == doctest::Approx(6));
+  CHECK(value("Replicate.N.Z") == doctest::Approx(2));
+  CHECK(value("Z") == 3.5f);
+  CHECK(value("SurfaceCount") == 2);
+  CHECK(value("Replicate.Z") == 4);
+  CHECK(value("Replicate.SurfaceCount") == 1);
+  CHECK(value("Replicate.SampleCount") == 3);
+  CHECK(image.find("Replicate.Z")->values[1] == 0);
+  CHECK(image.find("Replicate.Variance.R") == nullptr);
+  CHECK(image.find("Replicate.A") == nullptr);
+  CHECK(FilmBuffer(film, {0, 0, 2, 1}, parse_aovs({"Z"})).image(2).find("Replicate.R") == nullptr);
+}
+
 TEST_CASE("variance of the pixel mean from the two replicates is right on average") {
   // Independent samples of variance 1/12: with n of them the mean has 1/(12 n). 4000 pixels give it to
   // sqrt(2/4000) = 2.2 % (the square of a normal has relative variance 2); 4 of these are allowed. Odd n too.
