@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <functional>
 #include <limits>
@@ -5,6 +6,7 @@
 
 #include "cli/checkpoint_file.h"
 #include "cli/command.h"
+#include "cli/denoiser.h"
 #include "cli/error_log.h"
 #include "cli/log.h"
 #include "cli/memory.h"
@@ -30,13 +32,21 @@ void check_outputs(const RenderOptions& options, const Scene& scene, const std::
   if (!options.error_log.empty()) check_writable(options.error_log);
 }
 
+/// What the denoiser takes is not the render's.
+std::size_t memory_for_render(const RenderOptions& options, const Scene& scene) {
+  const std::size_t limit = memory_limit(options.max_memory);
+  if (!options.denoise) return limit;
+  const PixelBounds pixels = scene.settings.crop.value_or(scene.film.crop);
+  return limit - std::min(limit, denoise_memory(pixels.size()));
+}
+
 World build_for(const RenderOptions& options, Scene scene) {
   const RenderSettings& settings = scene.settings;
   const BuildSettings how{.lights = {settings.lights},
                           .volume_lights = settings.emission == EmissionStrategy::lights,
                           .sanitize = options.picture.sanitize,
                           .threads = settings.threads,
-                          .max_memory = memory_limit(options.max_memory)};
+                          .max_memory = memory_for_render(options, scene)};
   return build(std::move(scene), how);
 }
 
@@ -44,6 +54,14 @@ World build_for(const RenderOptions& options, Scene scene) {
 struct Companions {
   CheckpointFile checkpoint;
   std::optional<ErrorLog> errors;
+  std::optional<Denoiser> denoiser;
+  std::string output;
+
+  /// At 1, 2, 4 ... samples.
+  void look_at(const RenderJob& job) {
+    if (errors) errors->add(job);
+    if (denoiser) denoiser->preview(job, output);
+  }
 
   void resume(RenderJob& job, const RenderSettings& limits, bool quiet) {
     const bool found = checkpoint.resume(job, limits);
@@ -59,7 +77,7 @@ Rendering render_with(Companions& companions, const World& world, const RenderSe
   catch_stop_signals("stopping soon; press again to quit at once and lose the image\n");
   ProgressDisplay display(options.quiet ? "none" : options.progress);
   RenderControl control{.progress = [&](const Progress& p) { display.show(p); }, .stop = &stop_requested()};
-  if (companions.errors) control.checkpoint = [&](const RenderJob& job) { companions.errors->add(job); };
+  if (companions.errors || companions.denoiser) control.checkpoint = [&](const RenderJob& job) { companions.look_at(job); };
   if (options.resume) control.begin = [&](RenderJob& job) { companions.resume(job, settings, options.quiet); };
   if (options.keeps_checkpoints()) control.save = [&](const RenderJob& job) { companions.checkpoint.save(job); };
   control.save_seconds = options.checkpoint.value_or(std::numeric_limits<double>::infinity());  // --resume alone: at a stop
@@ -96,15 +114,24 @@ void finish_slice(Rendering& rendering, const std::string& output, const std::st
   rendering.image.attributes["tyndall/command"] = command_line;
 }
 
+/// A render that was stopped at its first sample stays as it is.
+std::optional<DenoiseReport> denoise_finished(const Denoiser& denoiser, Rendering& rendering, const std::string& output) {
+  if (rendering.report.samples > 1) return denoiser.finish(rendering.image);
+  log("{}: is not denoised: it has one sample a pixel, and noise is told from two\n", output);
+  return std::nullopt;
+}
+
 int run_render(const RenderOptions& options, const std::string& command_line) {
   Timer watch;
   Summary summary;
   SceneFile file = read_scene(options.scene);
   apply(options, file.scene);
+  std::optional<Denoiser> denoiser;
+  if (options.denoise) denoiser.emplace(options, file.scene.settings);
   const RenderSettings settings = file.scene.settings;
   limit_image_threads(settings.threads);
   summary.output = output_path(options, file.scene);
-  Companions companions{CheckpointFile(summary.output), {}};
+  Companions companions{CheckpointFile(summary.output), {}, std::move(denoiser), summary.output};
   if (options.keeps_checkpoints()) companions.checkpoint.tidy();
   check_outputs(options, file.scene, summary.output);
   summary.read_seconds = watch.lap();
@@ -127,6 +154,7 @@ int run_render(const RenderOptions& options, const std::string& command_line) {
   summary.render = rendering.report;
   summary.width = rendering.image.width();
   summary.height = rendering.image.height();
+  if (companions.denoiser) summary.denoised = denoise_finished(*companions.denoiser, rendering, summary.output);
   watch.lap();
   save_rendering(rendering, summary.output, companions.checkpoint, options.keeps_checkpoints());
   summary.write_seconds = watch.lap();

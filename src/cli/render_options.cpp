@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "cli/validators.h"
+#include "tyndall/denoise.h"
 
 namespace tyndall::cli {
 namespace {
@@ -37,11 +38,17 @@ std::vector<int> integers(const std::string& text, char separator) {
   return values;
 }
 
-std::vector<std::string> names_in(const std::string& list) {
+/// AOVs by name; "Denoise" is all that the denoiser takes.
+std::vector<std::string> aovs_in(const std::string& list) {
   std::vector<std::string> names;
   std::istringstream stream(list);
   for (std::string name; std::getline(stream, name, ',');) {
-    if (!name.empty()) names.push_back(name);
+    if (name == "Denoise") {
+      const auto all = denoise_aovs();
+      names.insert(names.end(), all.begin(), all.end());
+    } else if (!name.empty()) {
+      names.push_back(name);
+    }
   }
   return names;
 }
@@ -153,7 +160,8 @@ void declare_task(CLI::App& command, RenderOptions& o) {
   declare(command, o.picture);
   declare(command, o.methods);
   command.add_option("--aov", o.aovs,
-                     "extra channels, comma-separated: " + join(aov_names(), ", ") + " [none]; --aov Albedo,N");
+                     "extra channels, comma-separated: " + join(aov_names(), ", ") +
+                         "; Denoise: all that tyndall denoise takes [none]; --aov Albedo,N");
   command.add_flag("--reproducible", o.reproducible, "leave dates and times out of the image header");
   declare_progress(command, o.progress);
 }
@@ -169,6 +177,14 @@ void declare(CLI::App& command, RenderOptions& o) {
       "--slice", o.slice,
       "only the I-th of N slices of the samples, of which --spp is the number of all; tyndall merge adds them up to the "
       "same image, bit for bit [all samples]; --slice 3/16");
+  auto* denoise = command.add_flag("--denoise", o.denoise,
+                                   "take the noise away at the end; the picture as rendered is kept in noisy.R .G .B");
+  command
+      .add_option("--preview-every", o.preview_every,
+                  "seconds between denoised pictures written to the output while it renders, at 4, 8, 16 ... samples [none]; "
+                  "--preview-every 30")
+      ->check(positive())
+      ->needs(denoise);
   auto* reference = command.add_option("--reference", o.reference,
                                        "image that the error is measured against for --error-log; --reference best.exr");
   auto* log = command.add_option("--error-log", o.error_log,
@@ -219,7 +235,7 @@ void apply(const RenderOptions& o, Scene& scene) {
   set_slice(o, s);
   apply(o.methods, s);
   apply(o.picture, scene);
-  if (!o.aovs.empty()) s.aovs = names_in(o.aovs);
+  if (!o.aovs.empty()) s.aovs = aovs_in(o.aovs);
   for (const std::string& name : s.aovs) {
     const auto known = aov_names();
     if (std::find(known.begin(), known.end(), name) == known.end()) bad("--aov", name, join(known, ", "));

@@ -32,10 +32,10 @@ struct RenderOptions {
   MethodOptions methods;
   PictureOptions picture;
   std::optional<int> spp, threads;
-  std::optional<double> time, error, checkpoint, max_memory;
+  std::optional<double> time, error, checkpoint, max_memory, preview_every;
   std::optional<std::uint64_t> seed;
   std::string reference, error_log, aovs, slice, progress = "auto";
-  bool reproducible = false, quiet = false, json = false, resume = false;
+  bool reproducible = false, quiet = false, json = false, resume = false, denoise = false;
 
   bool keeps_checkpoints() const { return checkpoint || resume; }
 };

@@ -40,6 +40,10 @@ std::string as_text(const Summary& s) {
                       mebibytes(s.build.geometry_bytes), mebibytes(s.build.volume_bytes), mebibytes(s.build.light_bytes));
   text += fmt::format("  health  {} non-finite samples, {} majorant violations, {} caps hit, {} boundary parity errors\n",
                       r.non_finite, r.majorant_violations, r.caps_hit, r.parity_errors);
+  if (s.denoised) {
+    text += fmt::format("  denoise {:.2f}s, estimated relMSE {:.3g} before and {:.3g} after; as rendered in noisy.R .G .B\n",
+                        s.denoised->seconds, s.denoised->noisy_relmse, s.denoised->relmse);
+  }
   if (r.unrendered > 0) {
     text += fmt::format("  stopped in the first pass: {} of {} pixels have no sample and are black\n", r.unrendered,
                         std::int64_t{s.width} * s.height);
@@ -80,6 +84,10 @@ std::string as_json(const Summary& s) {
   j["bad_samples"] = nlohmann::json::array();
   for (const BadSample& b : r.bad_samples) j["bad_samples"].push_back({{"x", b.x}, {"y", b.y}, {"sample", b.sample}});
   j["notes"] = s.build.notes;
+  if (s.denoised) {
+    j["denoised"] = {
+        {"seconds", s.denoised->seconds}, {"noisy_relmse", s.denoised->noisy_relmse}, {"relmse", s.denoised->relmse}};
+  }
   return j.dump(2, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 

@@ -1,8 +1,10 @@
 /// The closing summary of a render, as text and as JSON.
 #pragma once
 
+#include <optional>
 #include <string>
 
+#include "tyndall/denoise.h"
 #include "tyndall/render.h"
 
 namespace tyndall::cli {
@@ -13,6 +15,7 @@ struct Summary {
   BuildSummary build;
   RenderReport render;
   int width = 0, height = 0;  ///< pixels rendered
+  std::optional<DenoiseReport> denoised;
 };
 
 std::string as_text(const Summary& summary);

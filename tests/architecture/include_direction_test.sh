@@ -16,10 +16,11 @@ BEGIN {
   allow("transport/media", "volume surface light math")  # knows no path and no estimator
   allow("transport", "transport/media volume surface light texture math")
   allow("session", "transport transport/media math")
+  allow("denoise", "math")
   allow("report", "")  # io and session through include/tyndall
   allow("farm", "report")  # how words are quoted for a shell
   allow("example", "math")  # writes files through include/tyndall
-  allow("cli", "farm report io session example")
+  allow("cli", "farm report denoise io session example")
 
   # A library as its include lines begin, and the files that may see it.
   door("^(openvdb|nanovdb)/", "^src/volume/vdb_")

@@ -1,0 +1,31 @@
+/// What `render --denoise` does beside rendering.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "cli/render_options.h"
+#include "tyndall/denoise.h"
+#include "tyndall/render.h"
+#include "tyndall/timer.h"
+
+namespace tyndall::cli {
+
+class Denoiser {
+ public:
+  /// Asks `settings` for the AOVs that it takes. Throws Error (usage) for what cannot be denoised.
+  Denoiser(const RenderOptions& options, RenderSettings& settings);
+
+  /// Denoises the finished image, and leaves out the AOVs that were not asked for.
+  DenoiseReport finish(Image& image) const;
+  /// At a checkpoint: writes the picture so far to `output` when the last time was long enough ago.
+  void preview(const RenderJob& job, const std::string& output);
+
+ private:
+  std::vector<std::string> asked_;
+  int threads_;
+  double preview_every_;
+  Timer since_preview_;
+};
+
+}  // namespace tyndall::cli

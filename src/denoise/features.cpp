@@ -1,0 +1,73 @@
+#include "denoise/features.h"
+
+#include <algorithm>
+
+#include "denoise/nl_means.h"
+#include "math/simd.h"
+
+namespace tyndall {
+namespace {
+
+constexpr Neighbourhood kSearch{5};
+constexpr int kPatch = 3, kPool = 3, kTile = 32;
+constexpr float kBandwidth = 0.5f;
+
+/// Of each half, from the difference of the two.
+std::vector<Plane> variances_of(const Feature& feature, ThreadPool& pool) {
+  std::vector<Plane> variances;
+  for (std::size_t c = 0; c < feature.halves[0].size(); ++c) {
+    const Plane &a = feature.halves[0][c], &b = feature.halves[1][c];
+    const Plane raw = make_plane(a.width(), a.height(), pool, [&](int x, int y) {
+      const float difference = a.at(x, y) - b.at(x, y);
+      return difference * difference * 0.5f;
+    });
+    variances.push_back(box_mean(raw, kPool, pool));
+  }
+  return variances;
+}
+
+Guide guide_of(const std::vector<Plane>& values, const std::vector<Plane>& variances) {
+  Guide guide;
+  for (const Plane& plane : values) guide.values.push_back(&plane);
+  for (const Plane& plane : variances) guide.variances.push_back(&plane);
+  return guide;
+}
+
+float weighted_mean(const Plane& plane, int x, int y, const std::vector<float>& weights) {
+  float sum = 0, all = 0;
+  const float* w = weights.data();
+  for (int dy = -kSearch.radius; dy <= kSearch.radius; ++dy) {
+    const float* values = plane.row(y + dy) + x - kSearch.radius;
+    for (int i = 0; i < kSearch.side(); ++i, ++w) sum += *w * values[i], all += *w;
+  }
+  return sum / all;  // a pixel is like itself: its weight is 1
+}
+
+}  // namespace
+
+std::vector<Plane> prefiltered(const Feature& feature, ThreadPool& pool) {
+  if (feature.halves[1].empty()) return feature.halves[0];
+  const std::vector<Plane> variances = variances_of(feature, pool);
+  const int width = variances[0].width(), height = variances[0].height();
+  std::vector<Plane> result(variances.size(), Plane(width, height));
+  const int across = (width + kTile - 1) / kTile, down = (height + kTile - 1) / kTile;
+  pool.for_each(static_cast<std::size_t>(across * down), 1, [&](std::size_t tile) {
+    const int x0 = static_cast<int>(tile) % across * kTile, y0 = static_cast<int>(tile) / across * kTile;
+    const CentreGrid pixels{x0, y0, 1, std::min(kTile, width - x0), std::min(kTile, height - y0)};
+    PatchDistances distances(kSearch, kPatch);
+    std::vector<float> weights(static_cast<std::size_t>(kSearch.padded()));
+    for (std::size_t h = 0; h < 2; ++h) {
+      distances.compute(guide_of(feature.halves[1 - h], variances), pixels);
+      for (int i = 0; i < pixels.count(); ++i) {
+        distances.weights(i, kBandwidth, weights);
+        const int x = pixels.x(i), y = pixels.y(i);
+        for (std::size_t c = 0; c < result.size(); ++c)
+          result[c].at(x, y) += 0.5f * weighted_mean(feature.halves[h][c], x, y, weights);
+      }
+    }
+  });
+  for (Plane& plane : result) plane.extend();
+  return result;
+}
+
+}  // namespace tyndall

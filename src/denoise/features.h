@@ -1,0 +1,18 @@
+/// What explains a picture beside its light: surfaces and media as the camera sees them.
+#pragma once
+
+#include <vector>
+
+#include "denoise/plane.h"
+
+namespace tyndall {
+
+/// One to three channels that belong together, in two halves; `halves[1]` is empty where there is no noise.
+struct Feature {
+  std::array<std::vector<Plane>, 2> halves;
+};
+
+/// Noise taken away by non-local means, each half with the weights of the other.
+std::vector<Plane> prefiltered(const Feature& feature, ThreadPool& pool);
+
+}  // namespace tyndall

@@ -1,0 +1,38 @@
+/// A rendered image as the denoiser takes it: components of light in halves, and what explains each.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "denoise/features.h"
+#include "denoise/light.h"
+#include "tyndall/image.h"
+
+namespace tyndall {
+
+/// Which features explain a component.
+enum class Explained { by_all, by_surfaces, by_media };
+
+struct Component {
+  std::string prefix;  ///< of its channels: "VolumeDirect.", or "" for all light at once
+  Explained explained;
+  bool emitters = false;  ///< it is what the camera sees of them
+};
+
+/// The five of the light split when the image holds them all with their replicates, else all light at once. Throws Error
+/// (scene), naming `name`, when there are no replicates.
+std::vector<Component> components_of(const Image& image, const std::string& name);
+
+ColorPlanes read_light(const Image& image);
+Halves read_halves(const Image& image, const std::string& prefix);
+
+/// Features by what they explain: those of surfaces, then those of media.
+struct FeatureInputs {
+  std::vector<Feature> surfaces, media;
+  std::optional<std::size_t> transmittance;  ///< number of its first channel among those of media
+  std::vector<std::string> missing;          ///< AOVs, with what their absence costs
+};
+FeatureInputs read_features(const Image& image);
+
+}  // namespace tyndall

@@ -1,0 +1,33 @@
+#include "denoise/plane.h"
+
+#include <algorithm>
+
+namespace tyndall {
+
+void Plane::extend() {
+  for (int y = 0; y < height_; ++y) {
+    std::fill_n(row(y) - kMargin, kMargin, at(0, y));
+    std::fill_n(row(y) + width_, kMargin, at(width_ - 1, y));
+  }
+  for (int y = 1; y <= kMargin; ++y) {
+    std::copy_n(row(0) - kMargin, stride(), row(-y) - kMargin);
+    std::copy_n(row(height_ - 1) - kMargin, stride(), row(height_ - 1 + y) - kMargin);
+  }
+}
+
+Plane box_mean(const Plane& plane, int radius, ThreadPool& pool) {
+  const int width = plane.width(), height = plane.height();
+  const float scale = 1.0f / static_cast<float>(2 * radius + 1);
+  const Plane across = make_plane(width, height, pool, [&](int x, int y) {
+    float sum = 0;
+    for (int i = -radius; i <= radius; ++i) sum += plane.row(y)[x + i];
+    return sum * scale;
+  });
+  return make_plane(width, height, pool, [&](int x, int y) {
+    float sum = 0;
+    for (int i = -radius; i <= radius; ++i) sum += across.row(y + i)[x];
+    return sum * scale;
+  });
+}
+
+}  // namespace tyndall

@@ -1,0 +1,75 @@
+/// Weighted least squares: what features explain is found, what they do not is averaged.
+#include "denoise/regression.h"
+
+#include <doctest/doctest.h>
+
+#include "fake_render.h"
+
+namespace tyndall {
+namespace {
+
+constexpr Neighbourhood kWindow{9};
+
+Plane plane_of(const test::OfPixel& value) {
+  Plane plane(40, 40);
+  for (int y = 0; y < 40; ++y)
+    for (int x = 0; x < 40; ++x) plane.at(x, y) = value(x, y);
+  plane.extend();
+  return plane;
+}
+
+TEST_CASE("what is linear in position and features is fitted exactly, whatever the weights") {
+  Rng rng(5);
+  std::vector<float> random(1600);
+  for (float& v : random) v = rng.uniform();
+  const Plane f = plane_of([&](int x, int y) { return random[static_cast<std::size_t>(y * 40 + x)]; });
+  const Plane g = plane_of([&](int x, int y) { return x > 19 ? 5.0f + 0.01f * static_cast<float>(y) : 0.0f; });
+  const Plane y = plane_of([&](int i, int j) {
+    return 3 + 0.2f * static_cast<float>(i) - 0.1f * static_cast<float>(j) + 2 * f.at(i, j) - 0.5f * g.at(i, j);
+  });
+  const std::vector<const Plane*> features{&f, &g};
+  Explanation explanation(kWindow, features);
+  Regression regression(kWindow, explanation.columns().count());
+  WindowColumns target(kWindow, 3), fitted(kWindow, 3);
+  std::vector<float> weights(static_cast<std::size_t>(kWindow.padded()));
+  for (int i = 0; i < kWindow.count(); ++i) weights[static_cast<std::size_t>(i)] = 0.1f + rng.uniform();
+  explanation.move_to(20, 20);
+  for (std::size_t c = 0; c < 3; ++c) target.load(c, y, 20, 20);
+  const float leverage = regression.fit(explanation.columns(), target, weights, fitted);
+  for (int i = 0; i < kWindow.count(); ++i)
+    REQUIRE(std::abs(fitted[1][i] - target[1][i]) < 0.05f);  // the ridge: 1 % of what features span
+  double sum = 0;
+  for (const float w : weights) sum += w;
+  CHECK(leverage == doctest::Approx(5 / sum));
+}
+
+TEST_CASE("a feature that says nothing gets no slope, and one like another is shared without harm") {
+  const Plane constant = plane_of([](int, int) { return 4.0f; });
+  const Plane step = plane_of([](int x, int) { return x > 19 ? 1.0f : 0.0f; });
+  const std::vector<const Plane*> features{&constant, &step, &step};
+  Explanation explanation(kWindow, features);
+  Regression regression(kWindow, explanation.columns().count());
+  WindowColumns target(kWindow, 3), fitted(kWindow, 3);
+  std::vector<float> weights(static_cast<std::size_t>(kWindow.padded()));
+  std::fill_n(weights.begin(), kWindow.count(), 1.0f);
+  explanation.move_to(18, 18);
+  for (std::size_t c = 0; c < 3; ++c) target.load(c, step, 18, 18);
+  regression.fit(explanation.columns(), target, weights, fitted);
+  for (int i = 0; i < kWindow.count(); ++i) REQUIRE(std::abs(fitted[0][i] - target[0][i]) < 0.01f);
+}
+
+TEST_CASE("a window of which one pixel counts stays as it is there") {
+  const Plane y = plane_of([](int i, int j) { return static_cast<float>(i * j); });
+  Explanation explanation(kWindow, {});
+  Regression regression(kWindow, 3);
+  WindowColumns target(kWindow, 3), fitted(kWindow, 3);
+  std::vector<float> weights(static_cast<std::size_t>(kWindow.padded()));
+  weights[static_cast<std::size_t>(kWindow.count() / 2)] = 1;
+  explanation.move_to(20, 20);
+  for (std::size_t c = 0; c < 3; ++c) target.load(c, y, 20, 20);
+  CHECK(regression.fit(explanation.columns(), target, weights, fitted) == 1);
+  CHECK(fitted[2][kWindow.count() / 2] == doctest::Approx(400));
+}
+
+}  // namespace
+}  // namespace tyndall
