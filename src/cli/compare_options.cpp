@@ -4,6 +4,7 @@
 
 #include "cli/validators.h"
 #include "cli/variants.h"
+#include "tyndall/denoise.h"
 
 namespace tyndall::cli {
 namespace {
@@ -11,6 +12,12 @@ namespace {
 RaceBudget budget_of(const CompareOptions& o) {
   if (o.spp) return {.seconds = std::nullopt, .samples = o.spp};
   return {.seconds = o.time.value_or(20), .samples = std::nullopt};
+}
+
+CompareFilter denoiser(int threads) {
+  return {.name = "denoised", .option = "--denoise", .aovs = denoise_aovs(), .apply = [threads](const Image& image) {
+            return denoise(image, {.threads = threads}).image;
+          }};
 }
 
 }  // namespace
@@ -55,6 +62,7 @@ void declare(CLI::App& command, CompareOptions& o) {
   declare(command, o.picture);
   declare_memory(command, o.max_memory);
   declare_progress(command, o.progress);
+  command.add_flag("--denoise", o.denoise, "each variant a second time, denoised, its time the render's and the denoiser's");
   command.add_flag("--quiet", o.quiet, "no progress, notes or table; errors only");
   command.add_flag("--json", o.json, "results.json on stdout too");
   command.footer("Options of render hold for all variants and for the reference. What is written: see docs/comparing.md.");
@@ -72,12 +80,21 @@ std::string common_options(const CompareOptions& o) {
   add("crop", o.picture.crop);
   add("resolution", o.picture.resolution);
   if (o.picture.max_depth) add("max-depth", std::to_string(*o.picture.max_depth));
-  return text + (o.picture.sanitize ? (text.empty() ? "--sanitize" : " --sanitize") : "");
+  const auto add_flag = [&](bool given, const char* option) {
+    if (given) text += (text.empty() ? "" : " ") + std::string(option);
+  };
+  add_flag(o.picture.sanitize, "--sanitize");
+  add_flag(o.denoise, "--denoise");
+  return text;
 }
 
 ComparePlan plan_of(const CompareOptions& o, const RenderSettings& base) {
-  ComparePlan plan{
-      parse_variants(o.variants.empty() ? std::vector<std::string>{"lights"} : o.variants, base), budget_of(o), {}};
+  ComparePlan plan{.variants = parse_variants(o.variants.empty() ? std::vector<std::string>{"lights"} : o.variants, base),
+                   .budget = budget_of(o),
+                   .seeds = {},
+                   .filter = o.denoise ? denoiser(base.threads) : CompareFilter()};
+  if (o.denoise && o.spp == 1)
+    throw Error(Failure::usage, "--denoise needs two samples a pixel, to tell noise from picture; give --spp 2 or more");
   for (int i = 0; i < o.seeds; ++i) plan.seeds.push_back(o.seed + static_cast<std::uint64_t>(i));
   return plan;
 }

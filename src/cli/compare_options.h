@@ -21,7 +21,7 @@ struct CompareOptions {
   std::uint64_t seed = 1;
   MethodOptions methods;
   PictureOptions picture;
-  bool quiet = false, json = false;
+  bool quiet = false, json = false, denoise = false;
 };
 
 void declare(CLI::App& command, CompareOptions& options);

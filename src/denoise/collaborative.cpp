@@ -37,7 +37,7 @@ class TileSums {
 /// All fits of a tile.
 class TileFits {
  public:
-  TileFits(const Halves& halves, const std::vector<const Plane*>& features)
+  TileFits(const Halves& halves, const std::vector<const PaddedPlane*>& features)
       : halves_(halves),
         distances_{PatchDistances(kWindow, kPatch), PatchDistances(kWindow, kPatch)},
         explanation_(kWindow, features),
@@ -54,7 +54,7 @@ class TileFits {
       for (std::size_t h = 0; h < 2; ++h) {
         for (std::size_t c = 0; c < 3; ++c) targets_[h].load(c, halves_.values[h][c], x, y);
         for (std::size_t k = 0; k < kBandwidths.size(); ++k) {
-          distances_[1 - h].weights(centre, kBandwidths[k], weights_);
+          distances_[h].weights(centre, kBandwidths[k], weights_);
           const float leverage = regression_.fit(explanation_.columns(), targets_[h], weights_, fitted_);
           splat(leverage, {x % kTile, y % kTile}, h * kBandwidths.size() + k, sums);
         }
@@ -122,7 +122,7 @@ class Tiles {
 };
 
 /// Adds sum number `plane` of tiles, in their order, to the picture's.
-void add_tiles(const Tiles& tiles, std::size_t first, std::span<TileSums> sums, std::size_t plane, Plane& picture) {
+void add_tiles(const Tiles& tiles, std::size_t first, std::span<TileSums> sums, std::size_t plane, PaddedPlane& picture) {
   for (std::size_t i = 0; i < sums.size(); ++i) {
     const int x0 = tiles.x(first + i) - kWindow.radius, y0 = tiles.y(first + i) - kWindow.radius;
     const int from_x = std::max(x0, 0), to_x = std::min(x0 + TileSums::kReach, picture.width());
@@ -135,7 +135,7 @@ void add_tiles(const Tiles& tiles, std::size_t first, std::span<TileSums> sums, 
 }
 
 /// Divides the sums by their weights. Where nothing was like a pixel, it stays as it is.
-void normalise(const ColorPlanes& half, Filtered& filtered, const Plane& weight, ThreadPool& pool) {
+void normalise(const ColorPlanes& half, Filtered& filtered, const PaddedPlane& weight, ThreadPool& pool) {
   pool.for_each(static_cast<std::size_t>(weight.height()), 16, [&](std::size_t row) {
     const int y = static_cast<int>(row);
     for (int x = 0; x < weight.width(); ++x) {
@@ -147,15 +147,15 @@ void normalise(const ColorPlanes& half, Filtered& filtered, const Plane& weight,
       filtered.own_share.at(x, y) = std::min(1.0f, (filtered.own_share.at(x, y) + kLeastWeight) * all);
     }
   });
-  for (Plane& plane : filtered.values) plane.extend();
+  for (PaddedPlane& plane : filtered.values) plane.extend();
 }
 
 }  // namespace
 
-FilteredHalves regress(const Halves& halves, const std::vector<const Plane*>& features, ThreadPool& pool) {
+FilteredHalves regress(const Halves& halves, const std::vector<const PaddedPlane*>& features, ThreadPool& pool) {
   const int width = halves.width(), height = halves.height();
   const Tiles tiles(width, height);
-  std::vector<Plane> picture(kFits * kSums, Plane(width, height));
+  std::vector<PaddedPlane> picture(kFits * kSums, PaddedPlane(width, height));
   constexpr std::size_t kBatch = 64;
   std::vector<TileSums> sums(std::min(kBatch, tiles.count()));
   for (std::size_t first = 0; first < tiles.count(); first += kBatch) {

@@ -8,10 +8,10 @@
 
 namespace tyndall {
 
-/// What one half is filtered to, guided by the other.
+/// What one half is filtered to.
 struct Filtered {
   ColorPlanes values;
-  Plane own_share;  ///< how much of a pixel's own value is in its filtered one, in [0, 1]
+  PaddedPlane own_share;  ///< how much of a pixel's own value is in its filtered one, in [0, 1]
 };
 
 /// Bandwidths k of the likeness.
@@ -19,7 +19,7 @@ inline constexpr std::array kBandwidths{0.5f, 1.0f};
 /// By half, then by bandwidth.
 using FilteredHalves = std::array<std::array<Filtered, kBandwidths.size()>, 2>;
 
-/// Each half filtered with the weights that the other tells, so that noise and weights are independent.
-FilteredHalves regress(const Halves& halves, const std::vector<const Plane*>& features, ThreadPool& pool);
+/// Each half filtered with weights of its own, so that the other knows nothing of the result and can judge it.
+FilteredHalves regress(const Halves& halves, const std::vector<const PaddedPlane*>& features, ThreadPool& pool);
 
 }  // namespace tyndall

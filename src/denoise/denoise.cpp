@@ -17,14 +17,14 @@ constexpr float kClear = 0.999f;  ///< transmittance of as good as nothing
 
 /// Features without their noise.
 struct CleanFeatures {
-  std::vector<Plane> surfaces, media;
-  Plane weight;  ///< relative_weight of all light
-  Plane clear;   ///< 1 where no medium is before the surface, else 0; empty when that is not known
+  std::vector<PaddedPlane> surfaces, media;
+  PaddedPlane weight;  ///< relative_weight of all light
+  PaddedPlane clear;   ///< 1 where no medium is before the surface, else 0; empty when that is not known
 
   CleanFeatures(const FeatureInputs& inputs, ThreadPool& pool) {
-    const auto add = [&](const std::vector<Feature>& from, std::vector<Plane>& to) {
+    const auto add = [&](const std::vector<Feature>& from, std::vector<PaddedPlane>& to) {
       for (const Feature& feature : from) {
-        for (Plane& plane : prefiltered(feature, pool)) to.push_back(std::move(plane));
+        for (PaddedPlane& plane : prefiltered(feature, pool)) to.push_back(std::move(plane));
       }
     };
     add(inputs.surfaces, surfaces);
@@ -32,24 +32,24 @@ struct CleanFeatures {
     if (inputs.transmittance) clear = clear_of(media[*inputs.transmittance], pool);
   }
 
-  static Plane clear_of(const Plane& transmittance, ThreadPool& pool) {
+  static PaddedPlane clear_of(const PaddedPlane& transmittance, ThreadPool& pool) {
     const int width = transmittance.width(), height = transmittance.height();
     return make_plane(width, height, pool, [&](int x, int y) { return transmittance.at(x, y) > kClear ? 1.0f : 0.0f; });
   }
 
   /// Media stand before surfaces too: what is behind them changes with them.
-  std::vector<const Plane*> explaining(Explained what) const {
-    std::vector<const Plane*> list;
-    for (const Plane& plane : media) list.push_back(&plane);
+  std::vector<const PaddedPlane*> explaining(Explained what) const {
+    std::vector<const PaddedPlane*> list;
+    for (const PaddedPlane& plane : media) list.push_back(&plane);
     if (what != Explained::by_media) {
-      for (const Plane& plane : surfaces) list.push_back(&plane);
+      for (const PaddedPlane& plane : surfaces) list.push_back(&plane);
     }
     return list;
   }
 };
 
 bool without_noise(const Halves& halves) {
-  for (const Plane& plane : halves.variance) {
+  for (const PaddedPlane& plane : halves.variance) {
     for (int y = 0; y < plane.height(); ++y) {
       for (int x = 0; x < plane.width(); ++x) {
         if (plane.at(x, y) > 0) return false;
@@ -59,8 +59,8 @@ bool without_noise(const Halves& halves) {
   return true;
 }
 
-Estimate mean_of(const Halves& halves, ThreadPool& pool) {
-  Estimate estimate;
+LightEstimate mean_of(const Halves& halves, ThreadPool& pool) {
+  LightEstimate estimate;
   for (std::size_t c = 0; c < 3; ++c) {
     estimate.values[c] = make_plane(halves.width(), halves.height(), pool, [&](int x, int y) { return halves.mean(c, x, y); });
     estimate.mse[c] = halves.variance[c];
@@ -70,13 +70,13 @@ Estimate mean_of(const Halves& halves, ThreadPool& pool) {
 
 /// Emitters as the camera sees them have sharp outlines, and no noise but of these: no neighbour knows of it, and small ones
 /// would pass for fireflies. Only what media do to their light on the way is filtered.
-Estimate denoise_component(Halves halves, const Component& component, const CleanFeatures& features, ThreadPool& pool) {
+LightEstimate denoise_component(Halves halves, const Component& component, const CleanFeatures& features, ThreadPool& pool) {
   const Energy energy(halves);
   if (!component.emitters) take_out_fireflies(halves, pool);
   pool_variance(halves, component.emitters ? kOutline : kNoise, pool);
   if (without_noise(halves)) return mean_of(halves, pool);
-  const Selection select{features.weight, component.emitters ? features.clear : Plane()};
-  Estimate estimate = select(halves, regress(halves, features.explaining(component.explained), pool), pool);
+  const Selection select{features.weight, component.emitters ? features.clear : PaddedPlane()};
+  LightEstimate estimate = select(halves, regress(halves, features.explaining(component.explained), pool), pool);
   energy.restore(estimate.values, halves.variance, pool);
   return estimate;
 }
@@ -165,12 +165,12 @@ Denoised denoise(const Image& image, const DenoiseSettings& settings, const std:
   inputs = {};
   const ColorPlanes light = read_light(image);
   features.weight = relative_weight(light, pool);
-  Estimate total{color_planes(image.width(), image.height()), color_planes(image.width(), image.height())};
+  LightEstimate total{color_planes(image.width(), image.height()), color_planes(image.width(), image.height())};
   ColorPlanes noise = color_planes(image.width(), image.height());
   for (const Component& component : components) {
     const Halves halves = read_halves(image, component.prefix);
     add_noise(halves, noise);
-    const Estimate part = denoise_component(halves, component, features, pool);
+    const LightEstimate part = denoise_component(halves, component, features, pool);
     if (settings.components && !component.prefix.empty()) store(part.values, result.image, component.prefix);
     add(total.values, part.values);
     add(total.mse, part.mse);

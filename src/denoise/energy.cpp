@@ -40,7 +40,7 @@ Energy::Energy(const Halves& halves)
 
 std::size_t Energy::block_of(int x, int y) const { return static_cast<std::size_t>(y / kBlock * across_ + x / kBlock); }
 
-std::vector<double> Energy::sums_of(const Plane& plane) const {
+std::vector<double> Energy::sums_of(const PaddedPlane& plane) const {
   std::vector<double> sums(static_cast<std::size_t>(across_ * down_));
   for (int y = 0; y < height_; ++y)
     for (int x = 0; x < width_; ++x) sums[block_of(x, y)] += plane.at(x, y);
@@ -50,7 +50,7 @@ std::vector<double> Energy::sums_of(const Plane& plane) const {
 void Energy::restore(ColorPlanes& estimate, const ColorPlanes& variance, ThreadPool& pool) const {
   for (std::size_t c = 0; c < 3; ++c) {
     for (int pass = 0; pass < kPasses; ++pass) {
-      const Plane room = make_plane(width_, height_, pool, [&](int x, int y) {
+      const PaddedPlane room = make_plane(width_, height_, pool, [&](int x, int y) {
         return std::min(std::abs(estimate[c].at(x, y)), std::sqrt(variance[c].at(x, y)));
       });
       const std::vector<double> rooms = sums_of(room);
@@ -76,7 +76,7 @@ std::vector<double> Energy::missing_light(std::vector<double> lights, const std:
 }
 
 /// Both are bilinear between the blocks' centres: a block without room has no say in its neighbours'.
-void Energy::add(Plane& estimate, const Plane& room, const Change& change, ThreadPool& pool) const {
+void Energy::add(PaddedPlane& estimate, const PaddedPlane& room, const Change& change, ThreadPool& pool) const {
   pool.for_each(static_cast<std::size_t>(height_), 16, [&](std::size_t row) {
     const int y = static_cast<int>(row);
     for (int x = 0; x < width_; ++x) {

@@ -28,8 +28,8 @@ class Energy {
   static std::vector<double> missing_light(std::vector<double> lights, const std::vector<double>& rooms,
                                            const std::vector<Block>& blocks, bool blocks_too);
   std::size_t block_of(int x, int y) const;
-  std::vector<double> sums_of(const Plane& plane) const;
-  void add(Plane& estimate, const Plane& room, const Change& change, ThreadPool& pool) const;
+  std::vector<double> sums_of(const PaddedPlane& plane) const;
+  void add(PaddedPlane& estimate, const PaddedPlane& room, const Change& change, ThreadPool& pool) const;
   double bilinear(const std::vector<double>& blocks, int x, int y) const;
 
   int width_, height_, across_, down_;

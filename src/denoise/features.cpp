@@ -13,11 +13,11 @@ constexpr int kPatch = 3, kPool = 3, kTile = 32;
 constexpr float kBandwidth = 0.5f;
 
 /// Of each half, from the difference of the two.
-std::vector<Plane> variances_of(const Feature& feature, ThreadPool& pool) {
-  std::vector<Plane> variances;
+std::vector<PaddedPlane> variances_of(const Feature& feature, ThreadPool& pool) {
+  std::vector<PaddedPlane> variances;
   for (std::size_t c = 0; c < feature.halves[0].size(); ++c) {
-    const Plane &a = feature.halves[0][c], &b = feature.halves[1][c];
-    const Plane raw = make_plane(a.width(), a.height(), pool, [&](int x, int y) {
+    const PaddedPlane &a = feature.halves[0][c], &b = feature.halves[1][c];
+    const PaddedPlane raw = make_plane(a.width(), a.height(), pool, [&](int x, int y) {
       const float difference = a.at(x, y) - b.at(x, y);
       return difference * difference * 0.5f;
     });
@@ -26,14 +26,14 @@ std::vector<Plane> variances_of(const Feature& feature, ThreadPool& pool) {
   return variances;
 }
 
-Guide guide_of(const std::vector<Plane>& values, const std::vector<Plane>& variances) {
+Guide guide_of(const std::vector<PaddedPlane>& values, const std::vector<PaddedPlane>& variances) {
   Guide guide;
-  for (const Plane& plane : values) guide.values.push_back(&plane);
-  for (const Plane& plane : variances) guide.variances.push_back(&plane);
+  for (const PaddedPlane& plane : values) guide.values.push_back(&plane);
+  for (const PaddedPlane& plane : variances) guide.variances.push_back(&plane);
   return guide;
 }
 
-float weighted_mean(const Plane& plane, int x, int y, const std::vector<float>& weights) {
+float weighted_mean(const PaddedPlane& plane, int x, int y, const std::vector<float>& weights) {
   float sum = 0, all = 0;
   const float* w = weights.data();
   for (int dy = -kSearch.radius; dy <= kSearch.radius; ++dy) {
@@ -45,11 +45,11 @@ float weighted_mean(const Plane& plane, int x, int y, const std::vector<float>& 
 
 }  // namespace
 
-std::vector<Plane> prefiltered(const Feature& feature, ThreadPool& pool) {
+std::vector<PaddedPlane> prefiltered(const Feature& feature, ThreadPool& pool) {
   if (feature.halves[1].empty()) return feature.halves[0];
-  const std::vector<Plane> variances = variances_of(feature, pool);
+  const std::vector<PaddedPlane> variances = variances_of(feature, pool);
   const int width = variances[0].width(), height = variances[0].height();
-  std::vector<Plane> result(variances.size(), Plane(width, height));
+  std::vector<PaddedPlane> result(variances.size(), PaddedPlane(width, height));
   const int across = (width + kTile - 1) / kTile, down = (height + kTile - 1) / kTile;
   pool.for_each(static_cast<std::size_t>(across * down), 1, [&](std::size_t tile) {
     const int x0 = static_cast<int>(tile) % across * kTile, y0 = static_cast<int>(tile) / across * kTile;
@@ -66,7 +66,7 @@ std::vector<Plane> prefiltered(const Feature& feature, ThreadPool& pool) {
       }
     }
   });
-  for (Plane& plane : result) plane.extend();
+  for (PaddedPlane& plane : result) plane.extend();
   return result;
 }
 

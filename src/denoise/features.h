@@ -9,10 +9,10 @@ namespace tyndall {
 
 /// One to three channels that belong together, in two halves; `halves[1]` is empty where there is no noise.
 struct Feature {
-  std::array<std::vector<Plane>, 2> halves;
+  std::array<std::vector<PaddedPlane>, 2> halves;
 };
 
 /// Noise taken away by non-local means, each half with the weights of the other.
-std::vector<Plane> prefiltered(const Feature& feature, ThreadPool& pool);
+std::vector<PaddedPlane> prefiltered(const Feature& feature, ThreadPool& pool);
 
 }  // namespace tyndall

@@ -54,8 +54,8 @@ class SampleCounts {
   float samples_ = 0;
 };
 
-Plane plane_of(const Image& image, const std::function<float(std::size_t)>& value) {
-  Plane plane(image.width(), image.height());
+PaddedPlane plane_of(const Image& image, const std::function<float(std::size_t)>& value) {
+  PaddedPlane plane(image.width(), image.height());
   std::size_t i = 0;
   for (int y = 0; y < image.height(); ++y) {
     for (int x = 0; x < image.width(); ++x, ++i) {
@@ -69,7 +69,7 @@ Plane plane_of(const Image& image, const std::function<float(std::size_t)>& valu
 
 /// A channel's even half and its odd one; `count` (may be empty) names the channel that says over how many samples it is: the
 /// value then counts as 0 in the others.
-std::array<Plane, 2> halves_of(const Image& image, const std::string& channel, const std::string& count = {}) {
+std::array<PaddedPlane, 2> halves_of(const Image& image, const std::string& channel, const std::string& count = {}) {
   const SampleCounts samples(image);
   const Channel *all = image.find(channel), *even = image.find(kReplicate + channel);
   const Channel *all_count = image.find(count), *even_count = image.find(kReplicate + count);
@@ -173,7 +173,7 @@ Halves read_halves(const Image& image, const std::string& prefix) {
     auto [even, odd] = halves_of(image, prefix + kRgb[c]);
     halves.values[0][c] = std::move(even);
     halves.values[1][c] = std::move(odd);
-    halves.variance[c] = Plane(image.width(), image.height());
+    halves.variance[c] = PaddedPlane(image.width(), image.height());
   }
   const float even = SampleCounts(image).even_share();
   halves.share = {even, 1 - even};

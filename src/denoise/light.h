@@ -21,7 +21,7 @@ struct Halves {
 };
 
 /// Values, and the squared error that is expected of them.
-struct Estimate {
+struct LightEstimate {
   ColorPlanes values, mse;
 };
 

@@ -11,7 +11,7 @@ namespace tyndall {
 /// A picture that tells which pixels belong together; the variance of each value is `scale` times what `variances` hold. One to
 /// three channels.
 struct Guide {
-  std::vector<const Plane*> values, variances;
+  std::vector<const PaddedPlane*> values, variances;
   float scale = 1;
 };
 

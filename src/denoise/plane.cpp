@@ -4,7 +4,7 @@
 
 namespace tyndall {
 
-void Plane::extend() {
+void PaddedPlane::extend() {
   for (int y = 0; y < height_; ++y) {
     std::fill_n(row(y) - kMargin, kMargin, at(0, y));
     std::fill_n(row(y) + width_, kMargin, at(width_ - 1, y));
@@ -15,10 +15,10 @@ void Plane::extend() {
   }
 }
 
-Plane box_mean(const Plane& plane, int radius, ThreadPool& pool) {
+PaddedPlane box_mean(const PaddedPlane& plane, int radius, ThreadPool& pool) {
   const int width = plane.width(), height = plane.height();
   const float scale = 1.0f / static_cast<float>(2 * radius + 1);
-  const Plane across = make_plane(width, height, pool, [&](int x, int y) {
+  const PaddedPlane across = make_plane(width, height, pool, [&](int x, int y) {
     float sum = 0;
     for (int i = -radius; i <= radius; ++i) sum += plane.row(y)[x + i];
     return sum * scale;

@@ -10,13 +10,13 @@
 namespace tyndall {
 
 /// Floats of `width` x `height` pixels and of kMargin more on each side, zero at first.
-class Plane {
+class PaddedPlane {
  public:
   /// A window's radius and a patch's, and a SIMD vector that begins at the last pixel.
   static constexpr int kMargin = 20;
 
-  Plane() = default;
-  Plane(int width, int height)
+  PaddedPlane() = default;
+  PaddedPlane(int width, int height)
       : width_(width), height_(height), values_(static_cast<std::size_t>(stride()) * static_cast<std::size_t>(rows())) {}
 
   int width() const { return width_; }
@@ -41,19 +41,19 @@ class Plane {
   std::vector<float> values_;
 };
 
-using ColorPlanes = std::array<Plane, 3>;
+using ColorPlanes = std::array<PaddedPlane, 3>;
 
 inline ColorPlanes color_planes(int width, int height) {
-  return {Plane(width, height), Plane(width, height), Plane(width, height)};
+  return {PaddedPlane(width, height), PaddedPlane(width, height), PaddedPlane(width, height)};
 }
 
 /// Mean over the (2 radius + 1)^2 pixels around each, those beyond the edge being the nearest; radius <= kMargin.
-Plane box_mean(const Plane& plane, int radius, ThreadPool& pool);
+PaddedPlane box_mean(const PaddedPlane& plane, int radius, ThreadPool& pool);
 
 /// Each pixel of a new plane, margin included: value(x, y).
 template <typename Value>
-Plane make_plane(int width, int height, ThreadPool& pool, const Value& value) {
-  Plane plane(width, height);
+PaddedPlane make_plane(int width, int height, ThreadPool& pool, const Value& value) {
+  PaddedPlane plane(width, height);
   pool.for_each(static_cast<std::size_t>(height), 16, [&](std::size_t row) {
     const int y = static_cast<int>(row);
     float* to = plane.row(y);

@@ -21,13 +21,13 @@ double dot(const float* a, const float* b, int rows) {
 
 }  // namespace
 
-void WindowColumns::load(std::size_t column, const Plane& plane, int x, int y) {
+void WindowColumns::load(std::size_t column, const PaddedPlane& plane, int x, int y) {
   float* to = (*this)[column];
   const int radius = neighbourhood_.radius, side = neighbourhood_.side();
   for (int dy = -radius; dy <= radius; ++dy, to += side) std::copy_n(plane.row(y + dy) + x - radius, side, to);
 }
 
-Explanation::Explanation(Neighbourhood neighbourhood, std::span<const Plane* const> features)
+Explanation::Explanation(Neighbourhood neighbourhood, std::span<const PaddedPlane* const> features)
     : neighbourhood_(neighbourhood), features_(features), columns_(neighbourhood, 3 + features.size()) {
   const int radius = neighbourhood.radius;
   int row = 0;

@@ -21,7 +21,7 @@ class WindowColumns {
   const float* operator[](std::size_t column) const { return values_.data() + column * static_cast<std::size_t>(rows()); }
 
   /// The plane's values around (x, y).
-  void load(std::size_t column, const Plane& plane, int x, int y);
+  void load(std::size_t column, const PaddedPlane& plane, int x, int y);
 
  private:
   Neighbourhood neighbourhood_;
@@ -32,7 +32,7 @@ class WindowColumns {
 /// What explains a pixel's value: 1, its offset from the centre, and features less those of the centre, all within [-1, 1].
 class Explanation {
  public:
-  Explanation(Neighbourhood neighbourhood, std::span<const Plane* const> features);
+  Explanation(Neighbourhood neighbourhood, std::span<const PaddedPlane* const> features);
 
   void move_to(int x, int y);
   const WindowColumns& columns() const { return columns_; }
@@ -41,7 +41,7 @@ class Explanation {
   void scale(std::size_t column);
 
   Neighbourhood neighbourhood_;
-  std::span<const Plane* const> features_;
+  std::span<const PaddedPlane* const> features_;
   WindowColumns columns_;
 };
 

@@ -9,13 +9,13 @@ namespace tyndall {
 /// Of the bandwidths the one with the smaller estimated error, mixed with the unfiltered mean as far as that lessens the error:
 /// with ever more samples the result is the mean.
 struct Selection {
-  Plane weight;      ///< of a pixel's squared error beside its neighbours': relative_weight
-  Plane unfiltered;  ///< 1 where the result is the mean in any case; may be empty
+  PaddedPlane weight;      ///< of a pixel's squared error beside its neighbours': relative_weight
+  PaddedPlane unfiltered;  ///< 1 where the result is the mean in any case; may be empty
 
-  Estimate operator()(const Halves& halves, const FilteredHalves& filtered, ThreadPool& pool) const;
+  LightEstimate operator()(const Halves& halves, const FilteredHalves& filtered, ThreadPool& pool) const;
 };
 
 /// 1 / (light^2 + floor^2), light the mean of all components around a pixel: what dark pixels and bright ones see of an error.
-Plane relative_weight(const ColorPlanes& light, ThreadPool& pool);
+PaddedPlane relative_weight(const ColorPlanes& light, ThreadPool& pool);
 
 }  // namespace tyndall

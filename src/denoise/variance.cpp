@@ -18,7 +18,7 @@ float luminance(const ColorPlanes& color, int x, int y) {
 void pool_variance(Halves& halves, int radius, ThreadPool& pool) {
   const float factor = halves.share[0] * halves.share[1];
   for (std::size_t c = 0; c < 3; ++c) {
-    const Plane raw = make_plane(halves.values[0][c].width(), halves.values[0][c].height(), pool, [&](int x, int y) {
+    const PaddedPlane raw = make_plane(halves.values[0][c].width(), halves.values[0][c].height(), pool, [&](int x, int y) {
       const float difference = halves.values[0][c].at(x, y) - halves.values[1][c].at(x, y);
       return difference * difference * factor;
     });
@@ -28,12 +28,12 @@ void pool_variance(Halves& halves, int radius, ThreadPool& pool) {
 
 void take_out_fireflies(Halves& halves, ThreadPool& pool) {
   const int width = halves.values[0][0].width(), height = halves.values[0][0].height();
-  std::array<Plane, 2> brightness;
+  std::array<PaddedPlane, 2> brightness;
   for (std::size_t h = 0; h < 2; ++h) {
     brightness[h] = make_plane(width, height, pool, [&](int x, int y) { return luminance(halves.values[h], x, y); });
   }
   // Sums over both halves around each pixel, of which its own value is a part.
-  const Plane mean =
+  const PaddedPlane mean =
       box_mean(make_plane(width, height, pool,
                           [&](int x, int y) { return std::abs(brightness[0].at(x, y)) + std::abs(brightness[1].at(x, y)); }),
                kAround, pool);
@@ -47,10 +47,10 @@ void take_out_fireflies(Halves& halves, ThreadPool& pool) {
         const float other_half = std::abs(brightness[1 - h].at(x, y));
         if (own <= kMostTimes * std::max(others, other_half)) continue;
         const float keep = others / own;
-        for (Plane& plane : halves.values[h]) plane.at(x, y) *= keep;
+        for (PaddedPlane& plane : halves.values[h]) plane.at(x, y) *= keep;
       }
     });
-    for (Plane& plane : halves.values[h]) plane.extend();
+    for (PaddedPlane& plane : halves.values[h]) plane.extend();
   }
 }
 

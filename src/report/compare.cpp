@@ -1,6 +1,7 @@
 #include "report/compare.h"
 
 #include <algorithm>
+#include <set>
 
 namespace tyndall {
 namespace {
@@ -123,30 +124,64 @@ std::vector<double> costs(const Runs& runs, double ErrorMetrics::*metric) {
   return collect(runs, [metric](const RaceRun& r) { return last(r).error.*metric * last(r).seconds; });
 }
 
-/// Variants that are still in. Once out, a variant is left out of later seeds: it has cost several budgets already.
-std::vector<std::size_t> entrants(const std::vector<Runs>& runs) {
+/// What is shown: the plan's variants, each followed by itself filtered if there is a filter.
+std::vector<CompareVariant> shown_variants(const ComparePlan& plan) {
+  std::vector<CompareVariant> shown;
+  for (const CompareVariant& v : plan.variants) {
+    shown.push_back(v);
+    if (plan.filter.apply) shown.push_back({v.name + " " + plan.filter.name, v.options + " " + plan.filter.option, v.settings});
+  }
+  return shown;
+}
+
+/// The filtered half of a run as a run of its own.
+RaceRun filtered_run(RaceRun& run) {
+  RaceRun filtered;
+  filtered.checkpoints = std::move(run.filtered);
+  filtered.report = run.report;
+  filtered.given_up = run.given_up || filtered.checkpoints.empty();
+  if (filtered.given_up) return filtered;
+  filtered.image = std::move(run.filtered_image);
+  filtered.mean_rgb = mean_color(filtered.image);
+  return filtered;
+}
+
+/// Variants of the plan that are still in. Once out, a variant is left out of later seeds: it has cost several budgets already.
+std::vector<std::size_t> entrants(const std::vector<Runs>& runs, std::size_t each) {
   std::vector<std::size_t> in;
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    if (runs[i].empty() || !runs[i].back().given_up) in.push_back(i);
+  for (std::size_t i = 0; i * each < runs.size(); ++i) {
+    if (runs[i * each].empty() || !runs[i * each].back().given_up) in.push_back(i);
   }
   return in;
+}
+
+/// One picture a variant is shown, without what only the filter takes.
+void add_run(RaceRun run, Runs& runs) {
+  if (!runs.empty()) run.image = {};
+  static const std::set<std::string> kept{"R", "G", "B", "A"};
+  std::erase_if(run.image.channels, [](const Channel& c) {
+    return !kept.contains(c.name) && !c.name.starts_with("Variance.") && !c.name.starts_with("Mse.");
+  });
+  runs.push_back(std::move(run));
 }
 
 /// False: stopped; `runs` is as before.
 bool run_seed(const World& world, const ComparePlan& plan, std::uint64_t seed, const RaceControl& control,
               std::vector<Runs>& runs) {
-  const auto in = entrants(runs);
+  const std::size_t each = plan.filter.apply ? 2 : 1;
+  const auto in = entrants(runs, each);
   std::vector<RenderSettings> methods;
   for (const std::size_t i : in) {
     methods.push_back(plan.variants[i].settings);
     methods.back().seed = seed;
-    methods.back().aovs = {"Variance"};
+    methods.back().aovs = plan.filter.aovs;
+    methods.back().aovs.push_back("Variance");
   }
   auto results = race(world, methods, plan.budget, control);
   if (results.empty()) return false;
   for (std::size_t k = 0; k < in.size(); ++k) {
-    if (!runs[in[k]].empty()) results[k].image = {};  // one picture a variant is shown
-    runs[in[k]].push_back(std::move(results[k]));
+    if (each == 2) add_run(filtered_run(results[k]), runs[2 * in[k] + 1]);
+    add_run(std::move(results[k]), runs[each * in[k]]);
   }
   return true;
 }
@@ -188,7 +223,8 @@ std::string VariantResult::slope_note() const {
 }
 
 CompareResult compare(const World& world, const ComparePlan& plan, const Reference& reference, const CompareControl& control) {
-  std::vector<Runs> runs(plan.variants.size());
+  const std::vector<CompareVariant> shown = shown_variants(plan);
+  std::vector<Runs> runs(shown.size());
   CompareResult result;
   for (const std::uint64_t seed : plan.seeds) {
     const auto done = static_cast<double>(result.seeds_done), all = static_cast<double>(plan.seeds.size());
@@ -196,13 +232,15 @@ CompareResult compare(const World& world, const ComparePlan& plan, const Referen
       if (control.progress) control.progress((done + fraction) / all);
     };
     const auto measure = [&](const Image& image) { return reference.error_of(image); };
-    if (!run_seed(world, plan, seed, {.measure = measure, .progress = progress, .stop = control.stop}, runs)) break;
+    if (!run_seed(world, plan, seed,
+                  {.measure = measure, .filter = plan.filter.apply, .progress = progress, .stop = control.stop}, runs))
+      break;
     ++result.seeds_done;
   }
   if (result.seeds_done == 0) return result;
-  for (std::size_t i = 0; i < plan.variants.size(); ++i) {
-    VariantResult v = summarize(plan.variants[i], runs[i], reference.relmse);
-    v.build_seconds = build_seconds_of(world, plan.variants[i].settings.lights);
+  for (std::size_t i = 0; i < shown.size(); ++i) {
+    VariantResult v = summarize(shown[i], runs[i], reference.relmse);
+    v.build_seconds = build_seconds_of(world, shown[i].settings.lights);
     if (!v.given_up && !runs.front().back().given_up) add_efficiency(runs.front(), runs[i], v);
     add_warnings(v, plan, result.warnings);
     result.variants.push_back(std::move(v));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,10 +20,18 @@ struct CompareVariant {
   RenderSettings settings;
 };
 
+/// What is made of every picture after rendering: each variant then comes twice, as rendered and filtered.
+struct CompareFilter {
+  std::string name, option;                  ///< added to the variant's
+  std::vector<std::string> aovs;             ///< that it takes
+  std::function<Image(const Image&)> apply;  ///< empty: nothing is filtered
+};
+
 struct ComparePlan {
   std::vector<CompareVariant> variants;  ///< the first is what the others are measured by
   RaceBudget budget;
   std::vector<std::uint64_t> seeds;  ///< a run of every variant for each
+  CompareFilter filter{};
 };
 
 /// One point of a variant's curve: means over the seeds, at equal samples.

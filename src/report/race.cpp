@@ -14,6 +14,8 @@ constexpr double kTurnSeconds =
     0.25;                        ///< aim for one turn: short against the drift of a machine, long against a pass's overhead
 constexpr double kPatience = 4;  ///< budgets that a first sample may take
 
+}  // namespace
+
 std::array<double, 3> mean_color(const Image& image) {
   std::array<double, 3> mean{};
   for (int k = 0; k < 3; ++k) {
@@ -22,6 +24,8 @@ std::array<double, 3> mean_color(const Image& image) {
   }
   return mean;
 }
+
+namespace {
 
 bool stopped(const RaceControl& control) { return control.stop != nullptr && control.stop->load(std::memory_order_relaxed); }
 
@@ -46,9 +50,7 @@ class Runner {
       return;
     }
     const int done = job_.samples();
-    if (std::has_single_bit(static_cast<unsigned>(done)) || samples_left() == 0) {
-      run_.checkpoints.push_back({job_.seconds(), done, control.measure(job_.image())});
-    }
+    if (std::has_single_bit(static_cast<unsigned>(done)) || samples_left() == 0) add_checkpoint(control);
   }
 
   double fraction() const {
@@ -67,6 +69,17 @@ class Runner {
   }
 
  private:
+  void add_checkpoint(const RaceControl& control) {
+    const Image image = job_.image();
+    const int done = job_.samples();
+    run_.checkpoints.push_back({job_.seconds(), done, control.measure(image)});
+    if (!control.filter || done < 2) return;
+    const Timer filtering;
+    run_.filtered_image = control.filter(image);
+    const double seconds = job_.seconds() + filtering.seconds();
+    run_.filtered.push_back({seconds, done, control.measure(run_.filtered_image)});
+  }
+
   double a_sample() const { return (job_.seconds() - job_.preparing_seconds()) / job_.samples(); }
 
   /// Samples that the budget still holds, to the nearest whole one.

@@ -31,6 +31,9 @@ struct RaceRun {
   std::vector<RaceCheckpoint> checkpoints;  ///< at 1, 2, 4, 8 ... samples and at the end
   Image image;                              ///< at the end
   std::array<double, 3> mean_rgb{};         ///< of it
+  /// With RaceControl::filter: the same of the filtered pictures, from 2 samples on; seconds include one filtering.
+  std::vector<RaceCheckpoint> filtered;
+  Image filtered_image;
   RenderReport report;
   bool given_up = false;  ///< its first sample alone took several times the budget: no checkpoints, no image
 };
@@ -38,10 +41,15 @@ struct RaceRun {
 struct RaceControl {
   /// Error of a picture against the reference. Not on the clock.
   std::function<ErrorMetrics(const Image&)> measure;
+  /// What is made of a picture after rendering, to be measured as well; may be empty. Not on the clock of the race.
+  std::function<Image(const Image&)> filter{};
   /// Told the fraction of the race that is run; may be empty.
   std::function<void(double)> progress{};
   const std::atomic<bool>* stop = nullptr;  ///< set it to end the race at once; nothing of it is then of use
 };
+
+/// Of R, G and B.
+std::array<double, 3> mean_color(const Image& image);
 
 /// One run for each of `methods` on `world`, turn by turn in short passes, so that a machine that slows down slows all
 /// alike. Empty when stopped. Each method's clock runs while its own pass does. `spp`, `time` and `error` of the methods are

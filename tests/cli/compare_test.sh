@@ -92,4 +92,11 @@ expect 2 "$T" render s.pbrt --error 0 -o a.exr
 expect 3 "$T" render s.pbrt --reference ref.exr --error-log log.jsonl -o a.exr
 expect 3 "$T" render s.pbrt --resolution 24x16 --max-depth 1 --seed 77 --reference ref.exr --error-log log.jsonl -o a.exr
 expect 4 "$T" render s.pbrt --reference ref.exr --error-log nowhere/log.jsonl -o a.exr
+# Each variant a second time, denoised.
+expect 0 "$T" compare s.pbrt --variants "a:--lights power" --spp 4 --denoise --quiet -o denoised
+grep -q '^a denoised,' denoised/error.csv || fail "no denoised variant in $(cat denoised/error.csv)"
+[ -s denoised/a_denoised.exr ] || fail "no denoised picture"
+expect 2 "$T" compare s.pbrt --spp 1 --denoise -o x
+says 'give --spp 2 or more' err.txt
+
 finish

@@ -10,17 +10,17 @@ namespace {
 
 using test::normal;
 
-Plane noise(int width, int height, std::uint64_t seed) {
+PaddedPlane noise(int width, int height, std::uint64_t seed) {
   Rng rng(seed);
-  Plane plane(width, height);
+  PaddedPlane plane(width, height);
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) plane.at(x, y) = normal(rng);
   plane.extend();
   return plane;
 }
 
-Plane constant(int width, int height, float value) {
-  Plane plane(width, height);
+PaddedPlane constant(int width, int height, float value) {
+  PaddedPlane plane(width, height);
   for (int y = 0; y < height; ++y) std::fill_n(plane.row(y), width, value);
   plane.extend();
   return plane;
@@ -32,7 +32,7 @@ double patch_distance(const Guide& guide, Vec2 p, Vec2 q, int radius) {
   for (int j = -radius; j <= radius; ++j) {
     for (int i = -radius; i <= radius; ++i) {
       for (std::size_t c = 0; c < guide.values.size(); ++c) {
-        const auto value = [&](const Plane* plane, Vec2 at) {
+        const auto value = [&](const PaddedPlane* plane, Vec2 at) {
           return static_cast<double>(plane->at(static_cast<int>(at.x) + i, static_cast<int>(at.y) + j));
         };
         const double difference = value(guide.values[c], p) - value(guide.values[c], q);
@@ -45,7 +45,7 @@ double patch_distance(const Guide& guide, Vec2 p, Vec2 q, int radius) {
 }
 
 TEST_CASE("distances of patches are those of their pixels, and pixels outside the picture are far") {
-  const Plane a = noise(30, 20, 1), b = noise(30, 20, 2), one = constant(30, 20, 0.7f), two = constant(30, 20, 1.3f);
+  const PaddedPlane a = noise(30, 20, 1), b = noise(30, 20, 2), one = constant(30, 20, 0.7f), two = constant(30, 20, 1.3f);
   Guide guide{{&a, &b}, {&one, &two}, 1.5f};
   const Neighbourhood around{4};
   const CentreGrid centres{1, 2, 3, 10, 6};
@@ -71,7 +71,7 @@ TEST_CASE("distances of patches are those of their pixels, and pixels outside th
 // 10,000 pixels of which 80 a centre are looked at; patches overlap, so that about 2,000 are independent: 0.005 of standard
 // error. The means are the table's of ALGORITHMS_IMAGE 1.1 for the true variance.
 TEST_CASE("pixels that differ by noise alone weigh 0.80 on average for k = 0.5, 0.93 for k = 1") {
-  const Plane values = noise(120, 120, 3), variance = constant(120, 120, 1);
+  const PaddedPlane values = noise(120, 120, 3), variance = constant(120, 120, 1);
   const Guide guide{{&values}, {&variance}, 1};
   const Neighbourhood around{5};
   const CentreGrid centres{10, 10, 5, 20, 20};

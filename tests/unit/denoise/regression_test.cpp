@@ -10,8 +10,8 @@ namespace {
 
 constexpr Neighbourhood kWindow{9};
 
-Plane plane_of(const test::OfPixel& value) {
-  Plane plane(40, 40);
+PaddedPlane plane_of(const test::OfPixel& value) {
+  PaddedPlane plane(40, 40);
   for (int y = 0; y < 40; ++y)
     for (int x = 0; x < 40; ++x) plane.at(x, y) = value(x, y);
   plane.extend();
@@ -22,12 +22,12 @@ TEST_CASE("what is linear in position and features is fitted exactly, whatever t
   Rng rng(5);
   std::vector<float> random(1600);
   for (float& v : random) v = rng.uniform();
-  const Plane f = plane_of([&](int x, int y) { return random[static_cast<std::size_t>(y * 40 + x)]; });
-  const Plane g = plane_of([&](int x, int y) { return x > 19 ? 5.0f + 0.01f * static_cast<float>(y) : 0.0f; });
-  const Plane y = plane_of([&](int i, int j) {
+  const PaddedPlane f = plane_of([&](int x, int y) { return random[static_cast<std::size_t>(y * 40 + x)]; });
+  const PaddedPlane g = plane_of([&](int x, int y) { return x > 19 ? 5.0f + 0.01f * static_cast<float>(y) : 0.0f; });
+  const PaddedPlane y = plane_of([&](int i, int j) {
     return 3 + 0.2f * static_cast<float>(i) - 0.1f * static_cast<float>(j) + 2 * f.at(i, j) - 0.5f * g.at(i, j);
   });
-  const std::vector<const Plane*> features{&f, &g};
+  const std::vector<const PaddedPlane*> features{&f, &g};
   Explanation explanation(kWindow, features);
   Regression regression(kWindow, explanation.columns().count());
   WindowColumns target(kWindow, 3), fitted(kWindow, 3);
@@ -44,9 +44,9 @@ TEST_CASE("what is linear in position and features is fitted exactly, whatever t
 }
 
 TEST_CASE("a feature that says nothing gets no slope, and one like another is shared without harm") {
-  const Plane constant = plane_of([](int, int) { return 4.0f; });
-  const Plane step = plane_of([](int x, int) { return x > 19 ? 1.0f : 0.0f; });
-  const std::vector<const Plane*> features{&constant, &step, &step};
+  const PaddedPlane constant = plane_of([](int, int) { return 4.0f; });
+  const PaddedPlane step = plane_of([](int x, int) { return x > 19 ? 1.0f : 0.0f; });
+  const std::vector<const PaddedPlane*> features{&constant, &step, &step};
   Explanation explanation(kWindow, features);
   Regression regression(kWindow, explanation.columns().count());
   WindowColumns target(kWindow, 3), fitted(kWindow, 3);
@@ -59,7 +59,7 @@ TEST_CASE("a feature that says nothing gets no slope, and one like another is sh
 }
 
 TEST_CASE("a window of which one pixel counts stays as it is there") {
-  const Plane y = plane_of([](int i, int j) { return static_cast<float>(i * j); });
+  const PaddedPlane y = plane_of([](int i, int j) { return static_cast<float>(i * j); });
   Explanation explanation(kWindow, {});
   Regression regression(kWindow, 3);
   WindowColumns target(kWindow, 3), fitted(kWindow, 3);

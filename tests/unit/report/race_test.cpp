@@ -115,5 +115,45 @@ TEST_CASE("compare: an unbiased pair, a reference with noise, and a biased one t
   CHECK(biased.variants[1].slope_samples->low > -1);
 }
 
+TEST_CASE("a filter makes every variant a second one, from two samples on, and its time counts") {
+  const World w = world();
+  const Image black = [&] {
+    Image image = plain(w, LightStrategy::power, 1);
+    for (Channel& c : image.channels) std::fill(c.values.begin(), c.values.end(), 0.0f);
+    return image;
+  }();
+  const auto halved = [](const Image& image) {
+    Image half = image;
+    for (Channel& c : half.channels) {
+      for (float& v : c.values) v /= 2;
+    }
+    return half;
+  };
+  const RaceControl control{.measure = [&](const Image& i) { return measure_error(i, black); }, .filter = halved};
+  const auto runs = race(w, {method(LightStrategy::uniform)}, {.seconds = std::nullopt, .samples = 5}, control);
+  REQUIRE(runs[0].checkpoints.size() == 4);  // 1, 2, 4, 5
+  REQUIRE(runs[0].filtered.size() == 3);
+  for (std::size_t i = 0; i < 3; ++i) {
+    CHECK(runs[0].filtered[i].samples == runs[0].checkpoints[i + 1].samples);
+    CHECK(runs[0].filtered[i].seconds > runs[0].checkpoints[i + 1].seconds);
+    CHECK(runs[0].filtered[i].error.mse == doctest::Approx(runs[0].checkpoints[i + 1].error.mse / 4));
+  }
+
+  const ComparePlan plan{.variants = {{"u", "--lights uniform", method(LightStrategy::uniform)}},
+                         .budget = {.seconds = std::nullopt, .samples = 4},
+                         .seeds = {1, 2, 3, 4, 5},
+                         .filter = {.name = "halved", .option = "--halve", .aovs = {"Z"}, .apply = halved}};
+  Reference reference;
+  reference.image = black;
+  const CompareResult result = compare(w, plan, reference);
+  REQUIRE(result.variants.size() == 2);
+  CHECK(result.variants[1].name == "u halved");
+  CHECK(result.variants[1].options == "--lights uniform --halve");
+  CHECK(result.variants[1].error.mse == doctest::Approx(result.variants[0].error.mse / 4));
+  CHECK(result.variants[1].image.find("Z") == nullptr);
+  CHECK(result.variants[0].curve.size() == 3);
+  CHECK(result.variants[1].curve.size() == 2);
+}
+
 }  // namespace
 }  // namespace tyndall
