@@ -198,9 +198,12 @@ void add_efficiency(const Runs& base, const Runs& runs, VariantResult& v) {
 }
 
 void add_warnings(const VariantResult& v, const ComparePlan& plan, std::vector<std::string>& warnings) {
-  if (v.given_up) {
+  const bool filtered = !v.as_rendered.empty();
+  if (v.given_up && filtered) {
+    warnings.push_back(v.name + ": not made, since that takes two samples a pixel");
+  } else if (v.given_up) {
     warnings.push_back(v.name + ": gave up, since one sample a pixel took more than four times the budget");
-  } else if (plan.budget.seconds && v.seconds > 1.1 * *plan.budget.seconds) {
+  } else if (!filtered && plan.budget.seconds && v.seconds > 1.1 * *plan.budget.seconds) {
     warnings.push_back(v.name + ": took longer than the budget, since a sample a pixel is the least there is");
   }
   if (v.near_noise) {
@@ -217,6 +220,7 @@ void add_warnings(const VariantResult& v, const ComparePlan& plan, std::vector<s
 }  // namespace
 
 std::string VariantResult::slope_note() const {
+  if (!as_rendered.empty()) return "";  // what a filter leaves is bias for the most part, and meant to be
   if (!slope || !slope_samples || slope->low <= -1) return "";
   if (slope_samples->low <= -1) return "flatter than -1 in time but not in samples: the machine slowed down, perhaps";
   return "flatter than -1: a sign of bias";
@@ -240,6 +244,7 @@ CompareResult compare(const World& world, const ComparePlan& plan, const Referen
   if (result.seeds_done == 0) return result;
   for (std::size_t i = 0; i < shown.size(); ++i) {
     VariantResult v = summarize(shown[i], runs[i], reference.relmse);
+    if (plan.filter.apply && i % 2 == 1) v.as_rendered = shown[i - 1].name;
     v.build_seconds = build_seconds_of(world, shown[i].settings.lights);
     if (!v.given_up && !runs.front().back().given_up) add_efficiency(runs.front(), runs[i], v);
     add_warnings(v, plan, result.warnings);

@@ -44,6 +44,7 @@ struct CurvePoint {
 /// What the runs of a variant say together. What cannot be said is absent.
 struct VariantResult {
   std::string name, options;
+  std::string as_rendered;   ///< filtered: the variant whose pictures these were; else empty
   double build_seconds = 0;  ///< of what only this strategy needs
   double samples = 0, seconds = 0;
   ErrorMetrics error;  ///< at the end, mean over the seeds

@@ -53,6 +53,7 @@ Json variant_json(const VariantResult& v) {
          {"build_seconds", v.build_seconds},
          {"samples", v.samples},
          {"seconds", v.seconds}};
+  if (!v.as_rendered.empty()) j["as_rendered"] = v.as_rendered;
   j["mse"] = known(v.error.mse);
   j["relmse"] = known(v.error.relmse);
   j["relmse_trimmed"] = known(v.error.relmse_trimmed);
@@ -137,7 +138,8 @@ std::string compare_table(const CompareResult& result) {
                                  "samples", "relMSE", "slope", "efficiency (95 %)", "without the worst 0.1 %");
   for (const VariantResult& v : result.variants) {
     if (v.given_up) {
-      text += fmt::format("{:<{}}  {:>8.3f}  given up: one sample takes too long\n", v.name, width, v.build_seconds);
+      text += fmt::format("{:<{}}  {:>8.3f}  {}\n", v.name, width, v.build_seconds,
+                          v.as_rendered.empty() ? "given up: one sample takes too long" : "not made: takes two samples");
       continue;
     }
     text += fmt::format("{:<{}}  {:>8.3f} {:>8.2f} {:>8.1f} {:>10.3e} {:>7}  {:<26} {}\n", v.name, width, v.build_seconds,

@@ -115,6 +115,14 @@ TEST_CASE("compare: an unbiased pair, a reference with noise, and a biased one t
   CHECK(biased.variants[1].slope_samples->low > -1);
 }
 
+TEST_CASE("a slope that is too flat is a sign of bias, but not where a filter's bias is meant") {
+  VariantResult v;
+  v.slope = v.slope_samples = ConfidenceInterval{-0.5, -0.6, -0.4};
+  CHECK(v.slope_note() == "flatter than -1: a sign of bias");
+  v.as_rendered = "noisy";
+  CHECK(v.slope_note().empty());
+}
+
 TEST_CASE("a filter makes every variant a second one, from two samples on, and its time counts") {
   const World w = world();
   const Image black = [&] {
@@ -149,6 +157,8 @@ TEST_CASE("a filter makes every variant a second one, from two samples on, and i
   REQUIRE(result.variants.size() == 2);
   CHECK(result.variants[1].name == "u halved");
   CHECK(result.variants[1].options == "--lights uniform --halve");
+  CHECK(result.variants[0].as_rendered.empty());
+  CHECK(result.variants[1].as_rendered == "u");
   CHECK(result.variants[1].error.mse == doctest::Approx(result.variants[0].error.mse / 4));
   CHECK(result.variants[1].image.find("Z") == nullptr);
   CHECK(result.variants[0].curve.size() == 3);
