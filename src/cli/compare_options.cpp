@@ -20,6 +20,13 @@ CompareFilter denoiser(int threads) {
           }};
 }
 
+/// A variant may not be called as another one is once it is filtered.
+void require_filtered_names(const ComparePlan& plan) {
+  for (const CompareVariant& v : plan.variants) {
+    for (const CompareVariant& other : plan.variants) require_own_files(v.name, other.name + " " + plan.filter.name);
+  }
+}
+
 }  // namespace
 
 void declare(CLI::App& command, CompareOptions& o) {
@@ -93,6 +100,7 @@ ComparePlan plan_of(const CompareOptions& o, const RenderSettings& base) {
                    .budget = budget_of(o),
                    .seeds = {},
                    .filter = o.denoise ? denoiser(base.threads) : CompareFilter()};
+  if (o.denoise) require_filtered_names(plan);
   if (o.denoise && o.spp == 1)
     throw Error(Failure::usage, "--denoise needs two samples a pixel, to tell noise from picture; give --spp 2 or more");
   for (int i = 0; i < o.seeds; ++i) plan.seeds.push_back(o.seed + static_cast<std::uint64_t>(i));

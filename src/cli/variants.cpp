@@ -96,11 +96,7 @@ void add_named(CompareVariant variant, std::vector<CompareVariant>& variants) {
   const std::string key = file_key(variant.name);
   if (key == "reference.exr")
     throw Error(Failure::usage, "a variant is called \"" + variant.name + "\", as the reference is; choose another name");
-  for (const CompareVariant& v : variants) {
-    if (file_key(v.name) != key) continue;
-    throw Error(Failure::usage, "variants \"" + v.name + "\" and \"" + variant.name + "\" would share the file " +
-                                    picture_file(v.name) + "; give each a name of its own");
-  }
+  for (const CompareVariant& v : variants) require_own_files(v.name, variant.name);
   variants.push_back(std::move(variant));
 }
 
@@ -113,6 +109,12 @@ void add_new(const std::vector<CompareVariant>& preset, std::vector<CompareVaria
 }
 
 }  // namespace
+
+void require_own_files(const std::string& a, const std::string& b) {
+  if (file_key(a) != file_key(b)) return;
+  throw Error(Failure::usage, "variants \"" + a + "\" and \"" + b + "\" would share the file " + picture_file(a) +
+                                  "; give each a name of its own");
+}
 
 std::string preset_names() {
   std::string names;

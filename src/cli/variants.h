@@ -17,4 +17,7 @@ std::string preset_names();
 /// Throws Error (usage) that lists what is known.
 std::vector<CompareVariant> parse_variants(const std::vector<std::string>& specs, const RenderSettings& base);
 
+/// Throws Error (usage) when the pictures of variants with these names would be one file.
+void require_own_files(const std::string& a, const std::string& b);
+
 }  // namespace tyndall::cli

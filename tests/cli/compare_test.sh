@@ -95,8 +95,12 @@ expect 4 "$T" render s.pbrt --reference ref.exr --error-log nowhere/log.jsonl -o
 # Each variant a second time, denoised.
 expect 0 "$T" compare s.pbrt --variants "a:--lights power" --spp 4 --denoise --quiet -o denoised
 grep -q '^a denoised,' denoised/error.csv || fail "no denoised variant in $(cat denoised/error.csv)"
+says '"as_rendered": "a"' denoised/results.json
+grep -q '"as_rendered"' timed/results.json && fail "as_rendered without --denoise"
 [ -s denoised/a_denoised.exr ] || fail "no denoised picture"
 expect 2 "$T" compare s.pbrt --spp 1 --denoise -o x
 says 'give --spp 2 or more' err.txt
+expect 2 "$T" compare s.pbrt --variants "a:--lights power,A denoised:--lights uniform" --denoise -o x
+says 'share the file' err.txt
 
 finish
