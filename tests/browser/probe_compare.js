@@ -179,18 +179,74 @@ async function checkWipe(canvas, state) {
       'w wipes against the reference',
       state.mode === 'wipe' && shown(canvas, 0.25, 0.5).join() === own.join() &&
           shown(canvas, 0.75, 0.45).join() === reference[1].join());
-  check('the line is drawn', shown(canvas, 0.5, 0.5).join() === '255,255,255', shown(canvas, 0.5, 0.5));
+  const divider = one('.divider'), place = () => {
+    const line = divider.getBoundingClientRect(), window = canvas.getBoundingClientRect();
+    return ((line.left + line.right) / 2 - window.left) / window.width;
+  };
+  check('the line is drawn', divider.getClientRects().length === 1 && Math.abs(place() - 0.5) < 0.005, place());
+  check(
+      'the line names its sides',
+      one('.side.left', divider).textContent === 'tree' && one('.side.right', divider).textContent === 'reference',
+      divider.textContent);
   for (const [type, u] of [['pointerdown', 0.5], ['pointermove', 0.1], ['pointerup', 0.1]]) point(canvas, type, u, 0.5);
   await settle();
   check(
       'the line can be dragged',
-      Math.abs(Number(state.wipe) - 0.1) < 0.01 && shown(canvas, 0.25, 0.5).join() === reference[0].join(), state.wipe);
-  const range = one('input.wipe');
-  range.value = '0.9';
-  range.dispatchEvent(new Event('input'));
-  await settle();
-  check('the slider moves it', state.wipe === '0.9' && shown(canvas, 0.25, 0.5).join() === own.join());
+      Math.abs(Number(state.wipe) - 0.1) < 0.01 && Math.abs(place() - 0.1) < 0.01 &&
+          shown(canvas, 0.25, 0.5).join() === reference[0].join(),
+      state.wipe);
+  check('a drag gives the line the focus', document.activeElement === divider, document.activeElement.className);
+  await checkWipeKeys(divider, state);
+  await checkSides(canvas, state);
   press('w');
+  await settle();
+  check('without a wipe there is no line', divider.getClientRects().length === 0);
+}
+
+async function checkWipeKeys(divider, state) {
+  const {view} = activeViewer, left = view.left;
+  for (const key of ['End', 'PageDown', 'ArrowLeft', 'ArrowUp', 'ArrowRight']) press(key, divider);
+  check('keys move the line', Math.abs(Number(state.wipe) - 0.91) < 1e-9, state.wipe);
+  check('and nothing else', view.left === left);
+  check(
+      'the line says where it is',
+      divider.getAttribute('aria-valuenow') === '91' &&
+          divider.getAttribute('aria-valuetext') === '91 %, tree left, reference right' && divider.tabIndex === 0 &&
+          divider.getAttribute('role') === 'slider' && divider.getAttribute('aria-label') === 'Line of the wipe',
+      divider.getAttribute('aria-valuetext'));
+  press('End', divider);
+  press('End', divider);
+  check('the line stays in the window', state.wipe === '1', state.wipe);
+  press('ArrowLeft', divider);
+  await settle();
+}
+
+/** Any two pictures, chosen by name. */
+async function checkSides(canvas, state) {
+  const [left, right] = ['left', 'right'].map((side) => one(`[aria-label='Picture on the ${side}']`));
+  const choose = (select, name) => {
+    select.value = activeViewer.pictures.findIndex((picture) => picture.name === name);
+    select.dispatchEvent(new Event('change'));
+  };
+  activeViewer.set({wipe: 0.5});
+  choose(left, 'power');
+  choose(right, 'tree');
+  await settle();
+  const sides = [shown(canvas, 0.25, 0.5), shown(canvas, 0.75, 0.45)];
+  check('the sides are chosen', state.picture === 'power' && activeViewer.other.name === 'tree', state.picture);
+  one('[aria-label=\'Swap the sides\']').click();
+  await settle();
+  check(
+      'the sides are swapped',
+      state.picture === 'tree' && activeViewer.other.name === 'power' && shown(canvas, 0.25, 0.5).join() !== sides[0].join(),
+      state.picture);
+  press('w');
+  await settle();
+  check('and are the pictures themselves', shown(canvas, 0.75, 0.45).join() === sides[1].join(), shown(canvas, 0.75, 0.45));
+  press('3');
+  press('w');
+  await settle();
+  check('no picture is wiped against itself', activeViewer.current !== activeViewer.other, state.picture);
 }
 
 async function checkError(canvas, state) {

@@ -14,7 +14,10 @@ class Viewer {
     this.canvas = element(
         'canvas',
         {class: 'window', tabindex: 0, role: 'img', style: `aspect-ratio: ${this.current.width} / ${this.current.height}`});
-    this.root = element('div', {class: 'viewer'}, pictureTabs(this), this.canvas, readout(this), viewerControls(this));
+    this.divider = wipeDivider(this);
+    this.root = element(
+        'div', {class: 'viewer'}, pictureTabs(this), element('div', {class: 'stage'}, this.canvas, this.divider), readout(this),
+        viewerControls(this));
     listenToPointer(this);
     new ResizeObserver(() => requestAnimationFrame(() => this.resize())).observe(this.canvas);
   }
@@ -24,6 +27,7 @@ class Viewer {
     if (change.current && change.current !== this.current) this.before = this.current;
     if ('stops' in change) change.stops = Math.min(Math.max(change.stops, -10), 10);
     if ('wipe' in change) change.wipe = Math.min(Math.max(change.wipe, 0), 1);
+    if (change.mode === 'wipe' && !change.other && this.current === this.other) change.other = this.before;
     if (change.mode === 'error' && !this.reference) change.mode = 'picture';
     Object.assign(this, change);
     this.update();
@@ -107,7 +111,5 @@ class Viewer {
       context.drawImage(this.painted(picture, 'picture'), 0, 0);
       context.restore();
     }
-    context.fillStyle = '#fff';
-    context.fillRect(line - 1 / view.scale, 0, 2 / view.scale, this.current.height);
   }
 }

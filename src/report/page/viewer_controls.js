@@ -68,20 +68,6 @@ function exposureControl(viewer) {
   return element('label', {class: 'control'}, element('span', {}, 'Exposure'), input, value);
 }
 
-function wipeControl(viewer) {
-  const input = slider('Place of the wipe', {min: 0, max: 1, step: 0.005, class: 'wipe'}, (wipe) => viewer.set({wipe}));
-  const select = element(
-      'select', {'aria-label': 'Picture on the right', onchange: () => viewer.set({other: viewer.pictures[select.value]})},
-      viewer.pictures.map((picture, i) => element('option', {value: i}, picture.name)));
-  const row = element('div', {class: 'control'}, element('span', {}, 'Wipe'), input, element('label', {}, 'against ', select));
-  viewer.listeners.push(() => {
-    row.hidden = viewer.mode !== 'wipe';
-    input.value = viewer.wipe;
-    select.value = viewer.pictures.indexOf(viewer.other);
-  });
-  return row;
-}
-
 function zoomButtons(viewer) {
   const value = element('output', {});
   viewer.listeners.push(() => {
@@ -98,7 +84,7 @@ function zoomButtons(viewer) {
 
 const KEY_HELP = [
   ['0', 'reference'], ['1–9', 'pictures'], ['x', 'back to the last'], ['w', 'wipe'], ['e', 'error'], ['[ ]', 'exposure'],
-  ['\\', 'reset it'], ['+ −', 'zoom (or wheel, pinch)'], ['f', 'fit'], ['arrows', 'move']
+  ['\\', 'reset it'], ['+ −', 'zoom (or wheel, pinch)'], ['f', 'fit'], ['arrows', 'move, or the line of the wipe']
 ];
 
 function keyHelp() {

@@ -37,7 +37,11 @@ class Drag {
   down(event) {
     const point = windowPoint(this.viewer, event), {viewer} = this;
     this.points.set(event.pointerId, point);
-    this.onLine = viewer.mode === 'wipe' && Math.abs(point.x - viewer.wipe * viewer.view.width) < 20;
+    this.onLine = isOnLine(viewer, point.x);
+    if (this.onLine) {
+      event.preventDefault();  // the canvas would take the focus, and with it the arrow keys
+      viewer.divider.focus({preventScroll: true});
+    }
     if (event.isTrusted) viewer.canvas.setPointerCapture(event.pointerId);
     viewer.set({pixel: viewer.view.pixelAt(point.x, point.y)});
   }
@@ -52,6 +56,7 @@ class Drag {
     else if (last)
       viewer.view.pan(point.x - last.x, point.y - last.y);
     if (last) points.set(event.pointerId, point);
+    viewer.canvas.style.cursor = isOnLine(viewer, point.x) ? 'ew-resize' : '';
     viewer.update();
   }
 
