@@ -21,7 +21,7 @@ quiet() {
   if grep "CONSOLE" err.txt; then fail "the console of $1 speaks"; fi
 }
 
-for page in compare regress; do
+for page in compare denoised regress; do
   # What is embedded is results.json, but for the escape of "<".
   sed -n 's/.*id="results">\(.*\)<\/script>$/\1/p' pages/$page.html | sed 's/\\u003c/</g' | tr -d '\n' | cmp - pages/$page.json ||
     fail "$page.html does not hold results.json"

@@ -1,5 +1,5 @@
-// write_pages FOLDER [WIDTH HEIGHT]: a compare page and a regress page from made-up results, each beside its JSON, for the
-// tests that open them in a browser. Names are hostile where a scene could make them so.
+// write_pages FOLDER [WIDTH HEIGHT]: two compare pages, one of them with denoised variants, and a regress page from made-up
+// results, each beside its JSON, for the tests that open them in a browser. Names are hostile where a scene could make them so.
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -128,6 +128,25 @@ ordered_json compare_results(const Size& size) {
       {"variants", variants}};
 }
 
+/// Of the first two variants, each followed by itself denoised, from two samples on.
+ordered_json denoised_results(ordered_json results) {
+  ordered_json variants = ordered_json::array();
+  for (std::size_t i = 0; i < 2; ++i) {
+    ordered_json v = results["variants"][i], denoised = v;
+    denoised["name"] = v["name"].get<std::string>() + " denoised";
+    denoised["as_rendered"] = v["name"];
+    denoised["checkpoints"].erase(0);
+    for (ordered_json& point : denoised["checkpoints"]) {
+      for (const char* error : {"mse", "relmse", "relmse_low", "relmse_high"}) point[error] = point[error].get<double>() * 0.3;
+      point["seconds"] = point["seconds"].get<double>() + 0.2;
+    }
+    variants.push_back(std::move(v));
+    variants.push_back(std::move(denoised));
+  }
+  results["variants"] = std::move(variants);
+  return results;
+}
+
 ordered_json layer_test(const std::string& what, bool same) {
   return {{"what", what},
           {"same", same},
@@ -187,6 +206,13 @@ std::vector<PagePicture> compare_pictures(const Size& size) {
   return pictures;
 }
 
+std::vector<PagePicture> denoised_pictures(const Size& size, const ordered_json& results) {
+  std::vector<PagePicture> pictures{{"", "reference", picture(size, 0, 0)}};
+  for (const auto& v : results["variants"])
+    pictures.push_back({"", v["name"], picture(size, v.contains("as_rendered") ? 0.02f : 0.15f, 1)});
+  return pictures;
+}
+
 std::vector<PagePicture> regress_pictures(const ordered_json& results) {
   std::vector<PagePicture> pictures;
   for (const auto& item : results["cases"]) {
@@ -208,9 +234,11 @@ int main(int argc, char** argv) {
   const std::string folder = argv[1];
   Size size;
   if (argc == 4) size = {std::atoi(argv[2]), std::atoi(argv[3])};
-  const ordered_json compare = compare_results(size), regress = regress_results();
+  const ordered_json compare = compare_results(size), denoised = denoised_results(compare), regress = regress_results();
   write(folder + "/compare.json", compare.dump());
   write(folder + "/compare.html", compare_page(compare, compare_pictures(size)));
+  write(folder + "/denoised.json", denoised.dump());
+  write(folder + "/denoised.html", compare_page(denoised, denoised_pictures(size, denoised)));
   write(folder + "/regress.json", regress.dump());
   write(folder + "/regress.html", regress_page(regress, regress_pictures(regress)));
 }

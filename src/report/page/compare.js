@@ -2,6 +2,8 @@
 
 const variantPath = (variant, field) => `variants.${RESULTS.variants.indexOf(variant)}.${field}`;
 
+const variantColor = (variant) => seriesColor(seriesIndex(RESULTS.variants, variant));
+
 /** The interval of an efficiency as a bar with a dot, all rows on one logarithmic scale; a thin line marks 1. */
 function intervalBar(variant, field) {
   const every = RESULTS.variants.flatMap((v) => [1, v[field]?.low, v[field]?.high, v[field]?.relative].filter(isPositive));
@@ -17,7 +19,7 @@ function intervalBar(variant, field) {
         width: 90,
         height: 14,
         'aria-hidden': 'true',
-        style: `color: ${seriesColor(RESULTS.variants.indexOf(variant))}`
+        style: `color: ${variantColor(variant)}`
       },
       svg('line', {class: 'one', x1: x(1), x2: x(1), y1: 0, y2: 14}), range, svg('circle', {cx: x(relative), cy: 7, r: 4}));
 }
@@ -78,8 +80,11 @@ function healthCell(variant) {
 }
 
 function nameCell(variant) {
-  const dot = element(
-      'span', {class: 'dot', 'aria-hidden': 'true', style: `background: ${seriesColor(RESULTS.variants.indexOf(variant))}`});
+  const dot = element('span', {
+    class: variant.as_rendered ? 'dot hollow' : 'dot',
+    'aria-hidden': 'true',
+    style: `color: ${variantColor(variant)}`
+  });
   return [
     dot, datum(variantPath(variant, 'name'), formatText),
     element('code', {}, datum(variantPath(variant, 'options'), formatText))
@@ -100,7 +105,7 @@ const VARIANT_COLUMNS = [
   numberColumn('build_seconds', 'build', 'Time to build, not part of the efficiency', formatSeconds),
   {
     label: 'render',
-    title: 'Render time of one seed',
+    title: 'Render time of one seed, and of denoising where it is denoised',
     key: (v) => gaveUp(v) ? null : v.seconds,
     cell: secondsCell
   },
@@ -157,11 +162,20 @@ function referenceFacts() {
   ]);
 }
 
+/** Where a variant was denoised, the page opens with the wipe between both. */
+function showDenoised(viewer) {
+  const denoised = RESULTS.variants.find((variant) => variant.as_rendered);
+  const picture = (name) => viewer.pictures.find((p) => p.name === name);
+  const [left, right] = [picture(denoised?.as_rendered), picture(denoised?.name)];
+  if (left && right) viewer.set({current: left, other: right, mode: 'wipe'});
+}
+
 function pictureSection() {
   const pictures = picturesOf('');
   if (!pictures.length) return null;
   const viewer = new Viewer(pictures, RESULTS.settings?.eps ?? 0.01);
   activeViewer = viewer;
+  showDenoised(viewer);
   const caption = (picture) => {
     const i = RESULTS.variants.findIndex((variant) => variant.name === picture.name);
     return [element('strong', {}, picture.name), i < 0 ? null : element('span', {}, 'relMSE ', datum(`variants.${i}.relmse`))];

@@ -2,17 +2,31 @@
 
 const SERIES_COLORS = 8;
 const DASHES = [null, '7 4', '2 3'];  // beyond eight lines colours come again, dashed
+const FILTERED_DASHES = ['7 4', '7 4 2 4', '2 6'];
 const MARKERS =
     ['M-4 0a4 4 0 1 0 8 0a4 4 0 1 0-8 0z', 'M-3.5-3.5h7v7h-7z', 'M0-4.6l4.3 7.7h-8.6z', 'M0-4.8l4.8 4.8-4.8 4.8-4.8-4.8z'];
 
 const seriesColor = (i) => `var(--series-${i % SERIES_COLORS})`;
-const marker = (i, x, y) => svg('path', {class: 'marker', d: MARKERS[i % MARKERS.length], transform: `translate(${x} ${y})`});
+const marker = ({index, filtered}, x, y) =>
+    svg('path',
+        {class: filtered ? 'marker hollow' : 'marker', d: MARKERS[index % MARKERS.length], transform: `translate(${x} ${y})`});
 const isPositive = (value) => typeof value === 'number' && value > 0;
+
+/** The place of a variant among those that are as rendered: a denoised one shares its colour and mark with the other. */
+function seriesIndex(variants, variant) {
+  const own = variants.filter((v) => !v.as_rendered), place = own.findIndex((v) => v.name === variant.as_rendered);
+  return place < 0 ? own.indexOf(variant) : place;
+}
 
 class ErrorPlot {
   constructor(variants) {
-    this.series =
-        variants.map((variant, i) => ({name: variant.name, index: i, shown: true, points: variant.checkpoints ?? []}));
+    this.series = variants.map((variant) => ({
+                                 name: variant.name,
+                                 index: seriesIndex(variants, variant),
+                                 filtered: Boolean(variant.as_rendered),
+                                 shown: true,
+                                 points: variant.checkpoints ?? []
+                               }));
     this.tip = element('div', {class: 'tip', hidden: true});
     this.holder = element('div', {class: 'plot'});
     this.choice = segmented('Error against', [['seconds', 'Time'], ['samples', 'Samples']], (field) => this.show(field));
@@ -42,7 +56,7 @@ class ErrorPlot {
           'svg',
           {width: 34, height: 14, viewBox: '0 0 34 14', 'aria-hidden': 'true', style: `color: ${seriesColor(series.index)}`},
           svg('line', {class: 'line', x1: 1, x2: 33, y1: 7, y2: 7, 'stroke-dasharray': this.dash(series)}),
-          marker(series.index, 17, 7));
+          marker(series, 17, 7));
       const button = element(
           'button', {
             type: 'button',
@@ -62,7 +76,10 @@ class ErrorPlot {
         'div', {class: 'legend', role: 'group', 'aria-label': 'Lines shown'}, keys, element('span', {}, guide, 'slope −1'));
   }
 
-  dash(series) { return DASHES[Math.floor(series.index / SERIES_COLORS) % DASHES.length]; }
+  dash({index, filtered}) {
+    const dashes = filtered ? FILTERED_DASHES : DASHES;
+    return dashes[Math.floor(index / SERIES_COLORS) % dashes.length];
+  }
 
   /** Points that have a place on logarithmic axes. */
   drawable(series) { return series.points.filter((p) => isPositive(p[this.field]) && isPositive(p.relmse)); }
@@ -87,7 +104,9 @@ class ErrorPlot {
     const all = this.series.flatMap((series) => series.points),
           left = all.length - this.series.flatMap((s) => this.drawable(s)).length;
     this.note.textContent = `Bands: the spread over the seeds. ${
-        field === 'seconds' ? 'Time is render time; build time stands in the table. ' : ''}${
+        field === 'seconds' ?
+            'Time is render time; build time stands in the table. ' :
+            ''}${this.series.some((series) => series.filtered) ? 'Dashed: denoised, with the time that took. ' : ''}${
         left ? `${left} of ${all.length} points are not above zero (below the reference's own noise) and not drawn.` : ''}`;
     if (all.length === left) return this.holder.replaceChildren(element('p', {class: 'note'}, 'There is nothing to plot.'));
     this.width = this.holder.clientWidth;
@@ -122,7 +141,7 @@ class ErrorPlot {
     return svg(
         'g', {style: `color: ${seriesColor(series.index)}`},
         svg('polyline', {class: 'line', points: places.join(' '), 'stroke-dasharray': this.dash(series)}),
-        places.map(([x, y]) => marker(series.index, x, y)));
+        places.map(([x, y]) => marker(series, x, y)));
   }
 
   /** Values of the nearest point within 40 pixels. */
