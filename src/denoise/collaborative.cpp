@@ -15,7 +15,7 @@ constexpr int kTile = kStep * kCentres;  ///< pixels
 constexpr float kLeastWeight = 1e-4f;    ///< of a pixel's own value: where nothing is like it, it stays
 constexpr std::size_t kFits = 2 * kBandwidths.size();
 
-/// Sums for one fit of each window: weight * prediction of three channels, weight, weight * own share.
+/// Sums for one fit of each window: weight * prediction of three channels, weight, weight * leverage.
 constexpr std::size_t kSums = 5;
 
 /// A tile's sums, its neighbours' pixels within a window's radius included.
@@ -144,7 +144,7 @@ void normalise(const ColorPlanes& half, Filtered& filtered, const PaddedPlane& w
         float& value = filtered.values[c].at(x, y);
         value = (value + kLeastWeight * half[c].at(x, y)) * all;
       }
-      filtered.own_share.at(x, y) = std::min(1.0f, (filtered.own_share.at(x, y) + kLeastWeight) * all);
+      filtered.leverage.at(x, y) = std::min(1.0f, (filtered.leverage.at(x, y) + kLeastWeight) * all);
     }
   });
   for (PaddedPlane& plane : filtered.values) plane.extend();
@@ -171,7 +171,7 @@ FilteredHalves regress(const Halves& halves, const std::vector<const PaddedPlane
     const std::size_t h = fit / kBandwidths.size();
     Filtered& result = filtered[h][fit % kBandwidths.size()];
     for (std::size_t c = 0; c < 3; ++c) result.values[c] = std::move(picture[fit * kSums + c]);
-    result.own_share = std::move(picture[fit * kSums + 4]);
+    result.leverage = std::move(picture[fit * kSums + 4]);
     normalise(halves.values[h], result, picture[fit * kSums + 3], pool);
   }
   return filtered;

@@ -11,7 +11,7 @@ namespace tyndall {
 /// What one half is filtered to.
 struct Filtered {
   ColorPlanes values;
-  PaddedPlane own_share;  ///< how much of a pixel's own value is in its filtered one, in [0, 1]
+  PaddedPlane leverage;  ///< how much of a pixel's own value is in its filtered one, in [0, 1]
 };
 
 /// Bandwidths k of the likeness.

@@ -14,7 +14,7 @@ struct Candidate {
   ColorPlanes values;
   PaddedPlane error;     ///< squared, may be negative
   PaddedPlane variance;  ///< what of it the filtered halves do not share: it is no less
-  PaddedPlane own_share;
+  PaddedPlane leverage;
 };
 
 PaddedPlane pooled(const PaddedPlane& plane, ThreadPool& pool) {
@@ -55,8 +55,8 @@ Candidate candidate(const Halves& halves, const Filtered& fa, const Filtered& fb
   });
   result.error = pooled(result.error, pool);
   result.variance = pooled(result.variance, pool);
-  result.own_share =
-      make_plane(width, height, pool, [&](int x, int y) { return a * fa.own_share.at(x, y) + b * fb.own_share.at(x, y); });
+  result.leverage =
+      make_plane(width, height, pool, [&](int x, int y) { return a * fa.leverage.at(x, y) + b * fb.leverage.at(x, y); });
   return result;
 }
 
@@ -73,7 +73,7 @@ Candidate better_of(Candidate first, const Candidate& second, ThreadPool& pool) 
   for (std::size_t c = 0; c < 3; ++c) mix(first.values[c], second.values[c], share, pool);
   mix(first.error, second.error, share, pool);
   mix(first.variance, second.variance, share, pool);
-  mix(first.own_share, second.own_share, share, pool);
+  mix(first.leverage, second.leverage, share, pool);
   return first;
 }
 
@@ -101,12 +101,12 @@ LightEstimate combine(const Halves& halves, const Candidate& filtered, const Sel
     const int y = static_cast<int>(row);
     for (int x = 0; x < halves.width(); ++x) {
       const float v = noise.at(x, y), error = std::max(filtered.error.at(x, y), filtered.variance.at(x, y));
-      const float covariance = filtered.own_share.at(x, y) * v;
+      const float covariance = filtered.leverage.at(x, y) * v;
       const float spread = error + v - 2 * covariance;
       const float best = spread > 0 ? std::clamp((error - covariance) / spread, 0.0f, 1.0f) : 0.0f;
       const float m = unfiltered.empty() ? best : std::max(best, unfiltered.at(x, y));
       const float stated = (1 - m) * (1 - m) * filtered.variance.at(x, y) * with_bias;
-      const float of_mean = m * m + 2 * m * (1 - m) * filtered.own_share.at(x, y);
+      const float of_mean = m * m + 2 * m * (1 - m) * filtered.leverage.at(x, y);
       for (std::size_t c = 0; c < 3; ++c) {
         float& value = result.values[c].at(x, y);
         value = filtered.values[c].at(x, y);

@@ -15,7 +15,7 @@
 #include "session/slice.h"
 #include "transport/film_light.h"
 #include "transport/path.h"
-#include "transport/shine_light.h"
+#include "transport/visible_emitters.h"
 #include "tyndall/timer.h"
 
 namespace tyndall {

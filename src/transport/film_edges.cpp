@@ -11,6 +11,7 @@ namespace {
 constexpr float kLeastContrast = 0.1f;
 
 }  // namespace
+
 PixelBounds FilmEdges::View::around() const {
   const int x = static_cast<int>(std::ceil(filter_radius.x)), y = static_cast<int>(std::ceil(filter_radius.y));
   return {pixels.x0 - x, pixels.y0 - y, pixels.x1 + x, pixels.y1 + y};

@@ -20,7 +20,7 @@ struct LightContext {
   int bounce = 0;  ///< bounces of the path before this vertex
   /// The ray to it, where lights were also sampled jointly (joint_ray.h).
   const JointRay* joint = nullptr;
-  /// The camera's ray, where emissive surfaces were also sampled otherwise (shine_light.h).
+  /// The camera's ray, where emissive surfaces were also sampled otherwise (visible_emitters.h).
   const EmitterRay* emitters = nullptr;
 };
 

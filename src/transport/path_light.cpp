@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "transport/path.h"
-#include "transport/shine_light.h"
+#include "transport/visible_emitters.h"
 
 namespace tyndall {
 namespace {

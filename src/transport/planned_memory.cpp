@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "light/instance_runs.h"
-#include "transport/film_shine.h"
+#include "transport/film_emitters.h"
 #include "tyndall/error.h"
 #include "tyndall/io.h"
 
@@ -49,7 +49,7 @@ std::vector<double> emitters_of(const std::vector<Object>& objects) {
   return counts;
 }
 
-/// The lists of pixels that aim at small emissive surfaces (film_shine.h), and the search for outlines of larger ones
+/// The lists of pixels that aim at small emissive surfaces (film_emitters.h), and the search for outlines of larger ones
 /// (film_edges.h). A surface of about a pixel is in the lists of those whose filters cover it.
 std::size_t plan_film_search(const Scene& scene) {
   const double radius = std::max(scene.filter.radius.x, scene.filter.radius.y);

@@ -1,14 +1,14 @@
 /// Directly visible emission of surfaces where the filter's own samples estimate it badly: each sample of a pixel
 ///
-/// - that sees small ones (film_shine.h) also takes the ray to a point of one of them;
+/// - that sees small ones (film_emitters.h) also takes the ray to a point of one of them;
 /// - that sees the outline of one (film_edges.h) averages over several film positions in place of its own.
 ///
 /// Both are weighted by MIS, surface by surface.
 #pragma once
 
 #include "transport/film_edges.h"
+#include "transport/film_emitters.h"
 #include "transport/film_search.h"
-#include "transport/film_shine.h"
 #include "transport/light_context.h"
 
 namespace tyndall {

@@ -1,4 +1,4 @@
-#include "transport/film_shine.h"
+#include "transport/film_emitters.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "transport/shine_light.h"
+#include "transport/visible_emitters.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 /// Small emitters on the film: each pixel finds its own, by brute force.
-#include "transport/film_shine.h"
+#include "transport/film_emitters.h"
 
 #include <doctest/doctest.h>
 
