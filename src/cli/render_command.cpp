@@ -36,8 +36,7 @@ void check_outputs(const RenderOptions& options, const Scene& scene, const std::
 std::size_t memory_for_render(const RenderOptions& options, const Scene& scene) {
   const std::size_t limit = memory_limit(options.max_memory);
   if (!options.denoise) return limit;
-  const PixelBounds pixels = scene.settings.crop.value_or(scene.film.crop);
-  return limit - std::min(limit, denoise_memory(pixels.size()));
+  return limit - std::min(limit, denoise_memory(pixels_of(scene)));
 }
 
 World build_for(const RenderOptions& options, Scene scene) {

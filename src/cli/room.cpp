@@ -17,11 +17,6 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kHeader = 1 << 16;
 
-std::uint64_t pixels_of(const Scene& scene) {
-  const PixelBounds& crop = scene.settings.crop.value_or(scene.film.crop);
-  return static_cast<std::uint64_t>(std::max(crop.width(), 0)) * static_cast<std::uint64_t>(std::max(crop.height(), 0));
-}
-
 /// R G B A, and at most as many for each AOV.
 std::uint64_t channels_of(const Scene& scene) { return 4 + 4 * scene.settings.aovs.size(); }
 
@@ -54,6 +49,11 @@ void require(const std::string& path, const std::string& what, std::uint64_t byt
 }
 
 }  // namespace
+
+std::uint64_t pixels_of(const Scene& scene) {
+  const PixelBounds& crop = scene.settings.crop.value_or(scene.film.crop);
+  return static_cast<std::uint64_t>(std::max(crop.width(), 0)) * static_cast<std::uint64_t>(std::max(crop.height(), 0));
+}
 
 void require_room(const std::string& output, const Scene& scene, bool checkpoints) {
   const std::uint64_t image = largest_image(scene, output);

@@ -10,7 +10,6 @@
 namespace tyndall {
 namespace {
 
-constexpr std::array kRgb{"R", "G", "B"};
 /// Radii over which variance is pooled: outlines are as wide as a pixel.
 constexpr int kNoise = 3, kOutline = 1;
 constexpr float kClear = 0.999f;  ///< transmittance of as good as nothing
@@ -18,8 +17,7 @@ constexpr float kClear = 0.999f;  ///< transmittance of as good as nothing
 /// Features without their noise.
 struct CleanFeatures {
   std::vector<PaddedPlane> surfaces, media;
-  PaddedPlane weight;  ///< relative_weight of all light
-  PaddedPlane clear;   ///< 1 where no medium is before the surface, else 0; empty when that is not known
+  PaddedPlane clear;  ///< 1 where no medium is before the surface, else 0; empty when that is not known
 
   CleanFeatures(const FeatureInputs& inputs, ThreadPool& pool) {
     const auto add = [&](const std::vector<Feature>& from, std::vector<PaddedPlane>& to) {
@@ -37,7 +35,6 @@ struct CleanFeatures {
     return make_plane(width, height, pool, [&](int x, int y) { return transmittance.at(x, y) > kClear ? 1.0f : 0.0f; });
   }
 
-  /// Media stand before surfaces too: what is behind them changes with them.
   std::vector<const PaddedPlane*> explaining(Explained what) const {
     std::vector<const PaddedPlane*> list;
     for (const PaddedPlane& plane : media) list.push_back(&plane);
@@ -46,6 +43,12 @@ struct CleanFeatures {
     }
     return list;
   }
+};
+
+/// What all components share.
+struct Knowledge {
+  CleanFeatures features;
+  PaddedPlane weight;  ///< relative_weight of all light
 };
 
 bool without_noise(const Halves& halves) {
@@ -70,13 +73,14 @@ LightEstimate mean_of(const Halves& halves, ThreadPool& pool) {
 
 /// Emitters as the camera sees them have sharp outlines, and no noise but of these: no neighbour knows of it, and small ones
 /// would pass for fireflies. Only what media do to their light on the way is filtered.
-LightEstimate denoise_component(Halves halves, const Component& component, const CleanFeatures& features, ThreadPool& pool) {
+LightEstimate denoise_component(Halves halves, const Component& component, const Knowledge& known, ThreadPool& pool) {
   const Energy energy(halves);
   if (!component.emitters) take_out_fireflies(halves, pool);
   pool_variance(halves, component.emitters ? kOutline : kNoise, pool);
   if (without_noise(halves)) return mean_of(halves, pool);
-  const Selection select{features.weight, component.emitters ? features.clear : PaddedPlane()};
-  LightEstimate estimate = select(halves, regress(halves, features.explaining(component.explained), pool), pool);
+  const PaddedPlane& clear = known.features.clear;
+  const Selection select{known.weight, component.emitters && !clear.empty() ? &clear : nullptr};
+  LightEstimate estimate = select(halves, regress(halves, known.features.explaining(component.explained), pool), pool);
   energy.restore(estimate.values, halves.variance, pool);
   return estimate;
 }
@@ -100,15 +104,10 @@ void store(const ColorPlanes& planes, Image& image, const std::string& prefix) {
   }
 }
 
-/// Squared differences of the halves, as a variance of the mean.
 void add_noise(const Halves& halves, ColorPlanes& sum) {
-  const float factor = halves.share[0] * halves.share[1];
   for (std::size_t c = 0; c < 3; ++c) {
     for (int y = 0; y < halves.height(); ++y) {
-      for (int x = 0; x < halves.width(); ++x) {
-        const float difference = halves.values[0][c].at(x, y) - halves.values[1][c].at(x, y);
-        sum[c].at(x, y) += factor * difference * difference;
-      }
+      for (int x = 0; x < halves.width(); ++x) sum[c].at(x, y) += halves.raw_variance(c, x, y);
     }
   }
 }
@@ -136,20 +135,7 @@ std::string header_text(const std::vector<Component>& components, const std::vec
 
 }  // namespace
 
-std::vector<std::string> denoise_aovs() {
-  return {"Albedo",
-          "N",
-          "Z",
-          "Zvol",
-          "SampleCount",
-          "Transmittance",
-          "SurfaceDirect",
-          "SurfaceIndirect",
-          "VolumeDirect",
-          "VolumeIndirect",
-          "Emission",
-          "Replicate"};
-}
+std::vector<std::string> denoise_aovs() { return input_aovs(); }
 
 /// Planes that are there at once: features in two halves, a component, its fits by two bandwidths, and what selects among them.
 std::size_t denoise_memory(std::size_t pixels) { return pixels * sizeof(float) * (2 * 11 + 11 + 9 + 20 + 20 + 16); }
@@ -161,16 +147,15 @@ Denoised denoise(const Image& image, const DenoiseSettings& settings, const std:
   FeatureInputs inputs = read_features(image);
   Denoised result{image, {}};
   result.report.missing = std::move(inputs.missing);
-  CleanFeatures features(inputs, pool);
-  inputs = {};
   const ColorPlanes light = read_light(image);
-  features.weight = relative_weight(light, pool);
+  const Knowledge known{CleanFeatures(inputs, pool), relative_weight(light, pool)};
+  inputs = {};
   LightEstimate total{color_planes(image.width(), image.height()), color_planes(image.width(), image.height())};
   ColorPlanes noise = color_planes(image.width(), image.height());
   for (const Component& component : components) {
-    const Halves halves = read_halves(image, component.prefix);
+    Halves halves = read_halves(image, component.prefix);
     add_noise(halves, noise);
-    const LightEstimate part = denoise_component(halves, component, features, pool);
+    const LightEstimate part = denoise_component(std::move(halves), component, known, pool);
     if (settings.components && !component.prefix.empty()) store(part.values, result.image, component.prefix);
     add(total.values, part.values);
     add(total.mse, part.mse);

@@ -24,15 +24,13 @@ Energy::Energy(const Halves& halves)
       height_(halves.height()),
       across_((width_ + kBlock - 1) / kBlock),
       down_((height_ + kBlock - 1) / kBlock) {
-  const double factor = halves.share[0] * halves.share[1];
   for (std::size_t c = 0; c < 3; ++c) {
     blocks_[c].resize(static_cast<std::size_t>(across_ * down_));
     for (int y = 0; y < height_; ++y) {
       for (int x = 0; x < width_; ++x) {
         Block& block = blocks_[c][block_of(x, y)];
-        const double difference = static_cast<double>(halves.values[0][c].at(x, y)) - halves.values[1][c].at(x, y);
         block.light += halves.mean(c, x, y);
-        block.variance += factor * difference * difference;
+        block.variance += halves.raw_variance(c, x, y);
       }
     }
   }

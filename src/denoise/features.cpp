@@ -46,7 +46,6 @@ float weighted_mean(const PaddedPlane& plane, int x, int y, const std::vector<fl
 }  // namespace
 
 std::vector<PaddedPlane> prefiltered(const Feature& feature, ThreadPool& pool) {
-  if (feature.halves[1].empty()) return feature.halves[0];
   const std::vector<PaddedPlane> variances = variances_of(feature, pool);
   const int width = variances[0].width(), height = variances[0].height();
   std::vector<PaddedPlane> result(variances.size(), PaddedPlane(width, height));

@@ -7,7 +7,7 @@
 
 namespace tyndall {
 
-/// One to three channels that belong together, in two halves; `halves[1]` is empty where there is no noise.
+/// One to three channels that belong together, in two halves.
 struct Feature {
   std::array<std::vector<PaddedPlane>, 2> halves;
 };

@@ -9,18 +9,9 @@
 namespace tyndall {
 namespace {
 
-constexpr std::array kRgb{"R", "G", "B"};
 constexpr std::array kXyz{"X", "Y", "Z"};
 
 const std::string kReplicate = "Replicate.";
-
-bool has(const Image& image, const std::string& prefix, const std::array<const char*, 3>& suffixes) {
-  return std::all_of(suffixes.begin(), suffixes.end(), [&](const char* s) { return image.find(prefix + s) != nullptr; });
-}
-
-bool has_halves(const Image& image, const std::string& prefix) {
-  return has(image, prefix, kRgb) && has(image, kReplicate + prefix, kRgb);
-}
 
 /// Samples of a pixel, all and the even ones.
 class SampleCounts {
@@ -83,22 +74,12 @@ std::array<PaddedPlane, 2> halves_of(const Image& image, const std::string& chan
           plane_of(image, [&](std::size_t i) { return samples.odd_mean(i, mean(i), even_mean(i)); })};
 }
 
-Feature feature_of(const Image& image, const std::vector<std::string>& channels, const std::string& count = {}) {
+Feature feature_of(const Image& image, const std::vector<std::string>& channels, const std::string& count) {
   Feature feature;
   for (const std::string& channel : channels) {
     auto [even, odd] = halves_of(image, channel, count);
     feature.halves[0].push_back(std::move(even));
     feature.halves[1].push_back(std::move(odd));
-  }
-  return feature;
-}
-
-/// One without noise.
-Feature expected_feature(const Image& image, const std::vector<std::string>& channels) {
-  Feature feature;
-  for (const std::string& channel : channels) {
-    const std::vector<float>& values = image.find(channel)->values;
-    feature.halves[0].push_back(plane_of(image, [&](std::size_t i) { return values[i]; }));
   }
   return feature;
 }
@@ -113,21 +94,35 @@ bool all_there(const Image& image, const std::vector<std::string>& channels, con
   return std::all_of(channels.begin(), channels.end(), [&](const std::string& c) { return image.find(prefix + c) != nullptr; });
 }
 
+bool has_halves(const Image& image, const std::vector<std::string>& channels) {
+  return all_there(image, channels) && all_there(image, channels, kReplicate);
+}
+
+/// The light split.
+const std::vector<Component>& components_of_light() {
+  static const std::vector<Component> components{{"Emission.", Explained::by_all, true},
+                                                 {"SurfaceDirect.", Explained::by_all},
+                                                 {"SurfaceIndirect.", Explained::by_all},
+                                                 {"VolumeDirect.", Explained::by_media},
+                                                 {"VolumeIndirect.", Explained::by_media}};
+  return components;
+}
+
 struct FeatureKind {
   const char* aov;
   std::vector<std::string> channels;
   const char* count;  ///< "" when a mean over all samples
-  bool of_media, expected;
+  bool of_media;
   const char* cost;
 };
 
 const std::vector<FeatureKind>& feature_kinds() {
   static const std::vector<FeatureKind> kinds{
-      {"Albedo", names("Albedo.", kRgb), "", false, false, "textures are blurred"},
-      {"N", names("N.", kXyz), "", false, false, "edges between surfaces are blurred"},
-      {"Z", {"Z"}, "SurfaceCount", false, false, "edges between surfaces are blurred"},
-      {"Transmittance", names("Transmittance.", kRgb), "", true, false, "edges of smoke are blurred"},
-      {"Zvol", {"Zvol"}, "VolumeCount", true, false, "smoke in front of smoke is blurred"},
+      {"Albedo", names("Albedo.", kRgb), "", false, "textures are blurred"},
+      {"N", names("N.", kXyz), "", false, "edges between surfaces are blurred"},
+      {"Z", {"Z"}, "SurfaceCount", false, "edges between surfaces are blurred"},
+      {"Transmittance", names("Transmittance.", kRgb), "", true, "edges of smoke are blurred"},
+      {"Zvol", {"Zvol"}, "VolumeCount", true, "smoke in front of smoke is blurred"},
   };
   return kinds;
 }
@@ -140,21 +135,25 @@ std::size_t channels_of(const std::vector<Feature>& features) {
 
 }  // namespace
 
+std::vector<std::string> input_aovs() {
+  std::vector<std::string> aovs{"SampleCount", "Replicate"};
+  for (const FeatureKind& kind : feature_kinds()) aovs.emplace_back(kind.aov);
+  for (const Component& c : components_of_light()) aovs.push_back(c.prefix.substr(0, c.prefix.size() - 1));
+  return aovs;
+}
+
 std::vector<Component> components_of(const Image& image, const std::string& name) {
   if (image.find("noisy.R")) throw Error(Failure::scene, name + ": is denoised already; give the image that was rendered");
-  if (!has_halves(image, "")) {
+  if (!has_halves(image, names("", kRgb))) {
     throw Error(Failure::scene, name + ": holds no replicates, from which noise can be told; render with --denoise, or with " +
                                     "--aov Denoise to denoise later");
   }
   if (!SampleCounts(image).two_halves()) {
     throw Error(Failure::scene, name + ": has one sample a pixel, and with it no replicates; render two or more to denoise");
   }
-  const std::vector<Component> parts{{"Emission.", Explained::by_all, true},
-                                     {"SurfaceDirect.", Explained::by_surfaces},
-                                     {"SurfaceIndirect.", Explained::by_surfaces},
-                                     {"VolumeDirect.", Explained::by_media},
-                                     {"VolumeIndirect.", Explained::by_media}};
-  const bool split = std::all_of(parts.begin(), parts.end(), [&](const Component& c) { return has_halves(image, c.prefix); });
+  const std::vector<Component>& parts = components_of_light();
+  const bool split =
+      std::all_of(parts.begin(), parts.end(), [&](const Component& c) { return has_halves(image, names(c.prefix, kRgb)); });
   return split ? parts : std::vector<Component>{{"", Explained::by_all}};
 }
 
@@ -173,7 +172,6 @@ Halves read_halves(const Image& image, const std::string& prefix) {
     auto [even, odd] = halves_of(image, prefix + kRgb[c]);
     halves.values[0][c] = std::move(even);
     halves.values[1][c] = std::move(odd);
-    halves.variance[c] = PaddedPlane(image.width(), image.height());
   }
   const float even = SampleCounts(image).even_share();
   halves.share = {even, 1 - even};
@@ -183,13 +181,13 @@ Halves read_halves(const Image& image, const std::string& prefix) {
 FeatureInputs read_features(const Image& image) {
   FeatureInputs inputs;
   for (const FeatureKind& kind : feature_kinds()) {
-    if (!all_there(image, kind.channels) || (!kind.expected && !all_there(image, kind.channels, kReplicate))) {
+    if (!has_halves(image, kind.channels)) {
       inputs.missing.push_back(std::string(kind.aov) + ": " + kind.cost);
       continue;
     }
     if (std::string(kind.aov) == "Transmittance") inputs.transmittance = channels_of(inputs.media);
     auto& group = kind.of_media ? inputs.media : inputs.surfaces;
-    group.push_back(kind.expected ? expected_feature(image, kind.channels) : feature_of(image, kind.channels, kind.count));
+    group.push_back(feature_of(image, kind.channels, kind.count));
   }
   return inputs;
 }

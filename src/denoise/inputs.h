@@ -1,6 +1,7 @@
 /// A rendered image as the denoiser takes it: components of light in halves, and what explains each.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,14 +12,20 @@
 
 namespace tyndall {
 
-/// Which features explain a component.
-enum class Explained { by_all, by_surfaces, by_media };
+/// Which features explain a component. Media stand before surfaces too: what is behind them changes with them.
+enum class Explained { by_all, by_media };
+
+/// Of channels.
+inline constexpr std::array kRgb{"R", "G", "B"};
 
 struct Component {
   std::string prefix;  ///< of its channels: "VolumeDirect.", or "" for all light at once
   Explained explained;
   bool emitters = false;  ///< it is what the camera sees of them
 };
+
+/// AOVs with which nothing is missing.
+std::vector<std::string> input_aovs();
 
 /// The five of the light split when the image holds them all with their replicates, else all light at once. Throws Error
 /// (scene), naming `name`, when there are no replicates.

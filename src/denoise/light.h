@@ -7,14 +7,19 @@
 
 namespace tyndall {
 
-/// Means over the even samples and over the odd ones, and the variance of the mean over all, pooled over neighbours.
+/// Means over the even samples and over the odd ones.
 struct Halves {
   std::array<ColorPlanes, 2> values;
   std::array<float, 2> share;  ///< of the samples; their sum is 1
-  ColorPlanes variance;
+  ColorPlanes variance;        ///< of the mean over all, pooled over neighbours: pool_variance
 
-  int width() const { return variance[0].width(); }
-  int height() const { return variance[0].height(); }
+  int width() const { return values[0][0].width(); }
+  int height() const { return values[0][0].height(); }
+  /// Variance of the mean as this pixel alone tells it, with one degree of freedom.
+  float raw_variance(std::size_t channel, int x, int y) const {
+    const float difference = values[0][channel].at(x, y) - values[1][channel].at(x, y);
+    return share[0] * share[1] * (difference * difference);
+  }
   float mean(std::size_t channel, int x, int y) const {
     return share[0] * values[0][channel].at(x, y) + share[1] * values[1][channel].at(x, y);
   }

@@ -40,8 +40,7 @@ Candidate candidate(const Halves& halves, const Filtered& fa, const Filtered& fb
   result.error = make_plane(width, height, pool, [&](int x, int y) {
     float sum = 0;
     for (std::size_t c = 0; c < 3; ++c) {
-      const float v = a * b * squared(halves.values[0][c].at(x, y) - halves.values[1][c].at(x, y)), va = fa.values[c].at(x, y),
-                  vb = fb.values[c].at(x, y);
+      const float v = halves.raw_variance(c, x, y), va = fa.values[c].at(x, y), vb = fb.values[c].at(x, y);
       const float of_a = squared(halves.values[1][c].at(x, y) - va) - v / b;
       const float of_b = squared(halves.values[0][c].at(x, y) - vb) - v / a;
       sum += a * of_a + b * of_b - a * b * squared(va - vb);
@@ -79,13 +78,13 @@ Candidate better_of(Candidate first, const Candidate& second, ThreadPool& pool) 
 
 /// Pooled, but no more than its own value and the difference of its halves can be wrong: what is black beside an outline is.
 float variance_of_mean(const Halves& halves, std::size_t c, int x, int y) {
-  const float difference = halves.values[0][c].at(x, y) - halves.values[1][c].at(x, y), mean = halves.mean(c, x, y);
-  return std::min(halves.variance[c].at(x, y), halves.share[0] * halves.share[1] * difference * difference + mean * mean);
+  const float mean = halves.mean(c, x, y);
+  return std::min(halves.variance[c].at(x, y), halves.raw_variance(c, x, y) + mean * mean);
 }
 
 /// The mean of all samples with weight m, the filtered value with 1 - m: least squared error where C is their covariance.
 LightEstimate combine(const Halves& halves, const Candidate& filtered, const Selection& how, ThreadPool& pool) {
-  const PaddedPlane &weight = how.weight, &unfiltered = how.unfiltered;
+  const PaddedPlane& weight = how.weight;
   LightEstimate result{color_planes(halves.width(), halves.height()), color_planes(halves.width(), halves.height())};
   const PaddedPlane noise = pooled(make_plane(halves.width(), halves.height(), pool,
                                               [&](int x, int y) {
@@ -104,7 +103,7 @@ LightEstimate combine(const Halves& halves, const Candidate& filtered, const Sel
       const float covariance = filtered.leverage.at(x, y) * v;
       const float spread = error + v - 2 * covariance;
       const float best = spread > 0 ? std::clamp((error - covariance) / spread, 0.0f, 1.0f) : 0.0f;
-      const float m = unfiltered.empty() ? best : std::max(best, unfiltered.at(x, y));
+      const float m = how.unfiltered ? std::max(best, how.unfiltered->at(x, y)) : best;
       const float stated = (1 - m) * (1 - m) * filtered.variance.at(x, y) * with_bias;
       const float of_mean = m * m + 2 * m * (1 - m) * filtered.leverage.at(x, y);
       for (std::size_t c = 0; c < 3; ++c) {

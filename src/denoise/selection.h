@@ -9,8 +9,8 @@ namespace tyndall {
 /// Of the bandwidths the one with the smaller estimated error, mixed with the unfiltered mean as far as that lessens the error:
 /// with ever more samples the result is the mean.
 struct Selection {
-  PaddedPlane weight;      ///< of a pixel's squared error beside its neighbours': relative_weight
-  PaddedPlane unfiltered;  ///< 1 where the result is the mean in any case; may be empty
+  const PaddedPlane& weight;                ///< of a pixel's squared error beside its neighbours': relative_weight
+  const PaddedPlane* unfiltered = nullptr;  ///< 1 where the result is the mean in any case
 
   LightEstimate operator()(const Halves& halves, const FilteredHalves& filtered, ThreadPool& pool) const;
 };

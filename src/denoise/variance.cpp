@@ -16,18 +16,14 @@ float luminance(const ColorPlanes& color, int x, int y) {
 }  // namespace
 
 void pool_variance(Halves& halves, int radius, ThreadPool& pool) {
-  const float factor = halves.share[0] * halves.share[1];
   for (std::size_t c = 0; c < 3; ++c) {
-    const PaddedPlane raw = make_plane(halves.values[0][c].width(), halves.values[0][c].height(), pool, [&](int x, int y) {
-      const float difference = halves.values[0][c].at(x, y) - halves.values[1][c].at(x, y);
-      return difference * difference * factor;
-    });
-    halves.variance[c] = box_mean(raw, radius, pool);
+    const auto raw = [&](int x, int y) { return halves.raw_variance(c, x, y); };
+    halves.variance[c] = box_mean(make_plane(halves.width(), halves.height(), pool, raw), radius, pool);
   }
 }
 
 void take_out_fireflies(Halves& halves, ThreadPool& pool) {
-  const int width = halves.values[0][0].width(), height = halves.values[0][0].height();
+  const int width = halves.width(), height = halves.height();
   std::array<PaddedPlane, 2> brightness;
   for (std::size_t h = 0; h < 2; ++h) {
     brightness[h] = make_plane(width, height, pool, [&](int x, int y) { return luminance(halves.values[h], x, y); });

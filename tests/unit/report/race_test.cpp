@@ -39,13 +39,15 @@ Image plain(const World& w, LightStrategy lights, int spp) {
   return render(w, s).image;
 }
 
+Image black_picture(const World& w) {
+  Image image = plain(w, LightStrategy::power, 1);
+  for (Channel& c : image.channels) std::fill(c.values.begin(), c.values.end(), 0.0f);
+  return image;
+}
+
 TEST_CASE("a race of equal samples ends with the pictures that plain renders give") {
   const World w = world();
-  const Image black = [&] {
-    Image image = plain(w, LightStrategy::power, 1);
-    for (Channel& c : image.channels) std::fill(c.values.begin(), c.values.end(), 0.0f);
-    return image;
-  }();
+  const Image black = black_picture(w);
   double last = 0;
   const auto runs =
       race(w, {method(LightStrategy::uniform), method(LightStrategy::power)}, {.seconds = std::nullopt, .samples = 21},
@@ -125,11 +127,7 @@ TEST_CASE("a slope that is too flat is a sign of bias, but not where a filter's 
 
 TEST_CASE("a filter makes every variant a second one, from two samples on, and its time counts") {
   const World w = world();
-  const Image black = [&] {
-    Image image = plain(w, LightStrategy::power, 1);
-    for (Channel& c : image.channels) std::fill(c.values.begin(), c.values.end(), 0.0f);
-    return image;
-  }();
+  const Image black = black_picture(w);
   const auto halved = [](const Image& image) {
     Image half = image;
     for (Channel& c : half.channels) {
