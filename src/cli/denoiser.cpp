@@ -1,9 +1,9 @@
 #include "cli/denoiser.h"
 
 #include <algorithm>
-#include <limits>
 #include <set>
 
+#include "cli/log.h"
 #include "cli/save.h"
 #include "tyndall/error.h"
 
@@ -57,9 +57,15 @@ DenoiseReport Denoiser::finish(Image& image) const {
 
 void Denoiser::preview(const RenderJob& job, const std::string& output) {
   if (job.samples() < kFirstPreview || since_preview_.seconds() < preview_every_) return;
-  Image image = job.image();
-  finish(image);
-  save_image(image, output);
+  try {
+    Image image = job.image();
+    finish(image);
+    write_image(image, output);
+    failure_.clear();
+  } catch (const std::exception& e) {
+    if (failure_ != e.what()) log("warning: {}; the render goes on without this preview\n", e.what());
+    failure_ = e.what();
+  }
   since_preview_ = {};
 }
 

@@ -1,6 +1,7 @@
 /// What `render --denoise` does beside rendering.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,9 @@ class Denoiser {
 
   /// Denoises the finished image, and leaves out the AOVs that were not asked for.
   DenoiseReport finish(Image& image) const;
-  /// At a checkpoint: writes the picture so far to `output` when the last time was long enough ago.
+  bool previews() const { return preview_every_ < std::numeric_limits<double>::infinity(); }
+  /// At a checkpoint: writes the picture so far to `output` when the last time was long enough ago. A failure is told on
+  /// stderr, once for each reason, and costs no render.
   void preview(const RenderJob& job, const std::string& output);
 
  private:
@@ -26,6 +29,7 @@ class Denoiser {
   int threads_;
   double preview_every_;
   Timer since_preview_;
+  std::string failure_;
 };
 
 }  // namespace tyndall::cli

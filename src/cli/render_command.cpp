@@ -76,7 +76,8 @@ Rendering render_with(Companions& companions, const World& world, const RenderSe
   catch_stop_signals("stopping soon; press again to quit at once and lose the image\n");
   ProgressDisplay display(options.quiet ? "none" : options.progress);
   RenderControl control{.progress = [&](const Progress& p) { display.show(p); }, .stop = &stop_requested()};
-  if (companions.errors || companions.denoiser) control.checkpoint = [&](const RenderJob& job) { companions.look_at(job); };
+  const bool previews = companions.denoiser && companions.denoiser->previews();
+  if (companions.errors || previews) control.checkpoint = [&](const RenderJob& job) { companions.look_at(job); };
   if (options.resume) control.begin = [&](RenderJob& job) { companions.resume(job, settings, options.quiet); };
   if (options.keeps_checkpoints()) control.save = [&](const RenderJob& job) { companions.checkpoint.save(job); };
   control.save_seconds = options.checkpoint.value_or(std::numeric_limits<double>::infinity());  // --resume alone: at a stop

@@ -24,14 +24,6 @@ constexpr auto kPause = std::chrono::seconds(1);
 /// Puts a work, an image or a report, to the path that it is given.
 using Write = std::function<void(const std::string& path)>;
 
-void write_image(const Image& image, const std::string& path) {
-  if (fs::path(path).extension() == ".png") {
-    write_png(image, path);
-  } else {
-    write_exr(image, path);
-  }
-}
-
 /// Why it could not be written; nothing when it was.
 std::optional<std::string> failure_of(const Write& write, const std::string& path) {
   try {
@@ -93,6 +85,14 @@ void save(const std::string& what, const std::string& path, const Write& write, 
 }
 
 }  // namespace
+
+void write_image(const Image& image, const std::string& path) {
+  if (fs::path(path).extension() == ".png") {
+    write_png(image, path);
+  } else {
+    write_exr(image, path);
+  }
+}
 
 void save_image(const Image& image, const std::string& path, const std::function<void()>& make_room) {
   save(

@@ -8,7 +8,10 @@
 
 namespace tyndall::cli {
 
-/// Writes `image` to `path`, .exr or .png by its ending. When that fails it tries again a few times, since disks get
+/// .exr or .png by its ending. Throws Error (output).
+void write_image(const Image& image, const std::string& path);
+
+/// The same for a finished image. When that fails it tries again a few times, since disks get
 /// cleared, then writes to the folder for temporary files, the home folder or the current one. With the image safe there,
 /// `make_room` (may be empty; must not throw) is called and `path` tried once more; when this fails as well, throws Error
 /// (output) that says where the image is.
