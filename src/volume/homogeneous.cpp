@@ -52,6 +52,17 @@ UniformOptics sum_of(MediaView media) {
   return sum;
 }
 
+UniformPassage passage_of(MediaView media, double d, Rgb beta) {
+  const UniformOptics m = sum_of(media);
+  UniformPassage passage{m.transmittance(d)};
+  const Rgb mass{std::abs(beta.r), std::abs(beta.g), std::abs(beta.b)};
+  const float total = mass.r + mass.g + mass.b;
+  if (is_black(m.sigma_s) || !(total > 0)) return passage;  // weighed, never ended
+  const Rgb passed = mass * passage.transmittance;
+  passage.probability = (passed.r + passed.g + passed.b) / total;
+  return passage;
+}
+
 /// The distance is drawn from the exponential of one channel and weighted by the density over all channels:
 /// p(t) = sum_c P_c sigma_c exp(-sigma_c t), P_c proportional to |beta_c|.
 // NOLINTNEXTLINE(readability-function-size): as free_flight

@@ -22,6 +22,13 @@ struct UniformOptics {
 bool all_homogeneous(MediaView media);
 UniformOptics sum_of(MediaView media);
 
+/// What passes a length d of media: the transmittance, and the probability that homogeneous_flight() does not collide.
+struct UniformPassage {
+  Rgb transmittance{1.0f};
+  float probability = 1;
+};
+UniformPassage passage_of(MediaView media, double d, Rgb beta);
+
 /// `beta` with its largest channel 1.
 Flight homogeneous_flight(MediaView media, double t0, double t1, Rgb beta, float u_first, Rng& rng);
 /// Unbiased estimate of the emission along [t0, t1] that reaches t0 and that `gauge` counts, by one point.

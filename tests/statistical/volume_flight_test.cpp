@@ -6,6 +6,7 @@
 
 #include "support/chi_squared.h"
 #include "support/test_media.h"
+#include "volume/homogeneous.h"
 #include "volume/medium_data.h"
 
 using namespace tyndall;
@@ -305,4 +306,26 @@ TEST_CASE("the constant grid of majorant equal to its density gives nothing that
     }
   CHECK(bad == 0);
   CHECK(stats.majorant_violations == 0);
+}
+
+TEST_CASE("homogeneous flights pass as often as passage_of() says") {
+  const auto coloured = test::homogeneous({Rgb{0.1f, 0, 0.4f}, Rgb{0.05f, 0.7f, 0.3f}, 0});
+  const auto grey = test::homogeneous({Rgb{0.2f}, Rgb{0.3f}, 0});
+  const auto absorbing = test::homogeneous({Rgb{0.3f, 0.1f, 2}, Rgb{}, 0});
+  const ParticipatingMedium *one[] = {&coloured}, *two[] = {&coloured, &grey}, *none[] = {&absorbing};
+  constexpr int kCount = 200000;
+  for (const MediaView media : {MediaView(one), MediaView(two), MediaView(none)}) {
+    for (const Rgb beta : {Rgb{1.0f}, Rgb{3, 0.1f, 0}, Rgb{0, 0, 0.2f}}) {
+      const UniformPassage passage = passage_of(media, 1.7, beta);
+      Rng rng(11);
+      TrackingStats stats;
+      int passed = 0;
+      for (int i = 0; i < kCount; ++i)
+        passed += !free_flight(media, kDiagonal, 0.3f, 2, beta, rng.uniform(), rng, stats).collided;
+      // Nine comparisons, each within 4.5 standard errors: off by 0.5 % of the probability at most.
+      const double p = passage.probability, error = std::sqrt(p * (1 - p) / kCount);
+      CHECK(std::abs(static_cast<double>(passed) / kCount - p) <= 4.5 * error);
+      CHECK(passage.transmittance == sum_of(media).transmittance(1.7));
+    }
+  }
 }
