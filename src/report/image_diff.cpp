@@ -6,6 +6,7 @@
 #include <string_view>
 #include <tuple>
 
+#include "report/mean_image.h"
 #include "tyndall/error.h"
 
 namespace tyndall {
@@ -84,7 +85,8 @@ void measure_bias_error(const Image& image, const Image& reference, double squar
   diff.error_from_variance = a && b;
   if (a && b) {
     double variance = 0;
-    for (std::size_t i = 0; i < a->values.size(); ++i) variance += static_cast<double>(a->values[i]) + b->values[i];
+    const double of_a = sharing_of(image), of_b = sharing_of(reference);
+    for (std::size_t i = 0; i < a->values.size(); ++i) variance += of_a * a->values[i] + of_b * b->values[i];
     diff.bias_error = std::sqrt(variance) / n;
   } else {
     diff.bias_error = std::sqrt(std::max(squares / n - diff.bias * diff.bias, 0.0) / std::max(n - 1, 1.0));

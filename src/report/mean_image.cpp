@@ -16,7 +16,10 @@ Estimate block_mean(const MeanImage& pixels, int channel, const PixelBounds& blo
   for (int y = block.y0; y < block.y1; ++y) {
     for (int x = block.x0; x < block.x1; ++x) parts.push_back(pixels.at(x, y, channel));
   }
-  return average(parts);
+  Estimate mean = average(parts);
+  // Var(sum over a group) <= n sum Var [Cauchy and Schwarz], and groups are independent.
+  mean.variance *= std::min(pixels.sharing, static_cast<double>(parts.size()));
+  return mean;
 }
 
 }  // namespace
@@ -31,6 +34,7 @@ void MeanImageBuilder::add(const Image& image) {
     throw Error(Failure::usage, "images of different sizes cannot be averaged; render them at one resolution");
   }
   ++count_;
+  sharing_ = std::max(sharing_, sharing_of(image));
   for (int k = 0; k < 3; ++k) {
     const std::vector<float>& values = required_channel(image, kSuffix[k]).values;
     for (std::size_t i = 0; i < values.size(); ++i) moments_[k][i].add(values[i]);
@@ -38,7 +42,7 @@ void MeanImageBuilder::add(const Image& image) {
 }
 
 MeanImage MeanImageBuilder::result() const {
-  MeanImage result{width_, height_, {}};
+  MeanImage result{width_, height_, {}, sharing_};
   for (int k = 0; k < 3; ++k) {
     for (const Moments& m : moments_[k]) result.channels[k].push_back(m.estimate());
   }
@@ -46,7 +50,7 @@ MeanImage MeanImageBuilder::result() const {
 }
 
 MeanImage mean_image(const Image& image, double dof) {
-  MeanImage result{image.width(), image.height(), {}};
+  MeanImage result{image.width(), image.height(), {}, sharing_of(image)};
   for (int k = 0; k < 3; ++k) {
     const std::string suffix = kSuffix[k];
     const Channel& mean = required_channel(image, suffix);
@@ -57,6 +61,11 @@ MeanImage mean_image(const Image& image, double dof) {
     }
   }
   return result;
+}
+
+double sharing_of(const Image& image) {
+  const int* sharing = image.attribute<int>("tyndall/sharing");
+  return sharing ? std::max(*sharing, 1) : 1;
 }
 
 MeanImage block_means(const MeanImage& pixels, int size) {
@@ -72,6 +81,8 @@ MeanImage block_means(const MeanImage& pixels, int size) {
   return result;
 }
 
-Estimate image_mean(const MeanImage& image, int channel) { return average(image.channels[channel]); }
+Estimate image_mean(const MeanImage& image, int channel) {
+  return block_mean(image, channel, {0, 0, image.width, image.height});
+}
 
 }  // namespace tyndall

@@ -14,6 +14,9 @@ namespace tyndall {
 struct MeanImage {
   int width = 0, height = 0;
   std::array<std::vector<Estimate>, 3> channels;
+  /// Up to so many pixels share their noise (RenderSettings::reuse): a sum over pixels has at most so many times the variance
+  /// that independent ones would give it.
+  double sharing = 1;
 
   const Estimate& at(int x, int y, int channel) const { return channels[channel][static_cast<std::size_t>(y) * width + x]; }
 };
@@ -28,6 +31,7 @@ class MeanImageBuilder {
 
  private:
   int width_ = 0, height_ = 0, count_ = 0;
+  double sharing_ = 1;
   std::array<std::vector<Moments>, 3> moments_;
 };
 
@@ -35,7 +39,11 @@ class MeanImageBuilder {
 /// says so itself in "Dof.R" .. . Throws Error (scene) when the variances are absent.
 MeanImage mean_image(const Image& image, double dof);
 
-/// Means over blocks of size x size pixels; smaller ones at the right and lower edge.
+/// How many pixels of `image` share their noise at most, as its header says.
+double sharing_of(const Image& image);
+
+/// Means over blocks of size x size pixels; smaller ones at the right and lower edge. Whatever pixels share is in their
+/// variances.
 MeanImage block_means(const MeanImage& pixels, int size);
 
 /// Mean over everything.

@@ -51,6 +51,24 @@ TEST_CASE("block means keep the mean and divide the variance") {
   CHECK(block_means(pixels, 5).width == 7);
 }
 
+// Of n pixels that are all the same a sum has n times the variance of independent ones.
+TEST_CASE("what pixels share is in the variances of blocks and of the picture, once") {
+  MeanImage pixels = measure(4, 0.3, 1, 10);
+  const MeanImage apart = block_means(pixels, 8);
+  pixels.sharing = 16;
+  const MeanImage shared = block_means(pixels, 8);
+  CHECK(shared.at(1, 2, 0).variance == test::relative(16 * apart.at(1, 2, 0).variance));
+  CHECK(image_mean(shared, 1).variance == test::relative(16 * image_mean(apart, 1).variance));
+  CHECK(image_mean(pixels, 1).variance == test::relative(16 * image_mean(apart, 1).variance));
+  CHECK(block_means(pixels, 2).at(0, 0, 0).variance ==
+        test::relative(4 * block_means(measure(4, 0.3, 1, 10), 2).at(0, 0, 0).variance));
+
+  Image image = noisy_picture(16, 0.1, 1, 1);
+  CHECK(sharing_of(image) == 1);
+  image.attributes["tyndall/sharing"] = 16;
+  CHECK(sharing_of(image) == 16);
+}
+
 TEST_CASE("two renders of one picture agree; a block off by a standard deviation of a pixel is found, and named") {
   const MeanImage reference = block_means(measure(4, 0.1, 1, 100), 8);
   const double level = sidak(1e-3, 48);
