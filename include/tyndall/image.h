@@ -20,6 +20,7 @@ struct PixelBounds {
   int width() const { return x1 - x0; }
   int height() const { return y1 - y0; }
   std::size_t size() const { return static_cast<std::size_t>(width()) * static_cast<std::size_t>(height()); }
+  bool contains(int x, int y) const { return x >= x0 && x < x1 && y >= y0 && y < y1; }
   /// Of a pixel inside, row by row.
   std::size_t index(int x, int y) const {
     return static_cast<std::size_t>(y - y0) * static_cast<std::size_t>(width()) + static_cast<std::size_t>(x - x0);

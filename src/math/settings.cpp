@@ -46,6 +46,11 @@ constexpr Table<JointStrategy, 3> kJoints{{
     {"off", JointStrategy::off},
     {"points", JointStrategy::points},
 }};
+constexpr Table<ReuseStrategy, 3> kReuses{{
+    {"auto", ReuseStrategy::automatic},
+    {"off", ReuseStrategy::off},
+    {"pixels", ReuseStrategy::pixels},
+}};
 constexpr Table<TransmittanceStrategy, 4> kTransmittances{{
     {"residual", TransmittanceStrategy::residual},
     {"ratio", TransmittanceStrategy::ratio},
@@ -107,6 +112,8 @@ const std::vector<StrategyAxis>& strategy_axes() {
       axis<kJoints, &RenderSettings::joint>("joint",
                                             "whether collisions in media and pixels also draw rays close to point and spot "
                                             "lights, and pixels toward small emissive surfaces"),
+      axis<kReuses, &RenderSettings::reuse>("reuse",
+                                            "whether neighbouring pixels share what paths find beyond the first bounce"),
       axis<kTransmittances, &RenderSettings::transmittance>("transmittance", "estimator along shadow rays"),
   };
   return axes;

@@ -44,6 +44,9 @@ struct Planner {
     arguments = {settings.program,      "render", c.name + ".pbrt",     "-o",        run.image, "--spp",
                  std::to_string(c.spp), "--seed", std::to_string(seed), "--threads", "1",       "--json",
                  "--progress",          "none",   "--reproducible"};
+    // Pixels that share their noise would tell less; a case may ask for them in its options.
+    if (std::find(c.options.begin(), c.options.end(), "--reuse") == c.options.end())
+      arguments.insert(arguments.end(), {"--reuse", "off"});
     if (!c.aovs.empty()) arguments.insert(arguments.end(), {"--aov", joined(c.aovs)});
     arguments.insert(arguments.end(), c.options.begin(), c.options.end());
     return run;

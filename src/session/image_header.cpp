@@ -4,6 +4,7 @@
 #include <ctime>
 
 #include "session/scene_hash.h"
+#include "transport/suffix_reuse.h"
 #include "tyndall/version.h"
 
 namespace tyndall {
@@ -54,6 +55,7 @@ void write_header(Image& image, const World::Parts& world, const RenderSettings&
   a["tyndall/samples"] = report.samples;
   a["tyndall/seed"] = std::to_string(settings.seed);  // 64 bits do not fit an EXR integer
   a["tyndall/options"] = options_text(settings);
+  if (settings.reuse == ReuseStrategy::pixels) a["tyndall/sharing"] = static_cast<int>(kMostSharing);
   if (settings.reproducible) return;
   a["tyndall/renderTime"] = report.seconds;
   a["tyndall/date"] = utc_now();

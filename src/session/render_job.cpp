@@ -9,13 +9,12 @@
 #include "session/checkpoint.h"
 #include "session/film_buffer.h"
 #include "session/image_header.h"
+#include "session/pixel_block.h"
+#include "session/pixel_sample.h"
 #include "session/render_pass.h"
 #include "session/resolved_settings.h"
 #include "session/scene_hash.h"
 #include "session/slice.h"
-#include "transport/film_light.h"
-#include "transport/path.h"
-#include "transport/visible_emitters.h"
 #include "tyndall/timer.h"
 
 namespace tyndall {
@@ -58,6 +57,12 @@ class RenderJob::Impl {
         selector_(world.built.lights.selector(settings.lights, settings.emission == EmissionStrategy::lights)),
         first_sample_(sample_range(settings).first),
         film_(world.built.scene.film, full_crop(world.built.scene, settings), film_aovs(settings)),
+        sample_context_{world,
+                        selector_,
+                        settings_,
+                        {.max_depth = settings_.max_depth,
+                         .want_transmittance = film_.wants(Aov::transmittance),
+                         .want_albedo = film_.wants(Aov::albedo)}},
         pool_(settings.threads) {}
 
   bool advance(int count, const PassWatch& watch, GivenUp if_given_up) {
@@ -147,24 +152,75 @@ class RenderJob::Impl {
     preparing_seconds_ = search_timer.seconds();
   }
 
-  /// What is searched for on the film for a pixel's samples.
-  struct FilmLights {
-    PixelPoints points;
-    EmitterView emitters;
-  };
+  PixelFilm film_of(PixelPlace p) const {
+    if (!film_.crop().contains(p.x, p.y)) return PixelFilm();
+    return {film_points_.of(p.x, p.y), {film_emitters_.of(p.x, p.y), film_edges_.at(p.x, p.y)}};
+  }
 
   /// False: the pass was given up.
   bool render_tile(RenderPass& pass, const PixelBounds& pixels, Counters& counters) {
-    for (int y = pixels.y0; y < pixels.y1; ++y) {
-      if (pass.given_up) return false;
-      for (int x = pixels.x0; x < pixels.x1; ++x) {
-        const FilmLights of_pixel{film_points_.of(x, y), {film_emitters_.of(x, y), film_edges_.at(x, y)}};
-        for (int s = samples_; s < samples_ + pass.count; ++s)
-          render_sample({settings_.seed, x, y, first_sample_ + s}, of_pixel, counters);
+    const bool shares = settings_.reuse == ReuseStrategy::pixels;
+    const auto group = std::make_unique<PixelGroup>();
+    for (int y = pixels.y0; y < pixels.y1; y += PixelBlock::kSide - y % PixelBlock::kSide) {
+      for (int x = pixels.x0; x < pixels.x1; x += PixelBlock::kSide - x % PixelBlock::kSide) {
+        if (pass.given_up) return false;
+        if (shares) {
+          render_shared(PixelBlock(x, y, frame()), pass.count, *group, counters);
+        } else {
+          render_apart(PixelBlock(x, y, pixels), pass.count, *group, counters);
+        }
+        pass.tell(static_cast<int>(PixelBlock(x, y, pixels).pixels().size()));
       }
-      pass.tell(pixels.width());
     }
     return true;
+  }
+
+  PixelBounds frame() const { return {0, 0, world_.built.scene.film.width, world_.built.scene.film.height}; }
+  SampleKey key_of(PixelPlace p, int sample) const { return {settings_.seed, p.x, p.y, first_sample_ + sample}; }
+
+  void render_apart(const PixelBlock& block, int count, PixelGroup& group, Counters& counters) {
+    for (const PixelPlace p : block.pixels()) {
+      const PixelFilm film = film_of(p);
+      for (int s = samples_; s < samples_ + count; ++s) {
+        group.clear();
+        group.add(sample_context_, key_of(p, s), film, counters);
+        add_to_film(group, counters);
+      }
+    }
+  }
+
+  /// Whoever shares with a pixel that is rendered has its path as well, so that a crop has the same bits.
+  void render_shared(PixelBlock block, int count, PixelGroup& group, Counters& counters) {
+    for (int s = samples_; s < samples_ + count; ++s) {
+      block.shuffle(settings_.seed, first_sample_ + s);
+      for (std::span<const PixelPlace> left = block.pixels(); !left.empty();) {
+        const auto sharing = left.first(std::min(left.size(), kMostSharing));
+        left = left.subspan(sharing.size());
+        const PixelBounds& crop = film_.crop();
+        if (std::none_of(sharing.begin(), sharing.end(), [&](PixelPlace p) { return crop.contains(p.x, p.y); })) continue;
+        group.clear();
+        for (const PixelPlace p : sharing) group.add(sample_context_, key_of(p, s), film_of(p), counters);
+        add_to_film(group, counters);
+      }
+    }
+  }
+
+  void add_to_film(PixelGroup& group, Counters& counters) {
+    group.run(sample_context_, counters);
+    for (std::size_t i = 0; i < group.size(); ++i) {
+      PixelSample& sample = group[i];
+      const SampleKey& key = sample.key();
+      if (!film_.crop().contains(key.x, key.y)) continue;
+      PathRecord record = sample.record();
+      if (!record.is_finite()) {
+        ++counters.non_finite;
+        counters.bad_samples.push_back({key.x, key.y, key.sample});
+        if (counters.bad_samples.size() > 4 * kBadSamplesKept) counters.trim_bad_samples();
+        record = PathRecord();
+        record.alpha = 0;
+      }
+      film_.add(key.x, key.y, key.sample, record, sample.weight());
+    }
   }
 
   /// Of a first pass that was given up.
@@ -206,58 +262,12 @@ class RenderJob::Impl {
             {"build", build_id()}};
   }
 
-  void render_sample(const SampleKey& key, const FilmLights& of_pixel, Counters& counters) {
-    const auto& [points, emitters] = of_pixel;
-    Sampler sampler(key);
-    const FilterSampler::Offset offset = world_.built.filter.sample(sampler.next_2d());
-    const Vec2 lens = sampler.next_2d();
-    const Vec2 center{static_cast<float>(key.x) + 0.5f, static_cast<float>(key.y) + 0.5f};
-    const Vec2 on_film{center.x + offset.p.x, center.y + offset.p.y};
-    const FilmRay film_ray(points, on_film, offset.pdf);
-    const EmitterRay emitter_ray(emitters, offset.pdf);
-    LightContext context{world_.built, selector_, settings_, sampler, counters};
-    if (!points.empty()) context.joint = &film_ray;
-    if (!emitters.own_only()) context.emitters = &emitter_ray;
-    const Path::Limits limits{.max_depth = settings_.max_depth,
-                              .want_transmittance = film_.wants(Aov::transmittance),
-                              .want_albedo = film_.wants(Aov::albedo)};
-    const Rgb of_points = points.empty() ? Rgb() : film_light(context, points, center, sampler.fork());
-    const Rgb of_emitters = emitters.own_only() ? Rgb() : visible_emitters(context, emitters, center, sampler.fork());
-    PathRecord record = Path(context, limits, world_.built.camera.ray(on_film, lens)).run();
-    record.volume_direct += of_points * (1 / offset.weight);  // the film takes it times that weight
-    record.emission += of_emitters * (1 / offset.weight);
-    expose(record);
-    place(record);
-    if (!record.is_finite()) {
-      ++counters.non_finite;
-      counters.bad_samples.push_back({key.x, key.y, key.sample});
-      if (counters.bad_samples.size() > 4 * kBadSamplesKept) counters.trim_bad_samples();
-      record = PathRecord();
-      record.alpha = 0;
-    }
-    film_.add(key.x, key.y, key.sample, record, offset.weight);
-  }
-
-  /// Positions and depths, in the user's space and units.
-  void place(PathRecord& record) const {
-    if (record.hit_surface) record.p = world_.to_user.point(record.p);
-    record.z *= world_.unit;
-    record.z_volume *= world_.unit;
-  }
-
-  void expose(PathRecord& record) const {
-    const Film& film = world_.built.scene.film;
-    record.scale_radiance(film.imaging_ratio);
-    const Rgb radiance = record.radiance();  // may be negative, where the filter is
-    const float brightest = std::max(max_component(radiance), max_component(radiance * -1.0f));
-    if (brightest > film.max_component) record.scale_radiance(film.max_component / brightest);
-  }
-
   const World::Parts& world_;
   RenderSettings settings_;
   const LightSelector& selector_;
   int first_sample_;
   FilmBuffer film_;
+  SampleContext sample_context_;
   ThreadPool pool_;
   bool searched_ = false;
   double preparing_seconds_ = 0;

@@ -21,17 +21,19 @@ struct RenderPass {
   RenderPass(const PixelBounds& frame, int samples, const RenderJob::PassWatch& pass_watch)
       : crop(frame),
         side(std::int64_t{frame.width()} * frame.height() <= kSmallFrame ? kSmallTile : kTile),
-        across((frame.width() + side - 1) / side),
-        down((frame.height() + side - 1) / side),
+        x0(frame.x0 - frame.x0 % side),
+        y0(frame.y0 - frame.y0 % side),
+        across((frame.x1 - x0 + side - 1) / side),
+        down((frame.y1 - y0 + side - 1) / side),
         count(samples),
         watch(pass_watch),
         finished(tiles(), 0) {}
 
   std::size_t tiles() const { return static_cast<std::size_t>(across) * static_cast<std::size_t>(down); }
   PixelBounds tile(std::size_t i) const {
-    const int x0 = crop.x0 + static_cast<int>(i % static_cast<std::size_t>(across)) * side;
-    const int y0 = crop.y0 + static_cast<int>(i / static_cast<std::size_t>(across)) * side;
-    return {x0, y0, std::min(x0 + side, crop.x1), std::min(y0 + side, crop.y1)};
+    const int x = x0 + static_cast<int>(i % static_cast<std::size_t>(across)) * side;
+    const int y = y0 + static_cast<int>(i / static_cast<std::size_t>(across)) * side;
+    return {std::max(x, crop.x0), std::max(y, crop.y0), std::min(x + side, crop.x1), std::min(y + side, crop.y1)};
   }
   /// `pixels` more have all their samples of the pass.
   void tell(int pixels) {
@@ -43,7 +45,7 @@ struct RenderPass {
   }
 
   PixelBounds crop;
-  int side, across, down, count;
+  int side, x0, y0, across, down, count;  ///< tiles begin at multiples of `side`, so that each holds whole PixelBlocks
   const RenderJob::PassWatch& watch;
   std::mutex mutex;
   std::uint64_t pixels_done = 0;

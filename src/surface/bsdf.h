@@ -40,6 +40,8 @@ class Bsdf {
 
   /// Some lobe is not specular: next-event estimation makes sense.
   bool has_smooth() const;
+  /// It scatters alike in all directions of a side.
+  bool diffuse() const { return std::holds_alternative<DiffuseLobe>(lobe_); }
   bool reflects() const;
   bool transmits() const;
   /// Share of the power arriving along wo that is reflected or transmitted; an estimate where no closed form exists.

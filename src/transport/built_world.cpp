@@ -81,6 +81,7 @@ BuiltWorld::BuiltWorld(Scene unit_scene, const BuildSettings& settings, std::siz
       has_volume_lights(settings.volume_lights),
       camera(scene.camera, scene.film),
       filter(scene.filter) {
+  opaque = std::none_of(scene.shapes.begin(), scene.shapes.end(), [](const Shape& s) { return s.alpha.has_value(); });
   media_emit = std::any_of(media.begin(), media.end(), [](const ParticipatingMedium& m) { return m.emissive(); });
   const Timer watch;
   const Emitters emitters = find_emitters(scene, geometry, summary);

@@ -40,6 +40,7 @@ class PixelPoints {
  public:
   using Lights = PixelLights<FilmPoint>;
 
+  PixelPoints() = default;
   PixelPoints(const FilmReach& reach, Lights::List points) : reach_(reach), points_(std::move(points)) {}
   bool empty() const { return points_.empty(); }
 

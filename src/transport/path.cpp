@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cmath>
+#include <utility>
 
 #include "math/hash.h"
 
@@ -35,10 +36,41 @@ Path::Path(const LightContext& context, const Limits& limits, const Ray& camera_
   for (const Crossing& c : world.geometry.trace_all({world.camera.center(), step}, 0, 1)) media_.cross(c.group, c.sign);
 }
 
-PathRecord Path::run() {
+void Path::run() {
   ++context_.counters.paths;
   follow(next_vertex());
-  return beyond_ ? Path(*this, *beyond_).run_beyond(beyond_->trace) : record_;
+}
+
+PathRecord Path::result() { return beyond_ ? Path(*this, *beyond_).run_beyond(beyond_->trace) : record_; }
+
+bool Path::run_until_offer() {
+  ++context_.counters.paths;
+  offers_ = true;
+  auto vertex = follow(next_vertex());
+  if (!vertex) return false;
+  offer_->at.emplace(std::move(*vertex));
+  offer_->arrived = beta_;
+  return true;
+}
+
+void Path::complete_offer() {
+  const PathRecord before = std::exchange(record_, {});
+  before_ = max_component(beta_);
+  beta_ = Rgb(1.0f);
+  offers_ = false;
+  follow(offer_->at);
+  offer_->radiance = record_.radiance();
+  record_ = before;
+}
+
+/// The density of passing other media than homogeneous ones is known as an estimate only.
+bool Path::may_offer(const Vertex& first) const {
+  return offers_ && depth_ == 1 && limits_.max_depth > 1 && first.has_smooth();
+}
+
+/// What the surface sends back must not depend on which of the paths looks at it.
+bool Path::is_offered(const Vertex& second) const {
+  return offers_ && depth_ == 1 && offer_ && known_passage_ && second.on_surface() && second.surface()->bsdf.diffuse();
 }
 
 Path::Path(const Path& camera, const Beyond& beyond)
@@ -57,13 +89,15 @@ PathRecord Path::run_beyond(const Trace& trace) {
   return record_;
 }
 
-/// From bounce to bounce until the path ends.
-void Path::follow(std::optional<Vertex> vertex) {
+/// From bounce to bounce until the path ends, or, then with its vertex, stands where it is to be shared.
+std::optional<Vertex> Path::follow(std::optional<Vertex> vertex) {
   for (; vertex; vertex = next_vertex()) {
-    if (depth_++ >= limits_.max_depth) return;
+    if (is_offered(*vertex)) return vertex;
+    if (depth_++ >= limits_.max_depth) break;
     if (depth_ == 1) first_bounce_in_medium_ = !vertex->on_surface();
-    if (!scatter(*vertex)) return;
+    if (!scatter(*vertex)) break;
   }
+  return std::nullopt;
 }
 
 /// Light sampling may draw as many numbers as it likes: the path stays the same.
@@ -83,7 +117,9 @@ bool Path::scatter(const Vertex& vertex) {
   begin(Step::light);
   const Rgb seen = seen_.value_or(beta_);
   seen_.reset();
-  const Directions directions(context_, vertex);
+  std::optional<Directions> own;
+  const Directions& directions =
+      may_offer(vertex) ? offer_.emplace(context_, vertex, beta_).directions : own.emplace(context_, vertex);
   add(seen * light_at(directions, seen), depth_);
   if (is_black(beta_) || (is_last_bounce(context_) && !context_.world.rays_find_lights())) return false;
 
@@ -94,6 +130,7 @@ bool Path::scatter(const Vertex& vertex) {
   const float uc = context_.sampler.next_1d();
   const auto s = directions.sample(beta_, uc, context_.sampler.next_2d());
   if (!s) return false;
+  if (s->specular) offer_.reset();
   light_sampled_ = !s->specular && vertex.has_smooth();
   from_ = vertex.p();
   pdf_ = span_collision_ ? vertex.pdf(s->wi, Rgb(1.0f)) : s->pdf;
@@ -108,7 +145,8 @@ bool Path::scatter(const Vertex& vertex) {
 
 bool Path::survive_roulette() {
   if (depth_ <= 1) return true;
-  const float survival = max_component(beta_) * eta_scale_ * std::pow(guided_pdf_ratio_, kGuidedLive) / kRouletteBelow;
+  const float survival =
+      before_ * max_component(beta_) * eta_scale_ * std::pow(guided_pdf_ratio_, kGuidedLive) / kRouletteBelow;
   if (!(survival < 1)) return true;
   if (context_.sampler.next_wide() >= survival) return false;  // many bits, as survival may be next to nothing
   beta_ *= 1 / survival;
@@ -123,6 +161,7 @@ std::optional<Vertex> Path::next_vertex() {
   }
   const Trace trace = context_.world.geometry.trace(ray_, 0, kInfinity);
   if (depth_ == 0) record_camera_ray(trace);
+  known_passage_ = true;
   if (context_.world.has_media()) {
     if (auto collision = pass_media(trace)) return collision;
   }

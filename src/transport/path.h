@@ -2,6 +2,7 @@
 #pragma once
 
 #include "transport/joint_light.h"
+#include "transport/path_offer.h"
 #include "transport/path_record.h"
 #include "transport/span_light.h"
 
@@ -22,7 +23,19 @@ class Path {
 
   Path(const Path&) = delete;  // context_ may point into it
 
-  PathRecord run();
+  /// To its end.
+  void run();
+
+  /// In place of run(), where paths share what they find beyond their first bounce (suffix_reuse.h): the path goes until it
+  /// ends, or stands at a vertex that others may see as well. True: it has an offer, which is to be completed.
+  bool run_until_offer();
+  /// The rest of the path: what the offer's vertex scatters. Its light counts only as it is handed out, by take().
+  void complete_offer();
+  const PathOffer& offer() const { return *offer_; }
+  /// Light of two bounces or more.
+  void take(Rgb light) { add(light, 2); }
+  /// What the ended path has found.
+  PathRecord result();
 
  private:
   class ScatteredEmission;
@@ -44,7 +57,9 @@ class Path {
   Path(const Path& camera, const Beyond& beyond);
   PathRecord run_beyond(const Trace& trace);
 
-  void follow(std::optional<Vertex> vertex);
+  std::optional<Vertex> follow(std::optional<Vertex> vertex);
+  bool may_offer(const Vertex& first) const;
+  bool is_offered(const Vertex& second) const;
   std::optional<Vertex> next_vertex();
   std::optional<Vertex> arrive(const Trace& trace);
   std::optional<Vertex> collide_untraced();
@@ -75,6 +90,7 @@ class Path {
   std::optional<Rgb> seen_;     ///< in place of beta_ for the light of what the camera's ray meets at its end
   int depth_ = 0;               ///< bounces so far
   float eta_scale_ = 1;         ///< undoes the 1/eta^2 of transmissions in Russian roulette
+  float before_ = 1;            ///< throughput up to an offer's vertex, where beta_ begins anew: for roulette
   float guided_pdf_ratio_ = 1;  ///< of the path: offsets in roulette that guided paths weigh less
   PathRecord record_;
   bool first_bounce_in_medium_ = false;
@@ -91,6 +107,10 @@ class Path {
   std::optional<bool> lit_at_collisions_;  ///< as decided before the ray was traced; else the span decides
   std::optional<SpanSearch> span_search_;
   float collision_t_ = 0, collision_density_ = 0;
+
+  bool offers_ = false;        ///< it stands before an offer, if it can have one
+  bool known_passage_ = true;  ///< its last ray passed no media but homogeneous ones
+  std::optional<PathOffer> offer_;
 
   std::optional<Beyond> beyond_;  ///< what this path, which collided, leaves to another
 };

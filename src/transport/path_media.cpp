@@ -59,6 +59,7 @@ std::optional<Vertex> Path::pass_media(const Trace& trace) {
   const Span span = make_span(context_.world.media_context(), media_, ray_, trace, context_.counters.parity_errors);
   if (depth_ == 0 && limits_.want_transmittance) record_transmittance(span);
   media_ = span.end;
+  known_passage_ = homogeneous_throughout(span.parts);
   if (span.empty()) return std::nullopt;
   // After the last bounce only what the ray hits at its end counts: no collision need be drawn.
   if (depth_ >= limits_.max_depth) {

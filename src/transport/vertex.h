@@ -39,7 +39,8 @@ class Vertex {
 
   Vec3 p() const;
   Vec3 wo() const { return wo_; }
-  const MediaState& media() const { return media_; }  ///< on the side of wo
+  const MediaState& media() const { return media_; }                       ///< on the side of wo
+  const Surface* surface() const { return std::get_if<Surface>(&kind_); }  ///< nullptr in a medium
   bool on_surface() const { return std::holds_alternative<Surface>(kind_); }
 
   /// How light selection sees this vertex: with the directions that it favours.

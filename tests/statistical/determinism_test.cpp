@@ -54,23 +54,29 @@ TEST_CASE("the same bits for 1, 2 and 4 threads, and for every repetition") {
   for (const std::string& scene : scenes()) {
     for (const LightStrategy lights : {LightStrategy::tree, LightStrategy::tree_binary, LightStrategy::power}) {
       const Image one =
-          Subject(scene, {.lights = lights, .threads = 1, .emission = EmissionStrategy::lights}).render(kSpp, 5, aovs);
+          Subject(scene, {.lights = lights, .threads = 1, .emission = EmissionStrategy::lights, .reuse = ReuseStrategy::pixels})
+              .render(kSpp, 5, aovs);
       for (const int threads : {1, 2, 4}) {
         CAPTURE(threads);
-        CHECK(same_bits(one, Subject(scene, {.lights = lights, .threads = threads, .emission = EmissionStrategy::lights})
+        CHECK(same_bits(one, Subject(scene, {.lights = lights,
+                                             .threads = threads,
+                                             .emission = EmissionStrategy::lights,
+                                             .reuse = ReuseStrategy::pixels})
                                  .render(kSpp, 5, aovs)));
       }
       CHECK_FALSE(same_bits(
-          one, Subject(scene, {.lights = lights, .threads = 1, .emission = EmissionStrategy::lights}).render(kSpp, 6, aovs)));
+          one,
+          Subject(scene, {.lights = lights, .threads = 1, .emission = EmissionStrategy::lights, .reuse = ReuseStrategy::pixels})
+              .render(kSpp, 6, aovs)));
     }
   }
 }
 
 TEST_CASE("a crop has the bits of the whole picture") {
   Scene scene = read_scene_text(scenes()[0], "test.pbrt").scene;
-  const Image whole = Subject(scene, {.emission = EmissionStrategy::lights}).render(4, 1);
+  const Image whole = Subject(scene, {.emission = EmissionStrategy::lights, .reuse = ReuseStrategy::pixels}).render(4, 1);
   scene.film.crop = {7, 11, 29, 32};
-  const Image crop = Subject(scene, {.emission = EmissionStrategy::lights}).render(4, 1);
+  const Image crop = Subject(scene, {.emission = EmissionStrategy::lights, .reuse = ReuseStrategy::pixels}).render(4, 1);
   REQUIRE(crop.data == scene.film.crop);
   bool same = true;
   for (int y = 0; y < crop.height(); ++y) {

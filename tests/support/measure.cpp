@@ -28,6 +28,7 @@ RenderSettings settings_of(const Scene& scene, const Variant& variant) {
   settings.emission = variant.emission;
   settings.guiding = variant.guiding;
   settings.joint = variant.joint;
+  settings.reuse = variant.reuse;
   settings.reproducible = true;
   return settings;
 }

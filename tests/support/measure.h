@@ -24,6 +24,8 @@ struct Variant {
   EmissionStrategy emission = RenderSettings{}.emission;
   GuidingStrategy guiding = RenderSettings{}.guiding;
   JointStrategy joint = RenderSettings{}.joint;
+  /// Off: the statistics of most tests take pixels to be independent. reuse_test.cpp holds those that share to these.
+  ReuseStrategy reuse = ReuseStrategy::off;
 };
 
 /// Builds a world and renders it as often as asked.

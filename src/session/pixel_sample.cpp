@@ -1,0 +1,75 @@
+#include "session/pixel_sample.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace tyndall {
+namespace {
+
+Vec2 center_of(const SampleKey& key) { return {static_cast<float>(key.x) + 0.5f, static_cast<float>(key.y) + 0.5f}; }
+
+}  // namespace
+
+PixelSample::PixelSample(const SampleContext& sample, const SampleKey& key, PixelFilm film, Counters& counters)
+    : world_(sample.world),
+      key_(key),
+      film_(std::move(film)),
+      sampler_(key),
+      offset_(sample.world.built.filter.sample(sampler_.next_2d())),
+      on_film_(center_of(key) + offset_.p),
+      film_ray_(film_.points, on_film_, offset_.pdf),
+      emitter_ray_(film_.emitters, offset_.pdf) {
+  const Vec2 lens = sampler_.next_2d();
+  LightContext context{world_.built, sample.selector, sample.settings, sampler_, counters};
+  if (!film_.points.empty()) {
+    context.joint = &film_ray_;
+    of_points_ = film_light(context, film_.points, center_of(key), sampler_.fork());
+  }
+  if (!film_.emitters.own_only()) {
+    context.emitters = &emitter_ray_;
+    of_emitters_ = visible_emitters(context, film_.emitters, center_of(key), sampler_.fork());
+  }
+  path_.emplace(context, sample.limits, world_.built.camera.ray(on_film_, lens));
+}
+
+PathRecord PixelSample::record() {
+  PathRecord record = path_->result();
+  record.volume_direct += of_points_ * (1 / offset_.weight);  // the film takes it times that weight
+  record.emission += of_emitters_ * (1 / offset_.weight);
+  expose(record);
+  place(record);
+  return record;
+}
+
+/// Positions and depths, in the user's space and units.
+void PixelSample::place(PathRecord& record) const {
+  if (record.hit_surface) record.p = world_.to_user.point(record.p);
+  record.z *= world_.unit;
+  record.z_volume *= world_.unit;
+}
+
+void PixelSample::expose(PathRecord& record) const {
+  const Film& film = world_.built.scene.film;
+  record.scale_radiance(film.imaging_ratio);
+  const Rgb radiance = record.radiance();  // may be negative, where the filter is
+  const float brightest = std::max(max_component(radiance), max_component(radiance * -1.0f));
+  if (brightest > film.max_component) record.scale_radiance(film.max_component / brightest);
+}
+
+void PixelGroup::run(const SampleContext& context, Counters& counters) {
+  if (context.settings.reuse != ReuseStrategy::pixels) {
+    for (std::size_t i = 0; i < size_; ++i) slots_[i]->path().run();
+    return;
+  }
+  std::array<Path*, kMostSharing> offering;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < size_; ++i) {
+    Path& path = slots_[i]->path();
+    if (path.run_until_offer()) offering[count++] = &path;
+  }
+  for (std::size_t i = 0; i < count; ++i) offering[i]->complete_offer();
+  Sampler unused(SampleKey{});
+  share_suffixes({context.world.built, context.selector, context.settings, unused, counters}, {offering.data(), count});
+}
+
+}  // namespace tyndall

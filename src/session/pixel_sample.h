@@ -1,0 +1,77 @@
+/// One sample of one pixel, from its random numbers to what the film takes of it.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+
+#include "session/world_parts.h"
+#include "transport/film_light.h"
+#include "transport/suffix_reuse.h"
+#include "transport/visible_emitters.h"
+
+namespace tyndall {
+
+/// What all samples of a render share.
+struct SampleContext {
+  const World::Parts& world;
+  const LightSelector& selector;
+  const RenderSettings& settings;
+  Path::Limits limits;
+};
+
+/// What is searched for on the film for a pixel's samples; nothing outside of the pixels that are rendered.
+struct PixelFilm {
+  PixelPoints points;
+  EmitterView emitters;
+};
+
+/// A value for one sample: make it, let its path end, take its record.
+class PixelSample {
+ public:
+  PixelSample(const SampleContext& context, const SampleKey& key, PixelFilm film, Counters& counters);
+  PixelSample(const PixelSample&) = delete;  // its path refers to it
+
+  const SampleKey& key() const { return key_; }
+  Path& path() { return *path_; }
+  /// Of the ended path, in the user's units; `weight` is that of the sample in its pixel.
+  PathRecord record();
+  float weight() const { return offset_.weight; }
+
+ private:
+  void expose(PathRecord& record) const;
+  void place(PathRecord& record) const;
+
+  const World::Parts& world_;
+  SampleKey key_;
+  PixelFilm film_;
+  Sampler sampler_;
+  FilterSampler::Offset offset_;
+  Vec2 on_film_;
+  FilmRay film_ray_;
+  EmitterRay emitter_ray_;
+  Rgb of_points_, of_emitters_;
+  std::optional<Path> path_;
+};
+
+/// Samples whose paths share what they find; or one.
+class PixelGroup {
+ public:
+  void clear() {
+    for (std::size_t i = 0; i < size_; ++i) slots_[i].reset();
+    size_ = 0;
+  }
+  void add(const SampleContext& context, const SampleKey& key, PixelFilm film, Counters& counters) {
+    slots_[size_++].emplace(context, key, std::move(film), counters);
+  }
+  /// All paths to their ends.
+  void run(const SampleContext& context, Counters& counters);
+  std::size_t size() const { return size_; }
+  PixelSample& operator[](std::size_t i) { return *slots_[i]; }
+
+ private:
+  std::array<std::optional<PixelSample>, kMostSharing> slots_;
+  std::size_t size_ = 0;
+};
+
+}  // namespace tyndall

@@ -1,0 +1,154 @@
+/// Paths that share what they find beyond their first bounce, against paths that do not.
+///
+/// Pixels that share are not independent, so errors come from the spread between renders of whole blocks.
+#include <doctest/doctest.h>
+
+#include <cstdio>
+
+#include "report/block_test.h"
+#include "report/image_test.h"
+#include "support/measure.h"
+#include "support/sanitized.h"
+#include "support/scene_text.h"
+
+using namespace tyndall;
+using namespace tyndall::test;
+
+namespace {
+
+constexpr int kRenders = fewer(24), kSpp = 32, kResolution = 32, kBlock = 8;
+constexpr double kLevel = 1e-3;
+constexpr Bounds3 kRoom{{-2, -1.8f, -4}, {2, 1.8f, 2}};
+
+/// From inside, near the middle of the open side.
+std::string camera(int max_depth) {
+  return view({.eye = {0.2f, 0.1f, -3.8f},
+               .look = {0, -0.3f, 0},
+               .fov_degrees = 62,
+               .resolution = kResolution,
+               .max_depth = max_depth});
+}
+
+/// A closed room of three colours, with a bright corner, things that mirror, refract and let light through, and a block whose
+/// edges are seen by some of the pixels of a block only.
+std::string room() {
+  const auto wall = [](const char* rgb, const std::string& points) {
+    return block("Material \"diffuse\" \"rgb reflectance\" [" + std::string(rgb) + "]\nShape \"bilinearmesh\" \"point3 P\" [" +
+                 points + "]\n");
+  };
+  const auto ball = [](const std::string& material, const std::string& at, const std::string& radius) {
+    return block("Material " + material + "\nTranslate " + at + "\nShape \"sphere\" \"float radius\" " + radius + "\n");
+  };
+  return wall("0.6 0.6 0.6", "-2 -1.8 -4  2 -1.8 -4  -2 -1.8 2  2 -1.8 2") +  // floor
+         wall("0.7 0.7 0.7", "-2 1.8 -4  2 1.8 -4  -2 1.8 2  2 1.8 2") +
+         wall("0.8 0.1 0.1", "-2 -1.8 -4  -2 -1.8 2  -2 1.8 -4  -2 1.8 2") +
+         wall("0.1 0.7 0.2", "2 -1.8 -4  2 -1.8 2  2 1.8 -4  2 1.8 2") +
+         wall("0.5 0.5 0.6", "-2 -1.8 2  2 -1.8 2  -2 1.8 2  2 1.8 2") +
+         wall("0.5 0.5 0.5", "-2 -1.8 -4  2 -1.8 -4  -2 1.8 -4  2 1.8 -4") +
+         block("Material \"diffuse\" \"rgb reflectance\" [0.7 0.5 0.2]\nTranslate -0.9 -1.1 0.6\nRotate 25 0 1 0\n" +
+               box_mesh({{-0.5f, -0.7f, -0.5f}, {0.5f, 0.7f, 0.5f}})) +
+         ball("\"conductor\" \"float roughness\" 0.2", "1 -1.3 0.8", "0.5") + ball("\"dielectric\"", "0.1 -1.4 -0.8", "0.35") +
+         ball("\"coateddiffuse\"", "1.4 -1.5 -0.9", "0.3") +
+         block(
+             "Material \"diffusetransmission\"\nShape \"bilinearmesh\" \"point3 P\" [-1.9 -0.4 -1  -1 -0.4 -1.4  -1.9 0.6 -1  "
+             "-1 "
+             "0.6 -1.4]\n") +
+         point_light({-1.7f, 1.2f, 1.7f}, 3) + point_light({1.2f, -1.6f, 1.6f}, 0.4f) +
+         emitting_square({0.6f, 0.9f, 1.9f}, 0.25f, 9);
+}
+
+struct Renders {
+  MeanImage blocks;
+  double pixel_variance = 0;  ///< mean of it, of one render
+};
+
+/// Means over blocks, and their spread between renders.
+Renders renders_of(const std::string& text, const Variant& variant, std::uint64_t seed) {
+  Subject subject(text, variant);
+  MeanImageBuilder blocks, pixels;
+  for (int i = 0; i < kRenders; ++i) {
+    const Image image = subject.render(kSpp, seed + static_cast<std::uint64_t>(i));
+    pixels.add(image);
+    Image means;
+    means.data = means.display = {0, 0, kResolution / kBlock, kResolution / kBlock};
+    for (const char* name : {"R", "G", "B"}) {
+      auto& values = means.add_channel(name).values;
+      const auto& from = image.find(name)->values;
+      for (std::size_t p = 0; p < from.size(); ++p)
+        values[p / kResolution / kBlock * (kResolution / kBlock) + p % kResolution / kBlock] += from[p] / (kBlock * kBlock);
+    }
+    blocks.add(means);
+  }
+  CHECK_MESSAGE(subject.faults().empty(), subject.faults());
+  Renders result{blocks.result(), 0};
+  for (const Estimate& e : pixels.result().channels[1]) result.pixel_variance += e.variance;
+  return result;
+}
+
+/// `worth`: how much less variance sharing has at least.
+void check_agree(const char* name, const std::string& text, const Variant& variant, double worth) {
+  CAPTURE(name);
+  Variant sharing = variant;
+  sharing.reuse = ReuseStrategy::pixels;
+  const Renders apart = renders_of(text, variant, 1000), shared = renders_of(text, sharing, 2000);
+  const auto differences = block_test(shared.blocks, apart.blocks);
+  const BlockDifference& w = worst(differences);
+  CAPTURE(w.x), CAPTURE(w.y), CAPTURE(w.channel), CAPTURE(w.welch.t), CAPTURE(w.welch.dof);
+  CHECK(count_below(differences, sidak(kLevel, static_cast<double>(differences.size()))) == 0);
+  const WelchResult mean = mean_test(shared.blocks, apart.blocks, 1);
+  const double gain = apart.pixel_variance / shared.pixel_variance;
+  std::printf("  %s: mean off by %+.3f %% +- %.3f %%, worst block t %.1f, variance %.2f times less\n", name,
+              100 * mean.difference / image_mean(apart.blocks, 1).mean,
+              100 * mean.standard_error / image_mean(apart.blocks, 1).mean, w.welch.t, gain);
+  CHECK(mean.p > kLevel);
+  if (!kSanitized) CHECK(gain > worth);
+}
+
+const Coefficients kThin{.sigma_a = {0.02f, 0.05f, 0.1f}, .sigma_s = {0.3f, 0.15f, 0.05f}, .g = 0.4f};
+
+}  // namespace
+
+TEST_CASE("sharing changes the noise alone: a room without media") {
+  check_agree("two bounces", camera(2) + room(), {}, 1.5);
+  check_agree("eight bounces", camera(8) + room(), {}, 1.5);
+}
+
+// Of a fog of three colours every path passes another part; some start or end outside, or pass its boundary twice.
+TEST_CASE("sharing changes the noise alone: homogeneous fog") {
+  const std::string fog = homogeneous("m", kThin);
+  check_agree("everywhere", camera(5) + room() + fog + medium_box("m", "", {{-3, -3, -5}, {3, 3, 3}}), {}, 1.1);
+  check_agree("in the middle", camera(5) + room() + fog + medium_box("m", "", {{-1.5f, -1.79f, -1.5f}, {0.3f, 1, 1.5f}}), {},
+              1.1);
+  check_agree("by collisions", camera(5) + room() + fog + medium_box("m", "", {{-3, -3, -5}, {3, 3, 3}}),
+              {.media = MediaStrategy::vertex}, 1.1);
+}
+
+TEST_CASE("sharing changes the noise alone: smoke that leaves some ways open, from which paths are sent toward it") {
+  Coefficients smoke = kThin;
+  smoke.sigma_s = {3, 2, 1.5f};
+  Grid grid{{{-1.5f, -1.7f, -1.5f}, {0.6f, 1, 1.5f}}, 4, 4, 4, {}};
+  for (int i = 0; i < 64; ++i) grid.density.push_back(0.1f * float(i % 11));
+  check_agree("smoke", camera(5) + room() + uniform_grid("m", smoke, grid) + medium_box("m", "", grid.bounds), {}, 1.05);
+}
+
+// Variances of sums over pixels are bounded by what sharing can make of them: no more false alarms than are stated.
+TEST_CASE("renders that share are compared without false alarms, and a bias is found") {
+  Subject subject(camera(3) + room(), {.reuse = ReuseStrategy::pixels});
+  std::size_t alarms = 0, found = 0;
+  constexpr int kPairs = fewer(40);
+  for (int i = 0; i < kPairs; ++i) {
+    const auto render = [&](int k) { return subject.render(16, 5000 + static_cast<std::uint64_t>(2 * i + k), {"Variance"}); };
+    const Image a = render(0);
+    Image b = render(1);
+    alarms += !test_images(mean_image(a, 1), mean_image(b, 1)).same;
+    for (const char* name : {"R", "G", "B"}) {
+      for (Channel& c : b.channels) {
+        if (c.name == name) std::for_each(c.values.begin(), c.values.end(), [](float& v) { v *= 1.2f; });
+      }
+    }
+    found += !test_images(mean_image(a, 1), mean_image(b, 1)).same;
+  }
+  std::printf("  %zu alarms in %d pairs; a bias of 20 %% found in %zu\n", alarms, kPairs, found);
+  CHECK(alarms <= 1);  // at a level of 1e-3 two are as rare as 8e-4
+  CHECK(found == kPairs);
+}
