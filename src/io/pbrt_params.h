@@ -43,7 +43,8 @@ struct Param {
   const ColorSpace* color_space = nullptr;  ///< the one in force where the parameter stands
 };
 
-/// Reads parameters until something else follows. Wrong value types, wrong counts and repetitions are Errors.
+/// Reads parameters until something else follows, across the end of an included file. Wrong value types, wrong counts and
+/// repetitions are Errors.
 std::vector<Param> read_params(Tokenizer& in, const ColorSpace* color_space);
 
 /// Look-ups in a parameter list. Whoever builds an entity asks for every parameter it knows, then calls `finish`,

@@ -116,19 +116,31 @@ std::string_view name_of(ParamType type) {
   return std::find_if(kTypes.begin(), kTypes.end(), [&](const TypeRow& row) { return row.type == type; })->name;
 }
 
+namespace {
+
+Param read_param(Tokenizer& in, const ColorSpace* color_space) {
+  const Token declaration = in.next();
+  const auto [type, name] = split_declaration(in, declaration);
+  const TypeRow& row = find_type(in, declaration.at, type);
+  Param param;
+  param.type = row.type;
+  param.name = printable(name);
+  param.where = in.location(declaration.at);
+  param.color_space = color_space;
+  read_values(in, row.values, param);
+  check_count(param, row.multiple);
+  return param;
+}
+
+}  // namespace
+
 std::vector<Param> read_params(Tokenizer& in, const ColorSpace* color_space) {
   std::vector<Param> params;
-  while (in.peek().is(Token::Kind::string)) {
-    const Token declaration = in.next();
-    const auto [type, name] = split_declaration(in, declaration);
-    const TypeRow& row = find_type(in, declaration.at, type);
-    Param param;
-    param.type = row.type;
-    param.name = printable(name);
-    param.where = in.location(declaration.at);
-    param.color_space = color_space;
-    read_values(in, row.values, param);
-    check_count(param, row.multiple);
+  for (Tokenizer* source = &in; true;) {
+    // No directive begins with a string: what stands so behind the Include belongs to the list before its file's end.
+    while (source->peek().is(Token::Kind::end) && source->includer()) source = source->includer();
+    if (!source->peek().is(Token::Kind::string)) break;
+    Param param = read_param(*source, color_space);
     for (const Param& other : params)
       if (other.name == param.name) throw Error(param.where, "parameter \"" + param.name + "\" is given twice; remove one");
     params.push_back(std::move(param));

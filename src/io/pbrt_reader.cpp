@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kMaxErrors = 100;  // one mistake early in a big file can make thousands
 constexpr std::size_t kMaxFiles =
-    100'000;  // Include lines followed; files that include each other twice grow beyond all bounds
+    3'000'000;  // Include lines followed; files that include each other twice grow beyond all bounds
 
 enum class OnError { stop, go_on };
 
@@ -89,7 +89,7 @@ class Reading {
     else if (directive->name == "Import")
       import(in, where);
     else
-      include(in);
+      include(in, &in);
     return true;
   }
 
@@ -112,10 +112,12 @@ class Reading {
     }
   }
 
-  void include(Tokenizer& in) {
+  /// Parameters that the file's end cuts off go on in `includer`.
+  void include(Tokenizer& in, Tokenizer* includer) {
     const Token name = in.expect_string("a file name");
     const std::string path = resolve_asset(state_, in.location(name.at), std::string(name.text));
-    const bool open = std::find(open_files_.begin(), open_files_.end(), canonical(path)) != open_files_.end();
+    const std::string one_name = canonical(path);
+    const bool open = std::find(open_files_.begin(), open_files_.end(), one_name) != open_files_.end();
     if (open || open_files_.size() > kMaxDepth)
       throw in.error(name.at, "file \"" + printable(name.text) + "\" includes itself or is nested deeper than " +
                                   std::to_string(kMaxDepth) + "; break the circle");
@@ -128,7 +130,8 @@ class Reading {
       throw in.error(name.at, e.what());
     }
     Tokenizer included(std::move(text), path);
-    open_files_.push_back(canonical(path));
+    included.set_includer(includer);
+    open_files_.push_back(one_name);
     read_directives(included);
     open_files_.pop_back();
   }
@@ -141,7 +144,7 @@ class Reading {
       while (state_.blocks.size() >= depth) close_block(state_);
     };
     try {
-      include(in);
+      include(in, nullptr);
       require_closed(state_, depth);
     } catch (const Error&) {
       leave();

@@ -41,6 +41,10 @@ class Tokenizer {
   void append_numbers(std::vector<float>& out);
   void append_integers(std::vector<std::int32_t>& out);
 
+  /// The file with the Include of this one, where a parameter list goes on that this one's end cuts off; null: none.
+  Tokenizer* includer() const { return includer_; }
+  void set_includer(Tokenizer* includer) { includer_ = includer; }
+
   const std::string& name() const { return name_; }
   Location location(Position at) const { return {name_, at.line, at.column}; }
   Error error(Position at, const std::string& message) const { return Error(location(at), message); }
@@ -60,6 +64,7 @@ class Tokenizer {
   void append(std::vector<T>& out);
 
   std::string text_, name_;
+  Tokenizer* includer_ = nullptr;
   const char *pos_, *end_, *line_start_;
   int line_ = 1;
   Token peeked_;

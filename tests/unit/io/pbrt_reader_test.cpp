@@ -53,6 +53,28 @@ TEST_CASE("circles of Include end in an error") {
                  "/n64:1:9: file \"n65\" includes itself or is nested");
 }
 
+TEST_CASE("a parameter list goes on after the end of an included file, but not of an imported one") {
+  const test::TempFolder folder;
+  folder.write("tail.pbrt", "Translate 1 0 0\nShape \"sphere\" \"float zmax\" 0.25");
+  folder.write("outer.pbrt", "Include \"tail.pbrt\"");
+  const auto read = [&](const std::string& text) {
+    return read_scene_text("WorldBegin\n" + text, "test.pbrt", folder.path()).scene;
+  };
+  for (const std::string file : {"tail.pbrt", "outer.pbrt"}) {
+    const Scene s = read("Include \"" + file + "\"\n\"float radius\" 0.6 \"float phimax\" 300 Shape \"sphere\"");
+    REQUIRE(s.shapes.size() == 2);
+    const auto sphere = std::get<Sphere>(s.shapes[0].kind);
+    CHECK(sphere.radius == 0.6f);
+    CHECK(sphere.z_max == 0.25f);
+    CHECK(sphere.phi_max_degrees == 300);
+  }
+  CHECK_CONTAINS(test::message_of([&] { read("Include \"tail.pbrt\" \"float radus\" 1"); }),
+                 "test.pbrt:2:21: shape \"sphere\" has no parameter \"radus\"");
+  CHECK_CONTAINS(test::message_of([&] { read("Include \"tail.pbrt\" \"float zmax\" 1"); }), "\"zmax\" is given twice");
+  CHECK_CONTAINS(test::message_of([&] { read("Import \"tail.pbrt\" \"float radius\" 1"); }), "expected a directive");
+  CHECK_CONTAINS(test::message_of([&] { read("\"float radius\" 1"); }), "expected a directive");
+}
+
 TEST_CASE("warnings are given once, with the first place") {
   const SceneFile file = test::read_world_file("\nTransformBegin TransformEnd\nTransformBegin TransformEnd");
   REQUIRE(file.warnings.size() == 1);
