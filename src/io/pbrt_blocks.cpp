@@ -50,8 +50,9 @@ void read_world_begin(State& state, Tokenizer&, const Location&) {
   state.world_assumed = false;
   finish_settings(state);
   state.graphics.ctm = Transform();
+  state.graphics.singular.reset();
   state.graphics.start_active = true;
-  state.coordinate_systems["world"] = Transform();
+  state.coordinate_systems["world"] = {};
 }
 
 void read_attribute_begin(State& state, Tokenizer&, const Location& where) { open_block(state, Block::Kind::attribute, where); }
@@ -92,7 +93,7 @@ void read_object_instance(State& state, Tokenizer& in, const Location& where) {
   if (it == state.objects.end())
     throw in.error(name.at, "object \"" + printable(name.text) + "\" is not defined; define it with ObjectBegin before line " +
                                 std::to_string(name.at.line) + " (" + suggestion(name.text, names_of(state.objects)) + ")");
-  state.scene.instances.push_back({it->second, state.graphics.ctm});
+  state.scene.instances.push_back({it->second, usable_ctm(state, where)});
 }
 
 void read_attribute(State& state, Tokenizer& in, const Location&) {

@@ -39,7 +39,7 @@ void read_camera(State& state, Tokenizer& in, const Location& where) {
   const std::string type(in.expect_string("a kind of camera, as \"perspective\"").text);
   ParamList params = read_param_list(state, in, "camera \"" + printable(type) + "\"", where);
   Camera camera;
-  camera.to_world = state.graphics.ctm.inverse();
+  camera.to_world = usable_ctm(state, where).inverse();
   camera.medium = state.graphics.outside;
   if (type == "orthographic")
     camera.kind = Camera::Kind::orthographic;
@@ -56,7 +56,7 @@ void read_camera(State& state, Tokenizer& in, const Location& where) {
       throw params.error("fov", "fov must lie between 0 and 180 degrees");
   }
   params.finish();
-  state.coordinate_systems["camera"] = camera.to_world;
+  state.coordinate_systems["camera"] = {camera.to_world, {}};
   state.exposure_time = exposure;
   state.scene.camera = std::move(camera);
 }

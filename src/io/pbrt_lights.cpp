@@ -120,6 +120,7 @@ AreaLight read_area_light(State& state, ParamList& params, const std::string& ty
 void read_light_source(State& state, Tokenizer& in, const Location& where) {
   const std::string type(in.expect_string("a kind of light, as \"point\"").text);
   ParamList params = read_param_list(state, in, "light \"" + printable(type) + "\"", where, &AttributeDefaults::light);
+  usable_ctm(state, where);
   auto kind = read_light_kind(state, params, type);
   params.finish();
   state.scene.lights.push_back({std::move(kind), where});

@@ -199,7 +199,8 @@ void read_make_named_medium(State& state, Tokenizer& in, const Location& where) 
   const auto add = [&](Medium medium) {
     medium.name = name;
     medium.where = where;
-    medium.to_world = state.graphics.ctm;
+    const bool placed = !std::holds_alternative<HomogeneousMedium>(medium.kind);
+    medium.to_world = placed ? usable_ctm(state, where) : state.graphics.ctm;
     state.media[name] = static_cast<MediumId>(state.scene.media.size());
     state.scene.media.push_back(std::move(medium));
   };

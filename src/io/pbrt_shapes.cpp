@@ -93,6 +93,22 @@ std::optional<AreaLight> emission(State& state, const Location& where) {
   return state.graphics.area_light;
 }
 
+/// pbrt turns the normal of a mirrored quadric inward, which exchanges its sides (but not where its light is sampled).
+void warn_of_mirrored_quadric(State& state, const std::vector<ShapeKind>& kinds, const Location& where) {
+  const auto& g = state.graphics;
+  const bool is_mesh =
+      kinds.empty() || std::holds_alternative<TriangleMesh>(kinds[0]) || std::holds_alternative<BilinearMesh>(kinds[0]);
+  if (is_mesh || !g.ctm.swaps_handedness() || g.reverse_orientation) return;
+  if (g.inside != g.outside)
+    state.reports.warn(where,
+                       "a mirrored sphere, disk or cylinder bounds media: pbrt-v4 exchanges its sides, Tyndall keeps the "
+                       "inside medium within");
+  if (g.area_light && !g.area_light->two_sided)
+    state.reports.warn(where,
+                       "a mirrored sphere, disk or cylinder emits on one side: pbrt-v4 shows its light on the other side than "
+                       "it lights; use \"bool twosided\" true, or do not mirror it");
+}
+
 /// A constant of 1 or more is no alpha at all.
 std::optional<TextureId> read_alpha(State& state, ParamList& params) {
   const auto alpha = find_float_texture(state, params, "alpha");
@@ -109,12 +125,14 @@ void read_shape(State& state, Tokenizer& in, const Location& where) {
   std::vector<ShapeKind> kinds = read_kinds(state, params, type);
   const auto alpha = read_alpha(state, params);
   params.finish();
+  const Transform& to_world = usable_ctm(state, where);
+  warn_of_mirrored_quadric(state, kinds, where);
 
   auto& shapes = state.open_object ? state.scene.objects[*state.open_object].shapes : state.scene.shapes;
   for (ShapeKind& kind : kinds) {
     Shape& shape = shapes.emplace_back();
     shape.kind = std::move(kind);
-    shape.to_world = state.graphics.ctm;
+    shape.to_world = to_world;
     shape.reverse_orientation = state.graphics.reverse_orientation;
     shape.material = state.graphics.material;
     shape.emission = emission(state, where);

@@ -20,6 +20,13 @@ State initial_state(std::string folder) {
   return state;
 }
 
+const Transform& usable_ctm(const State& state, const Location& where) {
+  if (const auto& singular = state.graphics.singular)
+    throw Error(where, "the transformation is singular since line " + std::to_string(singular->line) +
+                           " and nothing can be made under it; no scale factor may be 0, no axes may lie in a plane");
+  return state.graphics.ctm;
+}
+
 std::string resolve_asset(const State& state, const Location& where, const std::string& name) {
   if (name.empty()) throw Error(where, "file name is empty; name a file");
   const std::filesystem::path given(name);

@@ -23,7 +23,8 @@ struct AttributeDefaults {
 
 /// What AttributeBegin saves and AttributeEnd restores.
 struct GraphicsState {
-  Transform ctm;
+  Transform ctm;                       ///< ask usable_ctm() for it where something is made
+  std::optional<Location> singular{};  ///< where the matrix lost its inverse; `ctm` then means nothing
   bool start_active = true;  ///< false after `ActiveTransform EndTime`: transforms then move only the end of the shutter
   bool reverse_orientation = false;
   MaterialId material = 0;
@@ -31,6 +32,18 @@ struct GraphicsState {
   std::optional<MediumId> inside, outside;
   const ColorSpace* color_space = nullptr;
   std::shared_ptr<const AttributeDefaults> defaults;  ///< shared between states, replaced when Attribute adds to it
+};
+
+struct CoordinateSystem {
+  Transform to_world;
+  std::optional<Location> singular{};
+};
+
+struct NamedTexture {
+  std::string name;
+  const char* type;  ///< "float" or "spectrum"
+  Location where;
+  bool used = false;
 };
 
 /// Media on the two sides, and the boundary group that shapes of this block with these media form.
@@ -68,7 +81,9 @@ struct State {
   Names<MaterialId> materials;
   Names<TextureId> float_textures, spectrum_textures;
   Names<ObjectId> objects;
-  Names<Transform> coordinate_systems;
+  Names<CoordinateSystem> coordinate_systems;
+  std::vector<NamedTexture> named_textures;
+  Names<std::size_t> named_texture_places;  ///< by type and name
 
   // Equal constants share one texture, equal plain materials one material; a scene of a million lights needs it.
   std::map<std::array<float, 3>, TextureId> constants;
@@ -85,6 +100,10 @@ struct State {
 
 /// A state at the start of a file: pbrt's defaults, one default material.
 State initial_state(std::string folder);
+
+/// The current transformation matrix for something made at `where`. pbrt lets a scene pass through singular matrices as
+/// long as nothing is made under one; that is an Error.
+const Transform& usable_ctm(const State& state, const Location& where);
 
 /// `name` against the top file's folder unless absolute; Error at `where` when no such file exists.
 std::string resolve_asset(const State& state, const Location& where, const std::string& name);

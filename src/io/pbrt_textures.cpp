@@ -40,7 +40,7 @@ TextureMapping read_mapping(State& state, ParamList& params) {
   m.offset = {params.number("udelta", 0), params.number("vdelta", 0)};
   m.v1 = params.vector("v1", {1, 0, 0});
   m.v2 = params.vector("v2", {0, 1, 0});
-  m.to_texture = state.graphics.ctm.inverse();
+  if (m.kind != Kind::uv || !state.graphics.singular) m.to_texture = usable_ctm(state, params.where()).inverse();
   return m;
 }
 

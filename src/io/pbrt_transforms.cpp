@@ -11,6 +11,31 @@ namespace {
 constexpr const char* kNoMotion =
     "moving transforms are not supported by Tyndall: everything stands as at the start of the shutter";
 
+bool is_singular(double factor) { return std::isfinite(factor) && !std::isfinite(1 / factor); }
+
+/// A matrix that Transform refuses has no inverse when this holds; otherwise it is wrong in another way.
+bool is_affine(const Transform::Matrix& m) {
+  for (const auto& row : m)
+    for (const double v : row)
+      if (!std::isfinite(v)) return false;
+  const double dust = 1e-6 * std::abs(m[3][3]);
+  return m[3][3] != 0 && std::abs(m[3][0]) <= dust && std::abs(m[3][1]) <= dust && std::abs(m[3][2]) <= dust;
+}
+
+bool is_singular(const Transform::Matrix& m) {
+  try {
+    const Transform regular(m);
+    return false;
+  } catch (const Error&) {
+    return is_affine(m);
+  }
+}
+
+/// A product with a singular matrix is singular: only a directive that sets the matrix ends it.
+void set_singular(State& state, const Location& where) {
+  if (state.graphics.start_active) state.graphics.singular = where;
+}
+
 /// Sets the matrix to what `make` gives, with errors located; a transform for the shutter's end alone has no effect.
 template <typename Make>
 void set_transform(State& state, const Location& where, Make make) {
@@ -24,11 +49,17 @@ void set_transform(State& state, const Location& where, Make make) {
   } catch (const Error& e) {
     throw Error(where, e.what());
   }
-  if (state.graphics.start_active) state.graphics.ctm = next;
+  if (!state.graphics.start_active) return;
+  state.graphics.ctm = next;
+  state.graphics.singular.reset();
 }
 
 template <typename Make>
 void concatenate(State& state, const Location& where, Make make) {
+  if (const auto singular = state.graphics.singular) {
+    set_transform(state, where, make);  // for its errors alone
+    return set_singular(state, *singular);
+  }
   set_transform(state, where, [&] { return state.graphics.ctm * make(); });
 }
 
@@ -68,6 +99,8 @@ void read_translate(State& state, Tokenizer& in, const Location& where) {
 
 void read_scale(State& state, Tokenizer& in, const Location& where) {
   const Three v = read_three(in);
+  const bool finite = std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+  if (finite && (is_singular(v.x) || is_singular(v.y) || is_singular(v.z))) return set_singular(state, where);
   concatenate(state, where, [&] { return Transform::scale(v.x, v.y, v.z); });
 }
 
@@ -84,17 +117,19 @@ void read_look_at(State& state, Tokenizer& in, const Location& where) {
 
 void read_transform(State& state, Tokenizer& in, const Location& where) {
   const Transform::Matrix m = read_matrix(in);
+  if (is_singular(m)) return set_singular(state, where);
   set_transform(state, where, [&] { return Transform(m); });
 }
 
 void read_concat_transform(State& state, Tokenizer& in, const Location& where) {
   const Transform::Matrix m = read_matrix(in);
+  if (is_singular(m)) return set_singular(state, where);
   concatenate(state, where, [&] { return Transform(m); });
 }
 
 void read_coordinate_system(State& state, Tokenizer& in, const Location&) {
   const std::string name(in.expect_string("the name of a coordinate system").text);
-  state.coordinate_systems[name] = state.graphics.ctm;
+  state.coordinate_systems[name] = {state.graphics.ctm, state.graphics.singular};
 }
 
 void read_coord_sys_transform(State& state, Tokenizer& in, const Location&) {
@@ -105,7 +140,9 @@ void read_coord_sys_transform(State& state, Tokenizer& in, const Location&) {
                                 "\" is not defined; define it with CoordinateSystem before line " +
                                 std::to_string(name.at.line) + " (" +
                                 suggestion(name.text, names_of(state.coordinate_systems)) + ")");
-  if (state.graphics.start_active) state.graphics.ctm = it->second;
+  if (!state.graphics.start_active) return;
+  state.graphics.ctm = it->second.to_world;
+  state.graphics.singular = it->second.singular;
 }
 
 void read_active_transform(State& state, Tokenizer& in, const Location& where) {

@@ -151,7 +151,7 @@ TEST_CASE("each bad scene gives its one error: file, line, column, what, and wha
       {"missing_include", ":4:9: file \"absent.pbrt\" does not exist"},
       {"no_world", "without WorldBegin"},
       {"repeated_parameter", ":4:33: parameter \"radius\" is given twice"},
-      {"singular_transform", ":5:3: transform is singular"},
+      {"singular_transform", ":6:3: the transformation is singular since line 5"},
       {"truncated_ply", ":4:17: "},
       {"unclosed_block", ":4:1: AttributeBegin is not closed"},
       {"unclosed_list", "add the missing ]"},

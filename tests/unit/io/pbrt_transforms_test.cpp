@@ -61,14 +61,38 @@ TEST_CASE("moving transforms stand still, with one warning") {
 }
 
 TEST_CASE("bad transforms are found where they stand") {
-  CHECK(test::error_of("WorldBegin\n Scale 1 0 1").starts_with("test.pbrt:2:2: transform is singular"));
   CHECK_CONTAINS(world_error("Rotate 10 0 0 0"), "no axis");
   CHECK_CONTAINS(world_error("LookAt 0 0 0 0 0 0 0 1 0"), "no unique view");
-  CHECK_CONTAINS(world_error("Transform [1 0 0 0 0 1 0 0 1 0 0 0 0 0 0 1]"), "singular");
   CHECK_CONTAINS(world_error("Transform [1 0 0 1 0 1 0 0 0 0 1 0 0 0 0 1]"), "not affine");
   CHECK_CONTAINS(world_error("Transform 1 0 0"), "expected [ and 16 numbers");
   CHECK_CONTAINS(world_error("Transform [1 0 0]"), "expected a number");
   CHECK_CONTAINS(world_error("Transform [1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 7]"), "expected ] after 16 numbers");
   CHECK_CONTAINS(world_error("Translate 1 2 Shape \"sphere\""), "\"Shape\" is not a number");
   CHECK_CONTAINS(world_error("Scale 1e200 1 1 Scale 1e200 1 1"), "more than a number can hold");
+}
+
+TEST_CASE("a singular matrix is an error only where something is made under it") {
+  const std::string flat = "ConcatTransform [1 0 0 0  0 0 0 0  0 0 1 0  0 0 0 1] ";
+  for (const std::string singular :
+       {"Scale 1 0 1 ", "Scale 0 0 0 ", flat.c_str(), "Transform [1 0 0 0 0 1 0 0 1 0 0 0 0 0 0 1] "}) {
+    INFO(singular);
+    const auto made = [&](const std::string& what) { return world_error(singular + what); };
+    CHECK(made("Translate 1 2 3 Material \"diffuse\"") == "no error");
+    CHECK(made("Texture \"c\" \"float\" \"checkerboard\"") == "no error");
+    CHECK(made("MakeNamedMedium \"m\" \"string type\" \"homogeneous\"") == "no error");
+    CHECK(world_error("AttributeBegin " + singular + "AttributeEnd Shape \"sphere\"") == "no error");
+    check_near(origin(singular + "Translate 1 0 0 Identity Translate 2 0 0"), {2, 0, 0});
+    check_near(origin(singular + "CoordSysTransform \"world\""), {0, 0, 0});
+    for (const std::string what :
+         {"Shape \"sphere\"", "Translate 1 0 0 Shape \"sphere\"", "LightSource \"point\"",
+          "MakeNamedMedium \"m\" \"string type\" \"cloud\"", "Texture \"f\" \"float\" \"checkerboard\" \"integer dimension\" 3",
+          "Texture \"f\" \"float\" \"fbm\"", "CoordinateSystem \"flat\" Identity CoordSysTransform \"flat\" Shape \"sphere\"",
+          "ObjectBegin \"o\" ObjectEnd ObjectInstance \"o\""}) {
+      INFO(what);
+      CHECK_CONTAINS(made(what), "the transformation is singular since line 1");
+    }
+  }
+  CHECK(test::error_of("WorldBegin\nScale 1 0 1\n Shape \"sphere\"")
+            .starts_with("test.pbrt:3:2: the transformation is singular since line 2"));
+  CHECK_CONTAINS(test::error_of("Scale 1 0 1 Camera \"perspective\""), "singular");
 }
