@@ -78,6 +78,9 @@ std::vector<decltype(Shape::kind)> read_ply_mesh(State& state, ParamList& params
   } catch (const Error& e) {
     throw Error(where, e.what());
   }
+  if (ply.broken_normals > 0)
+    params.reports().warn(where, path + ": " + count(ply.broken_normals) +
+                                     " normals are NaN or infinite and left out; where a face has no other, it is flat");
   std::vector<decltype(Shape::kind)> kinds;
   if (!ply.triangles.empty() && !ply.quads.empty())
     kinds.emplace_back(TriangleMesh{ply.positions, ply.normals, ply.uvs, std::move(ply.triangles)});

@@ -60,6 +60,7 @@ class BodyReader {
         skip_elements(e);
     }
     if (mesh_.positions.empty()) throw error("has no vertices");
+    if (mesh_.broken_normals == mesh_.normals.size()) mesh_.normals.clear();
     if (mesh_.triangles.empty() && mesh_.quads.empty()) throw error("has no faces");
     return std::move(mesh_);
   }
@@ -89,8 +90,10 @@ class BodyReader {
     mesh_.positions.push_back(triple(at.position));
     bool finite = is_finite(mesh_.positions.back());
     if (at.has_normal()) {
-      mesh_.normals.push_back(triple(at.normal));
-      finite = finite && is_finite(mesh_.normals.back());
+      // Exporters write NaN normals for faces without area; nothing else depends on them, as it does on positions.
+      Vec3 n = triple(at.normal);
+      if (!is_finite(n)) n = {}, ++mesh_.broken_normals;
+      mesh_.normals.push_back(n);
     }
     if (at.has_uv()) {
       mesh_.uvs.push_back({row[at.uv[0]], row[at.uv[1]]});

@@ -125,3 +125,20 @@ TEST_CASE("binary NaN and infinity are refused") {
     CHECK_CONTAINS(error_of(b.out), "vertex 2 has a NaN or infinite value");
   }
 }
+
+TEST_CASE("normals that are NaN are left out, and counted") {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const auto mesh = [&](int broken) {
+    Bytes b{false,
+            "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+            "property float nx\nproperty float ny\nproperty float nz\n"
+            "element face 1\nproperty list uchar int vertex_indices\nend_header\n"};
+    for (int i = 0; i < 3; ++i) b.add(float(i)).add(float(i * i)).add(0.0f).add(0.0f).add(i < broken ? nan : 0.0f).add(1.0f);
+    b.add(std::uint8_t(3)).add(0).add(1).add(2);
+    return read_ply_bytes(b.out, "a.ply");
+  };
+  CHECK(mesh(0).broken_normals == 0);
+  CHECK(mesh(2).broken_normals == 2);
+  CHECK(mesh(2).normals == std::vector<Vec3>{{0, 0, 0}, {0, 0, 0}, {0, 0, 1}});
+  CHECK(mesh(3).normals.empty());
+}
