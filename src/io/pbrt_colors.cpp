@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "io/file_text.h"
 
@@ -14,12 +15,20 @@ Rgb clamp(Rgb c, float low, float high) {
   return {std::clamp(c.r, low, high), std::clamp(c.g, low, high), std::clamp(c.b, low, high)};
 }
 
-Rgb convert_rgb(const Param& p, Rgb c, ColorUse use) {
+Rgb convert_rgb(Reports& reports, const Param& p, Rgb c, ColorUse use) {
   if (c.r < 0 || c.g < 0 || c.b < 0) throw wrong(p, "has a negative component; use values >= 0");
   if (use == ColorUse::light) return mul(p.color_space->to_rec709, c);
   if (use == ColorUse::albedo && max_component(c) > 1) throw wrong(p, "has a component above 1; a reflectance is at most 1");
   // Colours of a wide space may lie outside Rec.709.
-  return clamp(mul(p.color_space->reflectance_to_rec709, c), 0, use == ColorUse::albedo ? 1.0f : kInfinity);
+  const Rgb rec709 = mul(p.color_space->reflectance_to_rec709, c);
+  const Rgb kept = clamp(rec709, 0, use == ColorUse::albedo ? 1.0f : kInfinity);
+  const Rgb off = rec709 - kept;
+  constexpr float kVisible = 0.005f;
+  if (std::max({std::abs(off.r), std::abs(off.g), std::abs(off.b)}) > kVisible)
+    reports.warn(p.where,
+                 "colours of this ColorSpace lie outside Rec.709, in which Tyndall renders: they are clamped, and paler than "
+                 "pbrt-v4 shows them");
+  return kept;
 }
 
 Rgb convert_spectrum(const Spectrum& spectrum, ColorUse use) {
@@ -80,7 +89,7 @@ Spectrum to_spectrum(const State& state, const Param& param) {
 Rgb to_color(State& state, const Param& param, ColorUse use) {
   if (param.type == ParamType::rgb) {
     if (param.numbers.size() != 3) throw wrong(param, "has more than one colour; give three values");
-    return convert_rgb(param, {param.numbers[0], param.numbers[1], param.numbers[2]}, use);
+    return convert_rgb(state.reports, param, {param.numbers[0], param.numbers[1], param.numbers[2]}, use);
   }
   if (param.type == ParamType::blackbody) {
     if (param.numbers.size() != 1) throw wrong(param, "has more than one value; a blackbody is a temperature in kelvin");
@@ -105,7 +114,7 @@ std::vector<Rgb> find_colors(ParamList& params, std::string_view name, ColorUse 
   if (!p) return colors;
   colors.reserve(p->numbers.size() / 3);
   for (std::size_t i = 0; i < p->numbers.size(); i += 3)
-    colors.push_back(convert_rgb(*p, {p->numbers[i], p->numbers[i + 1], p->numbers[i + 2]}, use));
+    colors.push_back(convert_rgb(params.reports(), *p, {p->numbers[i], p->numbers[i + 1], p->numbers[i + 2]}, use));
   return colors;
 }
 

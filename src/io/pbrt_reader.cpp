@@ -8,6 +8,7 @@
 #include "io/pbrt_blocks.h"
 #include "io/pbrt_directives.h"
 #include "io/pbrt_suggest.h"
+#include "io/pbrt_textures.h"
 #include "tyndall/io.h"
 
 namespace tyndall {
@@ -39,6 +40,7 @@ class Reading {
         if (!state_.in_world)
           throw top.error(top.peek().at, "the file ends without WorldBegin; add it after the camera and the film");
       });
+      if (errors_.empty()) warn_of_idle_textures(state_);  // else what names them may be what failed
     } catch (TooManyErrors) {
       errors_.push_back("more errors are not shown; mend these first");
     }

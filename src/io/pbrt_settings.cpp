@@ -158,8 +158,12 @@ void read_option(State& state, Tokenizer& in, const Location& where) {
                                        "wavefront"};
   if (std::find(known.begin(), known.end(), name) == known.end())
     throw in.error(declaration.at, "option \"" + printable(declaration.text) + "\" is unknown; " + suggestion(name, known));
-  if (name == "disablepixeljitter" || name == "forcediffuse" || name.starts_with("mse") || name == "pixelstats")
-    if (value.text != "false") state.reports.warn(where, "option \"" + name + "\" is ignored");
+  if (value.text == "false") return;
+  if (name == "disablepixeljitter")
+    state.reports.warn(where,
+                       "option \"disablepixeljitter\" is ignored: samples spread over the pixel, so that edges are smooth");
+  if (name == "forcediffuse" || name.starts_with("mse") || name == "pixelstats" || name == "displacementedgescale")
+    state.reports.warn(where, "option \"" + name + "\" is ignored");
 }
 
 }  // namespace tyndall::pbrt

@@ -15,17 +15,25 @@ TextureId operand(State& state, ParamList& params, Content content, std::string_
                                     : color_texture(state, params, name, Rgb(otherwise));
 }
 
-TextureId look_up(const Names<TextureId>& table, const Names<TextureId>& other, const Param& p, const char* kind,
-                  const char* other_kind) {
+const char* type_of(Content content) { return content == Content::scalar ? "float" : "spectrum"; }
+
+TextureId look_up(State& state, const Param& p, Content content) {
+  const bool scalar = content == Content::scalar;
+  const auto& table = scalar ? state.float_textures : state.spectrum_textures;
+  const auto& other = scalar ? state.spectrum_textures : state.float_textures;
+  const std::string kind = type_of(content), other_kind = type_of(scalar ? Content::color : Content::scalar);
   if (p.strings.size() != 1) throw Error(p.where, "parameter \"" + p.name + "\" names more than one texture; give one");
   const std::string& name = p.strings[0];
-  if (const auto it = table.find(name); it != table.end()) return it->second;
+  if (const auto it = table.find(name); it != table.end()) {
+    if (const auto place = state.named_texture_places.find(kind + name); place != state.named_texture_places.end())
+      state.named_textures[place->second].used = true;
+    return it->second;
+  }
   if (other.contains(name))
     throw Error(p.where, "texture \"" + printable(name) + "\" is a " + other_kind + " texture, and \"" + p.name +
                              "\" takes a " + kind + " texture; declare it as \"" + kind + "\"");
-  throw Error(p.where, std::string(kind) + " texture \"" + printable(name) +
-                           "\" is not defined; define it with Texture before line " + std::to_string(p.where.line) + " (" +
-                           suggestion(name, names_of(table)) + ")");
+  throw Error(p.where, kind + " texture \"" + printable(name) + "\" is not defined; define it with Texture before line " +
+                           std::to_string(p.where.line) + " (" + suggestion(name, names_of(table)) + ")");
 }
 
 TextureMapping read_mapping(State& state, ParamList& params) {
@@ -123,7 +131,7 @@ TextureId constant_texture(State& state, Rgb value) {
 std::optional<TextureId> find_float_texture(State& state, ParamList& params, std::string_view name) {
   const Param* p = params.find(name, {ParamType::number, ParamType::texture});
   if (!p) return std::nullopt;
-  if (p->type == ParamType::texture) return look_up(state.float_textures, state.spectrum_textures, *p, "float", "spectrum");
+  if (p->type == ParamType::texture) return look_up(state, *p, Content::scalar);
   if (p->numbers.size() != 1) throw Error(p->where, "parameter \"" + p->name + "\" has more than one value; give one");
   return constant_texture(state, Rgb(p->numbers[0]));
 }
@@ -136,7 +144,7 @@ TextureId float_texture(State& state, ParamList& params, std::string_view name, 
 std::optional<TextureId> find_color_texture(State& state, ParamList& params, std::string_view name, ColorUse use) {
   const Param* p = params.find(name, kColorTextureTypes);
   if (!p) return std::nullopt;
-  if (p->type == ParamType::texture) return look_up(state.spectrum_textures, state.float_textures, *p, "spectrum", "float");
+  if (p->type == ParamType::texture) return look_up(state, *p, Content::color);
   return constant_texture(state, to_color(state, *p, use));
 }
 
@@ -158,10 +166,28 @@ void read_texture(State& state, Tokenizer& in, const Location& where) {
   try {
     const TextureId id = make_texture(state, params, kind, content);
     table[name] = id;
+    state.named_texture_places[type_of(content) + name] = state.named_textures.size();
+    state.named_textures.push_back({name, type_of(content), where});
   } catch (const Error&) {
     table.try_emplace(name, constant_texture(state, Rgb(0.5f)));  // so that its users are not reported as well
     throw;
   }
+}
+
+void warn_of_idle_textures(State& state) {
+  constexpr std::size_t kShown = 5;
+  std::string names;
+  std::size_t count = 0;
+  Location first;
+  for (const NamedTexture& t : state.named_textures) {
+    if (t.used) continue;
+    if (count++ == 0) first = t.where;
+    if (count <= kShown) names += (names.empty() ? "\"" : ", \"") + printable(t.name) + "\"";
+  }
+  if (count == 0) return;
+  const std::string subject = count == 1 ? "a texture feeds" : std::to_string(count) + " textures feed";
+  state.reports.warn(first, subject + " nothing: " + names + (count > kShown ? " ..." : "") +
+                                "; name them in a material, a shape or another texture, or remove them");
 }
 
 }  // namespace tyndall::pbrt

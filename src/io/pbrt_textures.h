@@ -24,6 +24,9 @@ inline constexpr std::initializer_list<ParamType> kColorTextureTypes = {ParamTyp
 std::optional<TextureId> find_color_texture(State& state, ParamList& params, std::string_view name, ColorUse use);
 TextureId color_texture(State& state, ParamList& params, std::string_view name, Rgb otherwise, ColorUse use = ColorUse::albedo);
 
+/// Says, at the end of the reading, which named textures nothing has asked for.
+void warn_of_idle_textures(State& state);
+
 /// The directive `Texture "name" "float|spectrum" "kind" ...`.
 void read_texture(State& state, Tokenizer& in, const Location& where);
 

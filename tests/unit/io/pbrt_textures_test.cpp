@@ -70,7 +70,7 @@ TEST_CASE("imagemap") {
   CHECK(t.scale == 2);
   CHECK(t.invert);
   CHECK(t.encoding == "gamma 2.2");
-  CHECK(file.warnings.size() == 2);
+  CHECK(file.warnings.size() == 3);  // the filter, its anisotropy, and that nothing uses the texture
   CHECK_CONTAINS(world_error("Texture \"i\" \"float\" \"imagemap\" \"string filename\" \"absent.png\""),
                  "test.pbrt:1:43: file \"absent.png\" does not exist");
   CHECK_CONTAINS(world_error("Texture \"i\" \"float\" \"imagemap\""), "file name is empty");
@@ -87,4 +87,16 @@ TEST_CASE("textures are looked up by kind, and must stand before") {
   CHECK_CONTAINS(world_error("Texture \"f\" \"float\" \"fbm\""), "not supported by Tyndall");
   CHECK_CONTAINS(world_error("Texture \"f\" \"float\" \"scales\""), "did you mean \"scale\"?");
   CHECK(world_error("Texture \"f\" \"float\" \"constant\" Texture \"f\" \"spectrum\" \"constant\"") == "no error");
+}
+
+TEST_CASE("textures that feed nothing are named in one warning") {
+  const SceneFile file = test::read_world_file(
+      "Texture \"a\" \"float\" \"constant\" \nTexture \"b\" \"float\" \"scale\" \"texture tex\" \"a\" "
+      "Texture \"b\" \"spectrum\" \"constant\" Texture \"c\" \"spectrum\" \"constant\" "
+      "Material \"diffuse\" \"texture reflectance\" \"c\"");
+  REQUIRE(file.warnings.size() == 1);
+  CHECK(file.warnings[0].where.line == 2);
+  CHECK_CONTAINS(file.warnings[0].message, "2 textures feed nothing: \"b\", \"b\"");
+  CHECK(
+      test::read_world_file("Texture \"a\" \"float\" \"constant\" Shape \"sphere\" \"texture alpha\" \"a\"").warnings.empty());
 }
