@@ -46,7 +46,7 @@ struct MixTexture {
   TextureId first, second, amount;  ///< (1 - amount) first + amount second
 };
 struct ImageTexture {
-  enum class Wrap { repeat, black, clamp } wrap = Wrap::repeat;
+  enum class Wrap { repeat, black, clamp, octahedral } wrap = Wrap::repeat;  ///< octahedral: mirrored across the edges
   enum class Filter { point, bilinear } filter = Filter::bilinear;
   std::string path;
   TextureMapping mapping;
@@ -56,15 +56,41 @@ struct ImageTexture {
   std::string encoding;
   /// Row-major 3x3 taking the file's linear RGB to Rec.709.
   std::array<float, 9> to_rec709{1, 0, 0, 0, 1, 0, 0, 0, 1};
+  bool is_data = false;  ///< numbers and no colours (a normal map): primaries that the file names are passed over
 };
 struct CheckerboardTexture {
   int dimension = 2;  ///< 2: over mapping's st; 3: over the texture-space point
   TextureMapping mapping;
   TextureId first, second;
 };
+/// Discs of `inside`, one in about half of the unit cells of mapping's st.
+struct DotsTexture {
+  TextureMapping mapping;
+  TextureId inside, outside;
+};
+/// Bilinear between four corners of mapping's st, and beyond them: v01 is at s = 0, t = 1.
+struct BilerpTexture {
+  TextureMapping mapping;
+  Rgb v00{0.0f}, v01{1.0f}, v10{0.0f}, v11{1.0f};
+};
+/// |n . direction| first + the rest second, n being the geometric normal.
+struct DirectionMixTexture {
+  TextureId first, second;
+  Vec3 direction;  ///< unit, world space
+};
+/// Sums of Perlin noise over the texture-space point, as pbrt has them.
+struct NoiseTexture {
+  enum class Kind { fbm, wrinkled, windy, marble } kind = Kind::fbm;
+  Transform to_texture;  ///< from world space
+  int octaves = 8;       ///< not of windy
+  float roughness = 0.5f;
+  float scale = 1, variation = 0.2f;  ///< marble alone
+};
 /// Every texture gives an Rgb; scalar parameters use the mean of its channels.
 struct Texture {
-  std::variant<ConstantTexture, ScaleTexture, MixTexture, ImageTexture, CheckerboardTexture> kind;
+  std::variant<ConstantTexture, ScaleTexture, MixTexture, ImageTexture, CheckerboardTexture, DotsTexture, BilerpTexture,
+               DirectionMixTexture, NoiseTexture>
+      kind;
   Location where;
 };
 
@@ -89,6 +115,8 @@ struct ConductorMaterial {
 struct DielectricMaterial {
   float eta = 1.5f;
   Roughness roughness;
+  /// Dispersion: the index for each channel. A path that meets it goes on with one channel, of three times the weight.
+  std::optional<Rgb> eta_rgb{};
 };
 struct ThinDielectricMaterial {
   float eta = 1.5f;
@@ -127,6 +155,10 @@ struct Material {
       kind;
   std::string name;  ///< empty unless a named material
   Location where;
+  /// What bends the shading normal, for mixes in their parts: a height in world units, or an image (is_data) of normals in
+  /// the frame of dp/du and the shading normal, components from [-1, 1] to [0, 1].
+  std::optional<TextureId> displacement{}, normal_map{};
+  float displacement_scale = 1;  ///< world units for each unit of the displacement
 };
 
 // ------------------------------------------------------------------------------------------------- media

@@ -72,10 +72,11 @@ ImageTexture read_image_map(State& state, ParamList& params, Content) {
   t.path = resolve_asset(state, params.where("filename"), params.string("filename", ""));
   t.scale = params.number("scale", 1);
   t.invert = params.boolean("invert", false);
-  const std::string wrap = params.choice("wrap", "repeat", {"repeat", "black", "clamp"});
+  const std::string wrap = params.choice("wrap", "repeat", {"repeat", "black", "clamp", "octahedralsphere"});
   t.wrap = wrap == "repeat"  ? ImageTexture::Wrap::repeat
            : wrap == "black" ? ImageTexture::Wrap::black
-                             : ImageTexture::Wrap::clamp;
+           : wrap == "clamp" ? ImageTexture::Wrap::clamp
+                             : ImageTexture::Wrap::octahedral;
   const std::string filter = params.choice("filter", "bilinear", {"point", "bilinear", "trilinear", "ewa", "EWA"});
   t.filter = filter == "point" ? ImageTexture::Filter::point : ImageTexture::Filter::bilinear;
   if (filter != "point" && filter != "bilinear")
@@ -93,9 +94,73 @@ CheckerboardTexture read_checkerboard(State& state, ParamList& params, Content c
   t.dimension = params.integer("dimension", 2);
   if (t.dimension != 2 && t.dimension != 3) throw params.error("dimension", "a checkerboard has dimension 2 or 3");
   t.mapping = read_mapping(state, params);
+  if (t.dimension == 3) usable_ctm(state, params.where());
   t.first = operand(state, params, content, "tex1", 1);
   t.second = operand(state, params, content, "tex2", 0);
   return t;
+}
+
+/// pbrt hands the two over in the wrong order, and scenes are made to look right there: "inside" is what lies around the dots.
+DotsTexture read_dots(State& state, ParamList& params, Content content) {
+  DotsTexture t{};
+  t.mapping = read_mapping(state, params);
+  t.outside = operand(state, params, content, "inside", 1);
+  t.inside = operand(state, params, content, "outside", 0);
+  return t;
+}
+
+BilerpTexture read_bilerp(State& state, ParamList& params, Content content) {
+  BilerpTexture t;
+  t.mapping = read_mapping(state, params);
+  const auto corner = [&](std::string_view name, float otherwise) {
+    if (content == Content::scalar) return Rgb(params.number(name, otherwise));
+    return find_color(state, params, name, ColorUse::unbounded).value_or(Rgb(otherwise));
+  };
+  t.v00 = corner("v00", 0);
+  t.v01 = corner("v01", 1);
+  t.v10 = corner("v10", 0);
+  t.v11 = corner("v11", 1);
+  return t;
+}
+
+DirectionMixTexture read_direction_mix(State& state, ParamList& params, Content content) {
+  const Vec3 direction = usable_ctm(state, params.where()).vector(params.vector("dir", {0, 1, 0}));
+  if (!(length(direction) > 0)) throw params.error("dir", "dir is 0 0 0; give a direction");
+  return {operand(state, params, content, "tex1", 0), operand(state, params, content, "tex2", 1), normalize(direction)};
+}
+
+NoiseTexture read_noise(State& state, ParamList& params, NoiseTexture::Kind kind) {
+  constexpr int kMaxOctaves = 64;  // the last is 10^19 times finer than the first
+  NoiseTexture t;
+  t.kind = kind;
+  t.to_texture = usable_ctm(state, params.where()).inverse();
+  if (kind != NoiseTexture::Kind::windy) {
+    t.octaves = params.integer("octaves", 8);
+    t.roughness = params.number("roughness", 0.5f);
+    if (t.octaves < 0 || t.octaves > kMaxOctaves)
+      throw params.error("octaves", "octaves must be from 0 to " + std::to_string(kMaxOctaves));
+  }
+  if (kind == NoiseTexture::Kind::marble) {
+    t.scale = params.number("scale", 1);
+    t.variation = params.number("variation", 0.2f);
+  }
+  return t;
+}
+
+/// pbrt has each of these as a float texture, or as a spectrum texture, and not as the other.
+std::optional<NoiseTexture::Kind> noise_kind(ParamList& params, const std::string& kind, Content content) {
+  using Kind = NoiseTexture::Kind;
+  const auto found = kind == "fbm"        ? std::optional(Kind::fbm)
+                     : kind == "wrinkled" ? std::optional(Kind::wrinkled)
+                     : kind == "windy"    ? std::optional(Kind::windy)
+                     : kind == "marble"   ? std::optional(Kind::marble)
+                                          : std::nullopt;
+  if (!found) return std::nullopt;
+  const Content only = found == Kind::marble ? Content::color : Content::scalar;
+  if (content != only)
+    throw params.error("texture \"" + kind + "\" is a " + type_of(only) + " texture; declare it as \"" + type_of(only) +
+                       "\", and mix two colours by it where colours are wanted");
+  return found;
 }
 
 TextureId make_texture(State& state, ParamList& params, const std::string& kind, Content content) {
@@ -113,10 +178,14 @@ TextureId make_texture(State& state, ParamList& params, const std::string& kind,
   if (kind == "mix") return add(read_mix(state, params, content));
   if (kind == "imagemap") return add(read_image_map(state, params, content));
   if (kind == "checkerboard") return add(read_checkerboard(state, params, content));
-  for (const char* other : {"bilerp", "directionmix", "dots", "fbm", "marble", "ptex", "windy", "wrinkled"})
-    if (kind == other) throw params.error("texture \"" + kind + "\" is not supported by Tyndall; bake it into an imagemap");
+  if (kind == "dots") return add(read_dots(state, params, content));
+  if (kind == "bilerp") return add(read_bilerp(state, params, content));
+  if (kind == "directionmix") return add(read_direction_mix(state, params, content));
+  if (const auto noise = noise_kind(params, kind, content)) return add(read_noise(state, params, *noise));
+  if (kind == "ptex") throw params.error("texture \"ptex\" is not supported by Tyndall; bake it into an imagemap");
   throw params.error("texture \"" + printable(kind) + "\" is unknown; " +
-                     suggestion(kind, {"constant", "scale", "mix", "imagemap", "checkerboard"}));
+                     suggestion(kind, {"constant", "scale", "mix", "imagemap", "checkerboard", "dots", "bilerp", "directionmix",
+                                       "fbm", "wrinkled", "windy", "marble"}));
 }
 
 }  // namespace

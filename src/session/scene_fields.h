@@ -17,17 +17,17 @@ template <typename T>
 constexpr int field_count() {
   if (kOneOf<T, InterfaceMaterial>) return 0;
   if (kOneOf<T, ConstantTexture, DiffuseMaterial, ThinDielectricMaterial, HomogeneousMedium>) return 1;
-  if (kOneOf<T, Vec2, Bounds3, ScaleTexture, Texture, ConductorMaterial, DielectricMaterial, CoatedDiffuseMaterial>) return 2;
+  if (kOneOf<T, Vec2, Bounds3, ScaleTexture, Texture, ConductorMaterial, CoatedDiffuseMaterial>) return 2;
   if (kOneOf<T, Boundary, PointLight, DistantLight, Light, Object, Instance>) return 2;
   if (kOneOf<T, Vec3, Rgb, MixTexture, Roughness, ConductorOptics, DiffuseTransmissionMaterial, MixMaterial>) return 3;
-  if (kOneOf<T, CoatedConductorMaterial, Material, MediumOptics>) return 3;
+  if (kOneOf<T, CoatedConductorMaterial, DielectricMaterial, DotsTexture, DirectionMixTexture, MediumOptics>) return 3;
   if (kOneOf<T, PixelBounds, Chromaticities, CheckerboardTexture, CloudMedium, SpotLight>) return 4;
   if (kOneOf<T, TriangleMesh, BilinearMesh, Sphere, Disk, Cylinder>) return 4;
-  if (kOneOf<T, Medium, InfiniteLight, AreaLight>) return 5;
-  if (kOneOf<T, TextureMapping, PixelFilter>) return 6;
+  if (kOneOf<T, Medium, InfiniteLight, AreaLight, BilerpTexture>) return 5;
+  if (kOneOf<T, TextureMapping, PixelFilter, NoiseTexture, Material>) return 6;
   if (kOneOf<T, Coating>) return 7;
-  if (kOneOf<T, ImageTexture, RgbGridMedium, Shape, Camera>) return 8;
-  if (kOneOf<T, Film>) return 9;
+  if (kOneOf<T, RgbGridMedium, Shape, Camera>) return 8;
+  if (kOneOf<T, ImageTexture, Film>) return 9;
   if (kOneOf<T, VdbMedium>) return 10;
   if (kOneOf<T, UniformGridMedium>) return 11;
   if (kOneOf<T, Scene>) return 13;

@@ -92,12 +92,20 @@ class SceneHasher {
   void add(const Location&) {}
   void add(const RenderSettings&) {}  // how to render, not what; scene_hash_text adds the depth
   void add(const ImageTexture& texture) {
-    const auto& [wrap, filter, path, mapping, scale, invert, encoding, to_rec709] = texture;
+    const auto& [wrap, filter, path, mapping, scale, invert, encoding, to_rec709, is_data] = texture;
     add_all(wrap, filter, FileContent{path}, mapping, scale, invert, encoding, to_rec709);
+    if (is_data) add(is_data);
   }
+  // What came later counts where it is used, so that images of scenes without it can still be merged.
   void add(const Material& material) {
-    const auto& [kind, name, where] = material;
+    const auto& [kind, name, where, displacement, normal_map, displacement_scale] = material;
     add(kind);
+    if (displacement || normal_map) add_all(displacement, normal_map, displacement_scale);
+  }
+  void add(const DielectricMaterial& material) {
+    const auto& [eta, roughness, eta_rgb] = material;
+    add_all(eta, roughness);
+    if (eta_rgb) add(eta_rgb);
   }
   void add(const VdbMedium& medium) {
     const auto& [path, density, temperature, flame, density_given, temperature_given, scale, offset, Le_scale, Le] = medium;

@@ -87,6 +87,8 @@ class Units {
     const Transform shrink = Transform::scale(s, s, s), grow = shrink.inverse();
     change(scene.camera.to_world);
     for (Texture& texture : scene.textures) change(texture);
+    for (Material& material : scene.materials)
+      material.displacement_scale = std::ldexp(material.displacement_scale, -exponent_);
     for (Medium& medium : scene.media) change(medium);
     for (Light& light : scene.lights) change(light);
     for (Shape& shape : scene.shapes) {
@@ -108,6 +110,9 @@ class Units {
     const auto mapping = [&](TextureMapping& m) { m.to_texture = m.to_texture * to_unit_.inverse(); };
     if (auto* image = std::get_if<ImageTexture>(&texture.kind)) mapping(image->mapping);
     if (auto* board = std::get_if<CheckerboardTexture>(&texture.kind)) mapping(board->mapping);
+    if (auto* dots = std::get_if<DotsTexture>(&texture.kind)) mapping(dots->mapping);
+    if (auto* bilerp = std::get_if<BilerpTexture>(&texture.kind)) mapping(bilerp->mapping);
+    if (auto* noise = std::get_if<NoiseTexture>(&texture.kind)) noise->to_texture = noise->to_texture * to_unit_.inverse();
   }
   void change(Medium& medium) const {
     change(medium.to_world);

@@ -12,6 +12,8 @@ std::vector<TextureId> inputs(const Texture& texture) {
   if (const auto* t = std::get_if<ScaleTexture>(&texture.kind)) return {t->texture, t->scale};
   if (const auto* t = std::get_if<MixTexture>(&texture.kind)) return {t->first, t->second, t->amount};
   if (const auto* t = std::get_if<CheckerboardTexture>(&texture.kind)) return {t->first, t->second};
+  if (const auto* t = std::get_if<DotsTexture>(&texture.kind)) return {t->inside, t->outside};
+  if (const auto* t = std::get_if<DirectionMixTexture>(&texture.kind)) return {t->first, t->second};
   return {};
 }
 
@@ -48,11 +50,17 @@ std::vector<TextureId> evaluation_order(const std::vector<Texture>& textures) {
 
 class Textures::Builder {
  public:
-  explicit Builder(const std::vector<Texture>& textures) : textures_(textures) { result_.nodes_.resize(textures.size()); }
+  explicit Builder(const std::vector<Texture>& textures) : textures_(textures) {
+    result_.nodes_.resize(textures.size());
+    result_.uses_footprint_.resize(textures.size());
+  }
 
   Textures build() {
     for (TextureId id : evaluation_order(textures_)) {
       result_.nodes_[id] = make_node(textures_[id]);
+      result_.uses_footprint_[id] = std::holds_alternative<NoiseTexture>(textures_[id].kind);
+      for (const TextureId input : inputs(textures_[id]))
+        if (result_.uses_footprint_[input]) result_.uses_footprint_[id] = true;
       if (foldable(id)) result_.nodes_[id] = ConstantTexture{result_.eval(id, {})};
     }
     return std::move(result_);
@@ -78,7 +86,8 @@ class Textures::Builder {
   }
 
   Node image_node(const ImageTexture& texture, const Location& where) {
-    const auto key = std::pair(texture.path, texture.encoding);
+    // The same file may be read as colours and as numbers.
+    const auto key = std::pair(texture.path, texture.encoding + (texture.is_data ? " data" : ""));
     auto found = loaded_.find(key);
     if (found == loaded_.end()) found = loaded_.emplace(key, load(texture, where)).first;
     ImageNode node{texture, found->second.index};
@@ -89,7 +98,7 @@ class Textures::Builder {
   Loaded load(const ImageTexture& texture, const Location& where) try {
     const Image image = read_image(texture.path, texture.encoding);
     Loaded loaded{result_.images_.size(), {}};
-    if (image.chromaticities) loaded.to_rec709 = rec709_from(*image.chromaticities, true);
+    if (image.chromaticities && !texture.is_data) loaded.to_rec709 = rec709_from(*image.chromaticities, true);
     result_.images_.push_back(TexelImage::from(image, texture.path));
     return loaded;
   } catch (const Error& error) {
@@ -101,6 +110,10 @@ class Textures::Builder {
     for (TextureId input : ids)
       if (!result_.is_constant(input)) return false;
     if (const auto* t = std::get_if<CheckerboardTexture>(&textures_[id].kind))
+      return *result_.constant(t->first) == *result_.constant(t->second);
+    if (const auto* t = std::get_if<DotsTexture>(&textures_[id].kind))
+      return *result_.constant(t->inside) == *result_.constant(t->outside);
+    if (const auto* t = std::get_if<DirectionMixTexture>(&textures_[id].kind))
       return *result_.constant(t->first) == *result_.constant(t->second);
     return !ids.empty();
   }

@@ -5,10 +5,18 @@
 
 namespace tyndall {
 
+/// How far a surface point moves for a step of one pixel to the right (x) and down (y).
+struct Footprint {
+  Vec3 dpdx, dpdy;  ///< world space, in the tangent plane
+  Vec2 duvdx, duvdy;
+};
+
 /// Where a texture is looked up: uv and the point in world space.
 struct TextureQuery {
   Vec2 uv;
   Vec3 p;
+  Vec3 n{};                              ///< unit geometric normal; 0: not known
+  const Footprint* footprint = nullptr;  ///< null: a point
 };
 
 /// uv: scale * uv + offset. Of the point q in texture space: spherical (theta / pi, phi / 2 pi), cylindrical

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "math/cie.h"
 #include "tyndall/error.h"
@@ -16,7 +17,26 @@ int wrapped(int i, int n, TexelImage::Wrap wrap) {
   if (i >= 0 && i < n) return i;
   if (wrap == TexelImage::Wrap::black) return kOutside;
   if (wrap == TexelImage::Wrap::clamp) return i < 0 ? 0 : n - 1;
+  if (wrap == TexelImage::Wrap::octahedral) return i;  // folded() needs both axes
   return i < 0 ? i + n : i - n;
+}
+
+struct Texel {
+  int x, y;
+};
+
+/// Beyond an edge of the octahedral square one comes in again through the same edge, mirrored about its middle. Columns and
+/// rows below 0 are turned as pbrt-v4 turns them: -1 becomes 1.
+Texel folded(int x, int y, int width, int height) {
+  if (x < 0 || x >= width) {
+    x = x < 0 ? -x : 2 * width - 1 - x;
+    y = height - 1 - y;
+  }
+  if (y < 0 || y >= height) {
+    x = width - 1 - x;
+    y = y < 0 ? -y : 2 * height - 1 - y;
+  }
+  return {std::clamp(x, 0, width - 1), std::clamp(y, 0, height - 1)};
 }
 
 /// Coordinate brought to where one period is at most a texel away, so that it fits an int; NaN and infinity to 0.
@@ -42,12 +62,24 @@ int holder(float s, int n, TexelImage::Wrap wrap) {
   return wrapped(static_cast<int>(std::floor(tamed(s, wrap) * static_cast<float>(n))), n, wrap);
 }
 
+/// The texel that holds st; nothing where black is.
+std::optional<Texel> holder(Vec2 st, int width, int height, TexelImage::Wrap wrap) {
+  const int x = holder(st.x, width, wrap), y = holder(st.y, height, wrap);
+  if (wrap == TexelImage::Wrap::octahedral) return folded(x, y, width, height);
+  if (x == kOutside || y == kOutside) return std::nullopt;
+  return Texel{x, y};
+}
+
 /// Weighted sum of the four texels around st; `get(x, y)` is called for those inside.
 template <class Value, class Get>
 Value interpolated(Vec2 st, int width, int height, TexelImage::Wrap wrap, const Get& get) {
   const Taps h = taps(st.x, width, wrap), v = taps(st.y, height, wrap);
   Value sum{};
   const auto add = [&](int x, int y, float weight) {
+    if (wrap == TexelImage::Wrap::octahedral) {
+      const Texel texel = folded(x, y, width, height);
+      x = texel.x, y = texel.y;
+    }
     if (x != kOutside && y != kOutside) sum = sum + get(x, y) * weight;
   };
   add(h.first, v.first, (1 - h.t) * (1 - v.t));
@@ -109,8 +141,8 @@ TexelImage TexelImage::load(const std::string& path, const std::string& encoding
 }
 
 Rgb TexelImage::nearest(Vec2 st, Wrap wrap) const {
-  const int x = holder(st.x, width_, wrap), y = holder(st.y, height_, wrap);
-  return x == kOutside || y == kOutside ? Rgb() : texel(x, y);
+  const auto held = holder(st, width_, height_, wrap);
+  return held ? texel(held->x, held->y) : Rgb();
 }
 
 Rgb TexelImage::bilinear(Vec2 st, Wrap wrap) const {
@@ -118,8 +150,8 @@ Rgb TexelImage::bilinear(Vec2 st, Wrap wrap) const {
 }
 
 float TexelImage::nearest_alpha(Vec2 st, Wrap wrap) const {
-  const int x = holder(st.x, width_, wrap), y = holder(st.y, height_, wrap);
-  return x == kOutside || y == kOutside ? 0.0f : alpha(x, y);
+  const auto held = holder(st, width_, height_, wrap);
+  return held ? alpha(held->x, held->y) : 0.0f;
 }
 
 float TexelImage::bilinear_alpha(Vec2 st, Wrap wrap) const {

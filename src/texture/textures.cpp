@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/perlin_noise.h"
+#include "texture/noise_texture.h"
+
 namespace tyndall {
 namespace {
 
@@ -24,6 +27,25 @@ TextureId checker(const CheckerboardTexture& texture, const TextureQuery& query)
     odd = is_odd(st.x) != is_odd(st.y);
   }
   return odd ? texture.second : texture.first;
+}
+
+float flat_noise(float s, float t) { return perlin_noise({s, t, 0.5f}); }
+
+/// In the cells where noise is positive a disc of radius 0.35 stands, moved by noise within its cell [PBR book 3rd
+/// ed., 10.6.2].
+TextureId dots(const DotsTexture& texture, const TextureQuery& query) {
+  constexpr float kRadius = 0.35f, kMaxShift = 0.5f - kRadius;
+  const Vec2 st = map_to_texture(texture.mapping, query);
+  const float s = std::floor(st.x + 0.5f), t = std::floor(st.y + 0.5f);
+  if (!(flat_noise(s + 0.5f, t + 0.5f) > 0)) return texture.outside;
+  const float x = st.x - (s + kMaxShift * flat_noise(s + 1.5f, t + 2.8f));
+  const float y = st.y - (t + kMaxShift * flat_noise(s + 4.5f, t + 9.8f));
+  return x * x + y * y < kRadius * kRadius ? texture.inside : texture.outside;
+}
+
+Rgb bilerp(const BilerpTexture& t, const TextureQuery& query) {
+  const auto [u, v] = map_to_texture(t.mapping, query);
+  return (1 - u) * ((1 - v) * t.v00 + v * t.v01) + u * ((1 - v) * t.v10 + v * t.v11);
 }
 
 Vec2 image_coordinates(const ImageTexture& texture, const TextureQuery& query) {
@@ -59,6 +81,13 @@ struct Textures::RgbEvaluator {
     return t.to_rec709 == TexelImage::kIdentity ? c : clamp_zero(transformed(t.to_rec709, c));
   }
   Rgb operator()(const CheckerboardTexture& t) const { return textures.eval(checker(t, query), query); }
+  Rgb operator()(const DotsTexture& t) const { return textures.eval(dots(t, query), query); }
+  Rgb operator()(const BilerpTexture& t) const { return bilerp(t, query); }
+  Rgb operator()(const DirectionMixTexture& t) const {
+    const float amount = abs_dot(query.n, t.direction);
+    return amount * textures.eval(t.first, query) + (1 - amount) * textures.eval(t.second, query);
+  }
+  Rgb operator()(const NoiseTexture& t) const { return noise_texture(t, query); }
 };
 
 struct Textures::FloatEvaluator {
@@ -81,6 +110,13 @@ struct Textures::FloatEvaluator {
     return t.invert ? std::max(0.0f, 1 - value) : value;
   }
   float operator()(const CheckerboardTexture& t) const { return textures.eval_float(checker(t, query), query); }
+  float operator()(const DotsTexture& t) const { return textures.eval_float(dots(t, query), query); }
+  float operator()(const BilerpTexture& t) const { return mean(bilerp(t, query)); }
+  float operator()(const DirectionMixTexture& t) const {
+    const float amount = abs_dot(query.n, t.direction);
+    return amount * textures.eval_float(t.first, query) + (1 - amount) * textures.eval_float(t.second, query);
+  }
+  float operator()(const NoiseTexture& t) const { return mean(noise_texture(t, query)); }
 };
 
 Rgb Textures::eval(TextureId id, const TextureQuery& query) const { return std::visit(RgbEvaluator{*this, query}, nodes_[id]); }

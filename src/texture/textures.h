@@ -21,6 +21,8 @@ class Textures {
   /// The value when it is the same everywhere.
   std::optional<Rgb> constant(TextureId id) const;
   bool is_constant(TextureId id) const { return constant(id).has_value(); }
+  /// Its value depends on TextureQuery::footprint.
+  bool uses_footprint(TextureId id) const { return uses_footprint_[id]; }
   std::size_t size() const { return nodes_.size(); }
   std::size_t image_count() const { return images_.size(); }
   std::size_t memory_bytes() const;  ///< of the images
@@ -31,12 +33,14 @@ class Textures {
     ImageTexture texture;  ///< to_rec709 replaced by the file's own where it states chromaticities
     std::size_t image;     ///< into images_
   };
-  using Node = std::variant<ConstantTexture, ScaleTexture, MixTexture, ImageNode, CheckerboardTexture>;
+  using Node = std::variant<ConstantTexture, ScaleTexture, MixTexture, ImageNode, CheckerboardTexture, DotsTexture,
+                            BilerpTexture, DirectionMixTexture, NoiseTexture>;
   struct RgbEvaluator;
   struct FloatEvaluator;
   class Builder;
 
   std::vector<Node> nodes_;
+  std::vector<bool> uses_footprint_;
   std::vector<TexelImage> images_;
 };
 

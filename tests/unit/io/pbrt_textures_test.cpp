@@ -84,7 +84,7 @@ TEST_CASE("textures are looked up by kind, and must stand before") {
   CHECK_CONTAINS(world_error("Texture \"f\" \"float\" \"scale\" \"texture tex\" \"f\""), "is not defined");
   CHECK_CONTAINS(world_error("Texture \"f\" \"float\" \"constant\" Texture \"f\" \"float\" \"constant\""), "defined twice");
   CHECK_CONTAINS(world_error("Texture \"f\" \"color\" \"constant\""), "use \"float\" or \"spectrum\"");
-  CHECK_CONTAINS(world_error("Texture \"f\" \"float\" \"fbm\""), "not supported by Tyndall");
+  CHECK_CONTAINS(world_error("Texture \"f\" \"float\" \"ptex\""), "\"ptex\" is not supported by Tyndall; bake it");
   CHECK_CONTAINS(world_error("Texture \"f\" \"float\" \"scales\""), "did you mean \"scale\"?");
   CHECK(world_error("Texture \"f\" \"float\" \"constant\" Texture \"f\" \"spectrum\" \"constant\"") == "no error");
 }
@@ -99,4 +99,45 @@ TEST_CASE("textures that feed nothing are named in one warning") {
   CHECK_CONTAINS(file.warnings[0].message, "2 textures feed nothing: \"b\", \"b\"");
   CHECK(
       test::read_world_file("Texture \"a\" \"float\" \"constant\" Shape \"sphere\" \"texture alpha\" \"a\"").warnings.empty());
+}
+
+TEST_CASE("dots, whose inside and outside pbrt exchanges, bilerp and directionmix") {
+  const Scene s =
+      read_world("Texture \"d\" \"float\" \"dots\" \"float inside\" 0.25 \"float outside\" 0.75 \"float uscale\" 3");
+  const auto d = last_texture<DotsTexture>(s);
+  CHECK(test::constant(s, d.inside) == Rgb(0.75f));
+  CHECK(test::constant(s, d.outside) == Rgb(0.25f));
+  CHECK(d.mapping.scale.x == 3);
+  const auto b = last_texture<BilerpTexture>(read_world("Texture \"b\" \"spectrum\" \"bilerp\" \"rgb v10\" [.1 .2 .3]"));
+  CHECK(b.v00 == Rgb(0.0f));
+  CHECK(b.v01 == Rgb(1.0f));
+  CHECK(b.v10 == Rgb(.1f, .2f, .3f));
+  CHECK(b.v11 == Rgb(1.0f));
+  CHECK(last_texture<BilerpTexture>(read_world("Texture \"b\" \"float\" \"bilerp\" \"float v00\" .5")).v00 == Rgb(.5f));
+  const Scene m = read_world("Rotate 90 0 0 1 Scale 2 2 2 Texture \"m\" \"float\" \"directionmix\" \"vector3 dir\" [1 0 0]");
+  const auto mix = last_texture<DirectionMixTexture>(m);
+  CHECK(mix.direction.y == doctest::Approx(1));
+  CHECK(test::constant(m, mix.first) == Rgb(0.0f));
+  CHECK(test::constant(m, mix.second) == Rgb(1.0f));
+  CHECK_CONTAINS(world_error("Texture \"m\" \"float\" \"directionmix\" \"vector3 dir\" [0 0 0]"), "dir is 0 0 0");
+}
+
+TEST_CASE("noise textures") {
+  const auto fbm = last_texture<NoiseTexture>(
+      read_world("Translate 1 2 3 Texture \"n\" \"float\" \"fbm\" \"integer octaves\" 3 \"float roughness\" .7"));
+  CHECK(fbm.kind == NoiseTexture::Kind::fbm);
+  CHECK(fbm.octaves == 3);
+  CHECK(fbm.roughness == .7f);
+  CHECK(fbm.to_texture.point({1, 2, 3}) == Vec3{0, 0, 0});
+  const auto marble =
+      last_texture<NoiseTexture>(read_world("Texture \"n\" \"spectrum\" \"marble\" \"float scale\" 5 \"float variation\" 1"));
+  CHECK(marble.kind == NoiseTexture::Kind::marble);
+  CHECK(marble.octaves == 8);
+  CHECK(marble.scale == 5);
+  CHECK(marble.variation == 1);
+  CHECK(last_texture<NoiseTexture>(read_world("Texture \"n\" \"float\" \"windy\"")).kind == NoiseTexture::Kind::windy);
+  CHECK_CONTAINS(world_error("Texture \"n\" \"float\" \"windy\" \"integer octaves\" 3"), "has no parameter \"octaves\"");
+  CHECK_CONTAINS(world_error("Texture \"n\" \"float\" \"wrinkled\" \"integer octaves\" -1"), "octaves must be from 0 to 64");
+  CHECK_CONTAINS(world_error("Texture \"n\" \"spectrum\" \"fbm\""), "\"fbm\" is a float texture");
+  CHECK_CONTAINS(world_error("Texture \"n\" \"float\" \"marble\""), "\"marble\" is a spectrum texture");
 }

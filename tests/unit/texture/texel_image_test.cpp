@@ -136,3 +136,19 @@ TEST_CASE("load: the matrix applies, unless the file states its chromaticities")
   CHECK(yellow.r == Approx(1.0728).epsilon(1e-3));
   CHECK(yellow.b < 0);
 }
+
+TEST_CASE("octahedral wrap comes in again through the same edge, mirrored about its middle") {
+  const TexelImage image = sample();
+  const auto at = [&](float x, float y) { return image.nearest({(x + 0.5f) / 4, (y + 0.5f) / 2}, Wrap::octahedral); };
+  CHECK(at(2, 1) == image.texel(2, 1));
+  CHECK(at(4, 0) == image.texel(3, 1));
+  CHECK(at(5, 1) == image.texel(2, 0));
+  CHECK(at(1, 2) == image.texel(2, 1));
+  CHECK(at(-1, 0) == image.texel(1, 1));  // not 0: as in pbrt-v4
+  check_rgb(image.bilinear({1, 0.25f}, Wrap::octahedral), (image.texel(3, 0) + image.texel(3, 1)) * 0.5f);
+  for (const float far : {-1e9f, -1.0f, 2.0f, 1e9f, std::numeric_limits<float>::quiet_NaN()})
+    for (const float other : {-1e9f, 0.3f, 1e9f}) {
+      CHECK(is_finite(image.bilinear({far, other}, Wrap::octahedral)));
+      CHECK(image.nearest({far, other}, Wrap::octahedral).b == 1);
+    }
+}

@@ -178,3 +178,73 @@ TEST_CASE("shared inputs are no circle") {
       build_textures({texture(MixTexture{1, 2, 3}), texture(ScaleTexture{3, 3}), texture(ScaleTexture{1, 3}), constant(0.5f)});
   CHECK(t.constant(0)->r == Approx(0.5 * 0.25 + 0.5 * 0.125));
 }
+
+TEST_CASE("dots are discs in cells; bilerp goes on beyond its corners; directionmix turns with the normal") {
+  const Textures dots = build_textures({texture(DotsTexture{{}, 1, 2}), constant(1), constant(0)});
+  double inside = 0;
+  constexpr int kSide = 400;
+  for (int y = 0; y < kSide; ++y)
+    for (int x = 0; x < kSide; ++x) inside += dots.eval_float(0, {{x * 0.1f - 20, y * 0.1f - 20}, {}}) / (kSide * kSide);
+  CHECK(inside == Approx(kPi * 0.35 * 0.35 / 2).epsilon(0.1));  // half of the cells hold one
+
+  BilerpTexture corners;
+  corners.v00 = Rgb(1, 0, 0), corners.v01 = Rgb(2, 0, 1), corners.v10 = Rgb(3, 0, 0), corners.v11 = Rgb(8, 4, 0);
+  const Textures bilerp = build_textures({texture(corners)});
+  CHECK(bilerp.eval(0, {{0, 1}, {}}) == corners.v01);
+  CHECK(bilerp.eval(0, {{1, 0}, {}}) == corners.v10);
+  CHECK(bilerp.eval(0, {{0.5f, 0.5f}, {}}) == Rgb(3.5f, 1, 0.25f));
+  CHECK(bilerp.eval(0, {{2, 0}, {}}) == Rgb(5, 0, 0));
+
+  const Textures mix = build_textures({texture(DirectionMixTexture{1, 2, {0, 1, 0}}), constant(5), constant(1)});
+  CHECK(mix.eval_float(0, {.uv = {}, .p = {}, .n = {0, -1, 0}}) == 5);
+  CHECK(mix.eval_float(0, {.uv = {}, .p = {}, .n = {1, 0, 0}}) == 1);
+  CHECK(mix.eval_float(0, {.uv = {}, .p = {}, .n = {0.8f, 0.6f, 0}}) == Approx(0.6 * 5 + 0.4));
+}
+
+TEST_CASE("octaves of noise fade as the footprint grows, to their mean") {
+  const auto noise = [](NoiseTexture::Kind kind, int octaves) {
+    NoiseTexture t;
+    t.kind = kind;
+    t.octaves = octaves;
+    return build_textures({texture(t)});
+  };
+  using Kind = NoiseTexture::Kind;
+  const auto at = [](const Textures& t, Vec3 p, float width) {
+    const Footprint footprint{{width, 0, 0}, {0, width, 0}, {}, {}};
+    return t.eval_float(0, {.uv = {}, .p = p, .n = {}, .footprint = &footprint});
+  };
+  const Textures one = noise(Kind::fbm, 1), eight = noise(Kind::fbm, 8), wrinkled = noise(Kind::wrinkled, 8);
+  CHECK(one.uses_footprint(0));
+  CHECK_FALSE(build_textures({constant(1)}).uses_footprint(0));
+  CHECK(build_textures({texture(ScaleTexture{1, 2}), texture(NoiseTexture{}), constant(2)}).uses_footprint(0));
+  const Vec3 p{0.3f, 0.4f, 0.7f};
+  CHECK(one.eval_float(0, {{}, p}) == at(one, p, 1e-6f));
+  // Width w shows -1 - log2(w) octaves: two at 1/8, and one at 1/4 of which the first is whole.
+  CHECK(at(eight, p, 0.125f) == Approx(at(noise(Kind::fbm, 2), p, 1e-6f)));
+  CHECK(at(eight, p, 0.25f) == Approx(at(one, p, 1e-6f)));
+  CHECK(at(eight, p, 1) == 0);
+  double mean_wrinkle = 0, square = 0;
+  for (int i = 0; i < 4096; ++i) {
+    const float x = 0.37f * static_cast<float>(i), y = std::fmod(0.731f * static_cast<float>(i), 97.0f);
+    mean_wrinkle += at(noise(Kind::wrinkled, 1), {x, y, 0.5f}, 1e-6f) / 4096;
+    square += std::pow(at(one, {x, y, 0.5f}, 1e-6f), 2) / 4096;
+  }
+  CHECK(mean_wrinkle == Approx(0.2).epsilon(0.25));
+  CHECK(square > 0.02);
+  CHECK(at(wrinkled, p, 1) == Approx(0.2 * (1 + (1 - std::pow(0.5, 8)) / 0.5)));  // each octave's 0.2, the fading one once more
+}
+
+TEST_CASE("marble runs in layers along y and keeps to its colours") {
+  NoiseTexture t;
+  t.kind = NoiseTexture::Kind::marble;
+  t.variation = 0;
+  const Textures marble = build_textures({texture(t)});
+  for (float y = -8; y < 8; y += 0.05f) {
+    const Rgb c = marble.eval(0, {{}, {0, y, 0}});
+    CHECK(c == marble.eval(0, {{}, {5, y, 3}}));
+    CHECK(max_component(c) <= 0.91f);
+    CHECK(std::min({c.r, c.g, c.b}) >= 0.29f);
+  }
+  // sin = -1: the first colours, which are equal.
+  CHECK(marble.eval(0, {{}, {0, -kPi / 2, 0}}).r == Approx(0.87).epsilon(1e-4));
+}
