@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "io/loop_subdivision.h"
 #include "io/ply.h"
 
 namespace tyndall::pbrt {
@@ -60,6 +61,22 @@ Mesh read_mesh(ParamList& params, std::size_t corners) {
 TriangleMesh read_triangle_mesh(ParamList& params) {
   params.ignore("S", {ParamType::vector3}, "tangents come from uv");
   return read_mesh<TriangleMesh>(params, 3);
+}
+
+TriangleMesh read_loop_subdivision(ParamList& params) {
+  constexpr int kMostLevels = 12;
+  const int levels = params.integer("levels", 3);
+  if (levels < 0 || levels > kMostLevels)
+    throw params.error("levels", "levels must be from 0 to " + std::to_string(kMostLevels) + "; each has four times the faces");
+  params.string("scheme", "loop");
+  const std::vector<Vec3> positions = params.triples("P", ParamType::point3);
+  if (positions.empty()) throw params.error("mesh has no vertices; add \"point3 P\"");
+  const std::vector<std::uint32_t> indices = read_indices(params, positions.size(), 3);
+  try {
+    return subdivide_loop(positions, indices, levels);
+  } catch (const Error& e) {
+    throw params.error("indices", e.what());
+  }
 }
 
 BilinearMesh read_bilinear_mesh(ParamList& params) {

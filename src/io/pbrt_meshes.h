@@ -9,6 +9,7 @@ namespace tyndall::pbrt {
 
 TriangleMesh read_triangle_mesh(ParamList& params);
 BilinearMesh read_bilinear_mesh(ParamList& params);
+TriangleMesh read_loop_subdivision(ParamList& params);
 /// A ply file holds triangles, quadrilaterals (then bilinear patches) or both.
 std::vector<decltype(Shape::kind)> read_ply_mesh(State& state, ParamList& params);
 

@@ -62,11 +62,14 @@ std::vector<ShapeKind> read_kinds(State& state, ParamList& params, const std::st
     kinds.emplace_back(read_bilinear_mesh(params));
   else if (type == "plymesh")
     kinds = read_ply_mesh(state, params);
-  else if (type == "curve" || type == "loopsubdiv")
+  else if (type == "loopsubdiv")
+    kinds.emplace_back(read_loop_subdivision(params));
+  else if (type == "curve")
     throw params.error("shape \"" + type + "\" is not supported by Tyndall; convert it to a plymesh");
   else
-    throw params.error("shape \"" + printable(type) + "\" is unknown; " +
-                       suggestion(type, {"trianglemesh", "plymesh", "bilinearmesh", "sphere", "disk", "cylinder"}));
+    throw params.error(
+        "shape \"" + printable(type) + "\" is unknown; " +
+        suggestion(type, {"trianglemesh", "plymesh", "bilinearmesh", "loopsubdiv", "sphere", "disk", "cylinder"}));
   return kinds;
 }
 
