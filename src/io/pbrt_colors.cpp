@@ -123,23 +123,30 @@ Rgb light_color(State& state, ParamList& params, std::string_view name) {
   return mul(state.graphics.color_space->to_rec709, Rgb(1.0f));
 }
 
-float find_eta(State& state, ParamList& params, std::string_view name) {
+RefractiveIndex find_refractive_index(State& state, ParamList& params, std::string_view name) {
   const Param* p = params.find(name, {ParamType::number, ParamType::spectrum});
-  if (!p) return 1.5f;
-  float eta = 0;
+  if (!p) return {};
+  RefractiveIndex index;
   if (p->type == ParamType::number) {
     if (p->numbers.size() != 1) throw wrong(*p, "has more than one value; give one");
-    eta = p->numbers[0];
+    index.eta = p->numbers[0];
   } else {
     const Spectrum spectrum = to_spectrum(state, *p);
+    const Rgb rgb = reflectance_rgb(spectrum);
     const auto [low, high] = std::minmax_element(spectrum.value.begin(), spectrum.value.end());
-    eta = luminance(reflectance_rgb(spectrum));
-    if (*low != *high)
-      params.reports().warn(p->where, "index of refraction varies with wavelength; its mean " + std::to_string(eta) +
-                                          " is used, without dispersion");
+    index.eta = luminance(rgb);
+    if (*low != *high && rgb.r > 0 && rgb.g > 0 && rgb.b > 0) index.rgb = rgb;
   }
-  if (!(eta > 0)) throw wrong(*p, "is no index of refraction; give a value above 0");
-  return eta;
+  if (!(index.eta > 0)) throw wrong(*p, "is no index of refraction; give a value above 0");
+  return index;
+}
+
+float find_eta(State& state, ParamList& params, std::string_view name) {
+  const RefractiveIndex index = find_refractive_index(state, params, name);
+  if (index.rgb)
+    params.reports().warn(params.where(name), "index of refraction varies with wavelength; its mean " +
+                                                  std::to_string(index.eta) + " is used, without dispersion");
+  return index.eta;
 }
 
 }  // namespace tyndall::pbrt

@@ -27,7 +27,14 @@ Rgb light_color(State& state, ParamList& params, std::string_view name);
 /// A parameter of type spectrum as such: pairs, a named spectrum, or a file of pairs.
 Spectrum to_spectrum(const State& state, const Param& param);
 
-/// An index of refraction: "float", or a spectrum whose mean is taken (with a warning: no dispersion).
+/// An index of refraction; of one that varies with wavelength the luminance's, and each channel's.
+struct RefractiveIndex {
+  float eta = 1.5f;
+  std::optional<Rgb> rgb;
+};
+/// "float", or a spectrum.
+RefractiveIndex find_refractive_index(State& state, ParamList& params, std::string_view name);
+/// The same where nothing disperses: with a warning when it would.
 float find_eta(State& state, ParamList& params, std::string_view name);
 
 }  // namespace tyndall::pbrt

@@ -104,10 +104,19 @@ CoatedConductorMaterial read_coated_conductor(State& state, ParamList& params) {
   return m;
 }
 
+DielectricMaterial read_dielectric(State& state, ParamList& params) {
+  const RefractiveIndex index = find_refractive_index(state, params, "eta");
+  if (index.rgb)
+    params.reports().warn(params.where("eta"),
+                          "index of refraction varies with wavelength: red, green and blue are refracted each in one "
+                          "direction, where pbrt-v4 has one for each wavelength");
+  return {index.eta, read_roughness(state, params), index.rgb};
+}
+
 MaterialKind read_material_kind(State& state, ParamList& params, const std::string& type) {
   if (type == "diffuse") return DiffuseMaterial{color_texture(state, params, "reflectance", Rgb(0.5f))};
   if (type == "conductor") return ConductorMaterial{read_conductor(state, params, "eta", "k"), read_roughness(state, params)};
-  if (type == "dielectric") return DielectricMaterial{find_eta(state, params, "eta"), read_roughness(state, params)};
+  if (type == "dielectric") return read_dielectric(state, params);
   if (type == "thindielectric") return ThinDielectricMaterial{find_eta(state, params, "eta")};
   if (type == "diffusetransmission") return read_diffuse_transmission(state, params);
   if (type == "coateddiffuse")
@@ -125,12 +134,42 @@ MaterialKind read_material_kind(State& state, ParamList& params, const std::stri
                                        "coateddiffuse", "coatedconductor", "mix", "interface"}));
 }
 
-MaterialKind read_checked_kind(State& state, ParamList& params, const std::string& type) {
-  MaterialKind kind = read_material_kind(state, params, type);
-  params.ignore("displacement", {ParamType::number, ParamType::texture}, "surfaces are not displaced");
-  params.ignore("normalmap", {ParamType::string}, "normals come from the mesh alone");
+/// The one texture of a file of normals, which hold numbers however it is encoded.
+TextureId normal_map(State& state, ParamList& params) {
+  const std::string path = resolve_asset(state, params.where("normalmap"), params.string("normalmap", ""));
+  const auto found = state.normal_maps.find(path);
+  if (found != state.normal_maps.end()) return found->second;
+  ImageTexture image;
+  image.path = path;
+  image.encoding = "linear";
+  image.is_data = true;
+  const auto id = static_cast<TextureId>(state.scene.textures.size());
+  state.scene.textures.push_back({std::move(image), params.where("normalmap")});
+  return state.normal_maps[path] = id;
+}
+
+/// What bends the normals of a material of any kind but those that have none themselves.
+void read_bending(State& state, ParamList& params, Material& material) {
+  if (std::holds_alternative<MixMaterial>(material.kind) || std::holds_alternative<InterfaceMaterial>(material.kind)) {
+    params.ignore("displacement", {ParamType::number, ParamType::texture}, "a mix has those of its materials");
+    params.ignore("normalmap", {ParamType::string}, "a mix has those of its materials");
+    return;
+  }
+  const auto height = find_float_texture(state, params, "displacement");
+  if (height && !std::holds_alternative<ConstantTexture>(state.scene.textures[*height].kind)) material.displacement = height;
+  if (!params.find("normalmap", {ParamType::string})) return;
+  material.normal_map = normal_map(state, params);
+  if (height) params.ignore("displacement", {ParamType::number, ParamType::texture}, "the material has a normal map");
+  material.displacement.reset();
+}
+
+Material read_checked_material(State& state, ParamList& params, const std::string& type) {
+  Material material;
+  material.kind = read_material_kind(state, params, type);
+  read_bending(state, params, material);
   params.finish();
-  return kind;
+  material.where = params.where();
+  return material;
 }
 
 MaterialId add_material(State& state, Material material) {
@@ -139,17 +178,19 @@ MaterialId add_material(State& state, Material material) {
 }
 
 /// Unnamed plain materials of equal content are one.
-MaterialId shared_material(State& state, MaterialKind kind, const Location& where) {
-  if (const auto* diffuse = std::get_if<DiffuseMaterial>(&kind)) {
-    const auto it = state.diffuse_materials.find(diffuse->reflectance);
+MaterialId shared_material(State& state, Material material) {
+  if (material.displacement || material.normal_map) return add_material(state, std::move(material));
+  if (const auto* diffuse = std::get_if<DiffuseMaterial>(&material.kind)) {
+    const TextureId reflectance = diffuse->reflectance;
+    const auto it = state.diffuse_materials.find(reflectance);
     if (it != state.diffuse_materials.end()) return it->second;
-    return state.diffuse_materials[diffuse->reflectance] = add_material(state, {kind, "", where});
+    return state.diffuse_materials[reflectance] = add_material(state, std::move(material));
   }
-  if (std::holds_alternative<InterfaceMaterial>(kind)) {
-    if (!state.interface_material) state.interface_material = add_material(state, {kind, "", where});
+  if (std::holds_alternative<InterfaceMaterial>(material.kind)) {
+    if (!state.interface_material) state.interface_material = add_material(state, std::move(material));
     return *state.interface_material;
   }
-  return add_material(state, {std::move(kind), "", where});
+  return add_material(state, std::move(material));
 }
 
 }  // namespace
@@ -157,7 +198,7 @@ MaterialId shared_material(State& state, MaterialKind kind, const Location& wher
 void read_material(State& state, Tokenizer& in, const Location& where) {
   const std::string type(in.expect_string("a kind of material, as \"diffuse\"").text);
   ParamList params = read_param_list(state, in, "material \"" + printable(type) + "\"", where, &AttributeDefaults::material);
-  state.graphics.material = shared_material(state, read_checked_kind(state, params, type), where);
+  state.graphics.material = shared_material(state, read_checked_material(state, params, type));
 }
 
 void read_make_named_material(State& state, Tokenizer& in, const Location& where) {
@@ -167,7 +208,8 @@ void read_make_named_material(State& state, Tokenizer& in, const Location& where
   try {
     const std::string type = params.string("type", "?");
     if (type == "?") throw params.error("material \"" + printable(name) + "\" has no type; add \"string type\"");
-    Material material{read_checked_kind(state, params, type), name, where};
+    Material material = read_checked_material(state, params, type);
+    material.name = name;
     state.materials[name] = add_material(state, std::move(material));
   } catch (const Error&) {
     state.materials.try_emplace(name, 0);  // the default, so that its users are not reported as well

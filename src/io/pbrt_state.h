@@ -89,7 +89,8 @@ struct State {
   std::map<std::array<float, 3>, TextureId> constants;
   std::map<TextureId, MaterialId> diffuse_materials;
   std::optional<MaterialId> interface_material;
-  Names<Rgb> spectrum_colors;  ///< of named spectra and black bodies, by use
+  Names<TextureId> normal_maps;  ///< by path
+  Names<Rgb> spectrum_colors;    ///< of named spectra and black bodies, by use
 
   // Wait for WorldBegin: the film needs the camera's shutter, the settings the Film's frame.
   Location film_where;

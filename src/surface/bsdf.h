@@ -28,6 +28,8 @@ class Bsdf {
   Bsdf() = default;  ///< black
   Bsdf(const Frame& shading, const Lobe& lobe) : frame_(shading), lobe_(lobe) {}
 
+  Vec3 normal() const { return frame_.z; }  ///< of the shading frame
+
   /// f(wo, wi) |cos wi|; 0 for specular lobes.
   Rgb eval(Vec3 wo, Vec3 wi) const;
   /// 1/sr; 0 for specular lobes.

@@ -98,6 +98,8 @@ Crossings Geometry::trace_all(const Ray& ray, float t_min, float t_max) const {
   return find_crossings(*impl_, embree_ray(ray, t_min, t_max), GeometryQuery::Boundaries::all, ray);
 }
 
+SurfaceTangents Geometry::tangents(const SurfaceHit& hit) const { return surface_tangents(*impl_, hit); }
+
 Vec3 Geometry::offset_origin(const SurfaceHit& hit, Vec3 direction) const {
   const float side = dot(hit.ng, direction) < 0 ? -1.0f : 1.0f;
   const Vec3 offset = hit.ng * (side * hit.position_error);

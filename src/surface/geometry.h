@@ -42,8 +42,15 @@ struct SurfaceHit {
   std::uint32_t shape;      ///< index into placed()
   std::uint32_t primitive;  ///< triangle or patch of a mesh, 0 for other shapes
   std::uint32_t group;      ///< boundary group of the surface, kNone when it bounds no media
-  Vec2 barycentric;         ///< weights of vertices 1 and 2 of a triangle; (u, v) of a patch before its uvs
+  Vec2 barycentric;         ///< weights of vertices 1 and 2 of a triangle; (u, v) of a patch or quadric before its uvs
   float position_error;     ///< how far p can be from the surface that rays are tested against
+};
+
+/// How the surface goes on about a hit, in world space (pbrt's partial derivatives); for bump mapping and footprints.
+struct SurfaceTangents {
+  Vec3 dpdu, dpdv;                  ///< of the surface itself
+  Vec3 shading_dpdu, shading_dpdv;  ///< of the shading geometry
+  Vec3 dndu, dndv;                  ///< of the shading normal
 };
 
 /// A passage of the ray through the boundary of a group.
@@ -87,6 +94,9 @@ class Geometry {
   /// Every boundary in (t_min, t_max), also those of real surfaces; nothing blocks. To find what holds a point: over a
   /// ray from it to infinity, in any direction, minus the sum of a group's signs is how often the group holds the point.
   Crossings trace_all(const Ray& ray, float t_min, float t_max) const;
+
+  /// Worked out when asked for: few surfaces need it.
+  SurfaceTangents tangents(const SurfaceHit& hit) const;
 
   /// Origin for a ray that leaves the hit along `direction` and does not meet the same surface again at t > 0.
   Vec3 offset_origin(const SurfaceHit& hit, Vec3 direction) const;

@@ -49,4 +49,15 @@ SurfaceHit surface_hit(const GeometryImpl& impl, const RTCRayHit& found) {
           .position_error = std::max(static_cast<float>(error), std::numeric_limits<float>::min())};
 }
 
+SurfaceTangents surface_tangents(const GeometryImpl& impl, const SurfaceHit& hit) {
+  const std::uint32_t instance = impl.placed[hit.shape].instance;
+  const PlacedObject* object = instance == kNone ? nullptr : &impl.objects[instance];
+  const PartSet& set = object ? *object->set : impl.world();
+  const Part& part = set.parts[hit.shape - (object ? object->first_placed : 0)];
+  const ShapeTangents t = part.tangents(hit.primitive, hit.barycentric.x, hit.barycentric.y);
+  const auto vector = [&](Vec3d v) { return to_vec3(object ? object->map.vector(v) : v); };
+  const auto normal = [&](Vec3d n) { return to_vec3(object ? object->map.normal(n) : n); };
+  return {vector(t.dpdu), vector(t.dpdv), vector(t.shading_dpdu), vector(t.shading_dpdv), normal(t.dndu), normal(t.dndv)};
+}
+
 }  // namespace tyndall

@@ -39,6 +39,8 @@ struct Part {
   ShapeRoots intersect(std::uint32_t primitive, const ShapeRay& ray) const;
   ShapeSurface surface(std::uint32_t primitive, double u, double v) const;
   int orientation(std::uint32_t primitive) const;  ///< of ng against the roots' facing
+  ShapeTangents tangents(std::uint32_t primitive, double u, double v) const;
+  Enclosure enclosure(Vec3d center) const;  ///< by ng
 };
 
 /// The shapes of the world, or of one object. Two structures: real surfaces, and everything that bounds media.
@@ -131,6 +133,8 @@ void object_record(const RTCIntersectFunctionNArguments* args);
 
 /// Crossings from records: sorted, without duplicates (geometry_crossings.cpp).
 Crossings crossings_of(BoundaryRecords& records, const Ray& ray);
+
+SurfaceTangents surface_tangents(const GeometryImpl& impl, const SurfaceHit& hit);
 
 /// The hit that Embree found, in the world (geometry_hit.cpp).
 SurfaceHit surface_hit(const GeometryImpl& impl, const RTCRayHit& found);

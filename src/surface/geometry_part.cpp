@@ -43,4 +43,29 @@ int Part::orientation(std::uint32_t primitive) const {
   return is_patch ? patch_orientation(*mesh, primitive) : triangle_orientation(*mesh, primitive);
 }
 
+ShapeTangents Part::tangents(std::uint32_t primitive, double u, double v) const {
+  const auto* mesh = std::get_if<PlacedMesh>(&form);
+  if (!mesh) return std::get<PlacedQuadric>(form).tangents(u, v);
+  return is_patch ? patch_tangents(*mesh, primitive, u, v) : triangle_tangents(*mesh, primitive, u, v);
+}
+
+Enclosure Part::enclosure(Vec3d center) const {
+  const auto* mesh = std::get_if<PlacedMesh>(&form);
+  if (!mesh) return std::get<PlacedQuadric>(form).enclosure(center);
+  Enclosure e;
+  for (std::uint32_t i = 0; i < primitive_count(); ++i) {
+    const int side = orientation(i);
+    const auto at = [&](std::uint32_t vertex) { return mesh->position(vertex) - center; };
+    if (is_patch) {
+      const auto c = mesh->corners<4>(i);
+      e.add_triangle(at(c[0]), at(c[1]), at(c[3]), side);
+      e.add_triangle(at(c[0]), at(c[3]), at(c[2]), side);
+    } else {
+      const auto c = mesh->corners<3>(i);
+      e.add_triangle(at(c[0]), at(c[1]), at(c[2]), side);
+    }
+  }
+  return e;
+}
+
 }  // namespace tyndall

@@ -16,13 +16,17 @@ Rgb at_least_zero(Rgb c) { return {std::max(c.r, 0.0f), std::max(c.g, 0.0f), std
 class LobeBuilder {
  public:
   LobeBuilder(const Textures& textures, const SurfaceQuery& query)
-      : textures_(textures), query_(query), at_{.uv = query.uv, .p = query.p} {}
+      : textures_(textures),
+        query_(query),
+        at_{.uv = query.uv, .p = query.p, .n = query.ng, .footprint = query.detail ? &query.detail->footprint : nullptr} {}
 
   Bsdf::Lobe operator()(const DiffuseMaterial& m) const { return DiffuseLobe{clamp01(rgb(m.reflectance))}; }
 
   Bsdf::Lobe operator()(const ConductorMaterial& m) const { return conductor(m.optics, m.roughness, 1); }
 
-  Bsdf::Lobe operator()(const DielectricMaterial& m) const { return dielectric(m.eta, m.roughness); }
+  Bsdf::Lobe operator()(const DielectricMaterial& m) const {
+    return dielectric(m.eta_rgb && query_.channel ? (*m.eta_rgb)[*query_.channel] : m.eta, m.roughness);
+  }
 
   Bsdf::Lobe operator()(const ThinDielectricMaterial& m) const { return ThinDielectricLobe{index(m.eta)}; }
 
@@ -46,6 +50,14 @@ class LobeBuilder {
   Bsdf::Lobe operator()(const InterfaceMaterial&) const { return PassThroughLobe{}; }
 
   float scalar(TextureId id) const { return textures_.eval_float(id, at_); }
+
+  /// The shading frame as the material bends it. A normal map wins over a displacement, as in pbrt.
+  Frame frame(const Material& m) const {
+    if (m.normal_map) return normal_mapped(query_.shading, query_.ng, rgb(*m.normal_map));
+    if (!m.displacement || !query_.detail) return query_.shading;
+    return bumped(query_.shading, at_, query_.detail->tangents,
+                  [&](const TextureQuery& at) { return m.displacement_scale * textures_.eval_float(*m.displacement, at); });
+  }
 
  private:
   Rgb rgb(TextureId id) const { return textures_.eval(id, at_); }
@@ -86,6 +98,29 @@ class LobeBuilder {
 
 Materials::Materials(const Scene& scene, const Textures& textures) : materials_(scene.materials), textures_(&textures) {
   check_materials(materials_, textures.size());
+  for (const Material& m : materials_) traits_.push_back(own_traits(m));
+  // Mixes have those of their parts; most are defined after them, and one round does.
+  for (bool changed = true; changed;) {
+    changed = false;
+    for (MaterialId id = 0; id < materials_.size(); ++id) {
+      const auto* mix = std::get_if<MixMaterial>(&materials_[id].kind);
+      if (!mix) continue;
+      Traits t = traits_[id];
+      t.add(traits_[mix->first]);
+      t.add(traits_[mix->second]);
+      changed |= t != traits_[id];
+      traits_[id] = t;
+    }
+  }
+}
+
+Materials::Traits Materials::own_traits(const Material& m) const {
+  Traits t;
+  t.wants_detail = m.displacement.has_value();
+  t.bends_normals = m.displacement || m.normal_map;
+  for_each_texture(m, [&](TextureId texture) { t.wants_detail |= textures_->uses_footprint(texture); });
+  if (const auto* glass = std::get_if<DielectricMaterial>(&m.kind)) t.is_dispersive = glass->eta_rgb.has_value();
+  return t;
 }
 
 Bsdf Materials::bsdf(MaterialId id, const SurfaceQuery& query) const {
@@ -98,7 +133,9 @@ Bsdf Materials::bsdf(MaterialId id, const SurfaceQuery& query) const {
     random = std::min(second ? random / amount : (random - amount) / (1 - amount), kOneMinusEpsilon);
     id = second ? mix->second : mix->first;
   }
-  return {query.shading, std::visit(build, materials_[id].kind)};
+  const Material& material = materials_[id];
+  const bool is_bent = material.normal_map || material.displacement;
+  return {is_bent ? build.frame(material) : query.shading, std::visit(build, material.kind)};
 }
 
 bool Materials::is_interface(MaterialId id) const { return std::holds_alternative<InterfaceMaterial>(materials_[id].kind); }

@@ -41,6 +41,8 @@ ShapeRoots intersect_patch(const ShapeRay& ray, const std::array<Vec3d, 4>& p);
 
 ShapeSurface triangle_surface(const PlacedMesh& mesh, std::uint32_t primitive, double b1, double b2);
 ShapeSurface patch_surface(const PlacedMesh& mesh, std::uint32_t primitive, double u, double v);
+ShapeTangents triangle_tangents(const PlacedMesh& mesh, std::uint32_t primitive, double b1, double b2);
+ShapeTangents patch_tangents(const PlacedMesh& mesh, std::uint32_t primitive, double u, double v);
 
 /// +1 or -1: whether ng of the primitive is along its winding, by pbrt's rules: vertex normals decide where there are any.
 int triangle_orientation(const PlacedMesh& mesh, std::uint32_t primitive);

@@ -154,4 +154,69 @@ ShapeSurface patch_surface(const PlacedMesh& mesh, std::uint32_t primitive, doub
   return surface;
 }
 
+namespace {
+
+/// Derivatives with respect to the texture coordinates (s, t) from those by the patch's own (u, v).
+class Reparametrized {
+ public:
+  Reparametrized(const std::array<Vec2, 4>& st, double u, double v) {
+    const auto fu = static_cast<float>(u), fv = static_cast<float>(v);
+    const Vec2 du = (st[1] * (1 - fv) + st[3] * fv) - (st[0] * (1 - fv) + st[2] * fv);
+    const Vec2 dv = (st[2] * (1 - fu) + st[3] * fu) - (st[0] * (1 - fu) + st[1] * fu);
+    const auto inverse = [](float x) { return std::abs(x) < 1e-8f ? 0.0 : 1.0 / x; };  // pbrt's rule
+    duds_ = inverse(du.x), dvds_ = inverse(dv.x), dudt_ = inverse(du.y), dvdt_ = inverse(dv.y);
+  }
+
+  void apply(Vec3d& du, Vec3d& dv) const {
+    const Vec3d ds = du * duds_ + dv * dvds_, dt = du * dudt_ + dv * dvdt_;
+    du = ds, dv = dt;
+  }
+
+ private:
+  double duds_, dvds_, dudt_, dvdt_;
+};
+
+/// Weingarten's equations for a bilinear patch, whose only second derivative is the mixed one `d2p`.
+std::array<Vec3d, 2> normal_derivatives(Vec3d dpdu, Vec3d dpdv, Vec3d d2p) {
+  const double E = dot(dpdu, dpdu), F = dot(dpdu, dpdv), G = dot(dpdv, dpdv);
+  const double f = dot(normalize(cross(dpdu, dpdv)), d2p), det = E * G - F * F;
+  if (!(det > 0)) return {};
+  return {(dpdu * (f * F) - dpdv * (f * E)) * (1 / det), (dpdv * (f * F) - dpdu * (f * G)) * (1 / det)};
+}
+
+}  // namespace
+
+ShapeTangents patch_tangents(const PlacedMesh& mesh, std::uint32_t primitive, double u, double v) {
+  const auto corner = mesh.corners<4>(primitive);
+  const Corners p{mesh.position(corner[0]), mesh.position(corner[1]), mesh.position(corner[2]), mesh.position(corner[3])};
+  ShapeTangents t;
+  t.dpdu = dpdu_at(p, v), t.dpdv = dpdv_at(p, u);
+  auto [normal_du, normal_dv] = normal_derivatives(t.dpdu, t.dpdv, (p[0] - p[1]) + (p[3] - p[2]));
+  if (!mesh.normals.empty()) {
+    const auto normal = [&](std::size_t i) { return Vec3d(mesh.normals[corner[i]]); };
+    normal_du = lerp(v, normal(1), normal(3)) - lerp(v, normal(0), normal(2));
+    normal_dv = lerp(u, normal(2), normal(3)) - lerp(u, normal(0), normal(1));
+  }
+  if (!mesh.uvs->empty()) {
+    std::array<Vec2, 4> st;
+    for (std::size_t i = 0; i < 4; ++i) st[i] = (*mesh.uvs)[corner[i]];
+    const Reparametrized by_st(st, u, v);
+    Vec3d dpds = t.dpdu, dpdt = t.dpdv;
+    by_st.apply(dpds, dpdt);
+    const Vec3d n = cross(dpds, dpdt);
+    if (dot(n, n) > 0) {
+      if (dot(cross(t.dpdu, t.dpdv), n) < 0) dpdt = -dpdt;
+      t.dpdu = dpds, t.dpdv = dpdt;
+    }
+    by_st.apply(normal_du, normal_dv);
+  }
+  t.dndu = normal_du, t.dndv = normal_dv;
+  t.shading_dpdu = t.dpdu, t.shading_dpdv = t.dpdv;
+  if (!mesh.normals.empty()) {
+    const ShapeSurface s = patch_surface(mesh, primitive, u, v);
+    t.shading_dpdu = turn(t.dpdu, s.ng, s.ns), t.shading_dpdv = turn(t.dpdv, s.ng, s.ns);
+  }
+  return t;
+}
+
 }  // namespace tyndall

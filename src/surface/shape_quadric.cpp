@@ -126,9 +126,60 @@ ShapeSurface PlacedQuadric::surface(double phi, double v) const {
   return surface;
 }
 
+ShapeTangents PlacedQuadric::tangents(double phi, double v) const {
+  const double c = std::cos(phi), s = std::sin(phi);
+  const double rho = kind_ == Kind::sphere ? radius_ * std::sin(v) : kind_ == Kind::disk ? v : radius_;
+  const double arm = phi_max_ * std::max(rho, 1e-5 * radius_);
+  const Vec3d dpdu{-s * arm, c * arm, 0};
+  Vec3d dpdv, dndu, dndv;  // the normal of round shapes is the outward one, whichever way the shape faces, as in pbrt
+  if (kind_ == Kind::sphere) {
+    const double span = std::acos(z_max_ / radius_) - std::acos(z_min_ / radius_), z = radius_ * std::cos(v);
+    dpdv = Vec3d{z * c, z * s, -rho} * span;
+    dndu = dpdu * (1 / radius_), dndv = dpdv * (1 / radius_);
+  } else if (kind_ == Kind::cylinder) {
+    dpdv = {0, 0, z_max_ - z_min_};
+    dndu = dpdu * (1 / radius_);
+  } else {
+    dpdv = Vec3d{c, s, 0} * (inner_radius_ - radius_);
+  }
+  ShapeTangents t;
+  t.dpdu = t.shading_dpdu = map_.vector(dpdu);
+  t.dpdv = t.shading_dpdv = map_.vector(dpdv);
+  t.dndu = map_.normal(dndu);
+  t.dndv = map_.normal(dndv);
+  return t;
+}
+
 Bounds3 PlacedQuadric::bounds() const {
   const float r = static_cast<float>(radius_);
   return to_space_.bounds({{-r, -r, static_cast<float>(z_min_)}, {r, r, static_cast<float>(z_max_)}});
+}
+
+Enclosure PlacedQuadric::enclosure(Vec3d center) const {
+  constexpr int kAround = 12, kAlong = 6;
+  if (kind_ == Kind::sphere && phi_max_ >= kTwoPi && z_min_ <= -radius_ && z_max_ >= radius_) {
+    const double determinant = dot(cross(map_.vector({1, 0, 0}), map_.vector({0, 1, 0})), map_.vector({0, 0, 1}));
+    const double volume = kTwoPi * 2 / 3 * radius_ * radius_ * radius_ * std::abs(determinant);
+    return {.volume = orientation() * volume, .vector_area = {}, .area = std::cbrt(volume * volume)};  // of this size
+  }
+  const double low = kind_ == Kind::sphere ? std::acos(z_max_ / radius_) : kind_ == Kind::disk ? inner_radius_ : z_min_;
+  const double high = kind_ == Kind::sphere ? std::acos(z_min_ / radius_) : kind_ == Kind::disk ? radius_ : z_max_;
+  // A full turn ends exactly where it began.
+  const bool full = phi_max_ >= kTwoPi;
+  const auto at = [&](int i, int j) {
+    return surface(full && i == kAround ? 0 : phi_max_ * i / kAround, low + (high - low) * j / kAlong).p - center;
+  };
+  Enclosure e;
+  for (int i = 0; i < kAround; ++i) {
+    for (int j = 0; j < kAlong; ++j) {
+      const Vec3d a = at(i, j), b = at(i + 1, j), c = at(i + 1, j + 1), d = at(i, j + 1);
+      const Vec3d ng = surface(phi_max_ * (i + 0.5) / kAround, low + (high - low) * (j + 0.5) / kAlong).ng;
+      const int side = dot(cross(c - a, d - b), ng) < 0 ? -1 : 1;
+      e.add_triangle(a, b, c, side);
+      e.add_triangle(a, c, d, side);
+    }
+  }
+  return e;
 }
 
 }  // namespace tyndall

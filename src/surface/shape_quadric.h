@@ -17,7 +17,9 @@ class PlacedQuadric {
 
   ShapeRoots intersect(const ShapeRay& ray) const;
   ShapeSurface surface(double u, double v) const;
+  ShapeTangents tangents(double u, double v) const;
   Bounds3 bounds() const;
+  Enclosure enclosure(Vec3d center) const;            ///< of a tessellation, by ng
   int orientation() const { return flip_ ? -1 : 1; }  ///< of ng against cross(dpdu, dpdv)
 
  private:

@@ -37,4 +37,30 @@ struct ShapeSurface {
   double error = 0;  ///< bound on the distance from p to the plane that rays are tested against
 };
 
+/// How the surface goes on about a point, as pbrt defines it: what bump mapping and texture footprints need.
+struct ShapeTangents {
+  Vec3d dpdu, dpdv;                  ///< of the surface itself
+  Vec3d shading_dpdu, shading_dpdv;  ///< perpendicular to the shading normal
+  Vec3d dndu, dndv;                  ///< of the shading normal
+};
+
+/// What a surface encloses, by the divergence theorem: integrals of (p - center) . n / 3, of n, and of 1 over it.
+struct Enclosure {
+  double volume = 0;
+  Vec3d vector_area;
+  double area = 0;
+
+  void add_triangle(Vec3d a, Vec3d b, Vec3d c, int orientation) {
+    const Vec3d n = cross(b - a, c - a) * (0.5 * orientation);
+    volume += dot(a, n) / 3;
+    vector_area = vector_area + n;
+    area += length(n);
+  }
+  void add(const Enclosure& other) {
+    volume += other.volume;
+    vector_area = vector_area + other.vector_area;
+    area += other.area;
+  }
+};
+
 }  // namespace tyndall

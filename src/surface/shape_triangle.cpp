@@ -90,4 +90,54 @@ ShapeSurface triangle_surface(const PlacedMesh& mesh, std::uint32_t primitive, d
   return surface;
 }
 
+namespace {
+
+/// The two partial derivatives of what is linear over a triangle, from its differences to corner 2.
+struct Linear {
+  explicit Linear(const std::array<Vec2, 3>& uv)
+      : du02(double(uv[0].x) - uv[2].x),
+        dv02(double(uv[0].y) - uv[2].y),
+        du12(double(uv[1].x) - uv[2].x),
+        dv12(double(uv[1].y) - uv[2].y),
+        determinant(du02 * dv12 - dv02 * du12) {}
+
+  bool degenerate() const { return std::abs(determinant) < 1e-9; }  // pbrt's threshold
+  Vec3d along_u(Vec3d d02, Vec3d d12) const { return (d02 * dv12 - d12 * dv02) * (1 / determinant); }
+  Vec3d along_v(Vec3d d02, Vec3d d12) const { return (d12 * du02 - d02 * du12) * (1 / determinant); }
+
+  double du02, dv02, du12, dv12, determinant;
+};
+
+}  // namespace
+
+ShapeTangents triangle_tangents(const PlacedMesh& mesh, std::uint32_t primitive, double b1, double b2) {
+  const auto corner = mesh.corners<3>(primitive);
+  const Vec3d p2 = mesh.position(corner[2]);
+  const Vec3d dp02 = mesh.position(corner[0]) - p2, dp12 = mesh.position(corner[1]) - p2;
+  std::array<Vec2, 3> uv{Vec2{0, 0}, Vec2{1, 0}, Vec2{1, 1}};
+  for (std::size_t i = 0; i < 3 && !mesh.uvs->empty(); ++i) uv[i] = (*mesh.uvs)[corner[i]];
+  const Linear linear(uv);
+  const Vec3d ng = normalize(cross(dp02, dp12));
+
+  ShapeTangents t;
+  if (!linear.degenerate()) t.dpdu = linear.along_u(dp02, dp12), t.dpdv = linear.along_v(dp02, dp12);
+  const Vec3d across = cross(t.dpdu, t.dpdv);
+  if (!(dot(across, across) > 0)) {
+    const Frame frame = Frame::around(to_vec3(ng));
+    t.dpdu = Vec3d(frame.x), t.dpdv = Vec3d(frame.y);
+  }
+  t.shading_dpdu = t.dpdu, t.shading_dpdv = t.dpdv;
+  if (mesh.normals.empty()) return t;
+
+  const auto normal = [&](std::size_t i) { return Vec3d(mesh.normals[corner[i]]); };
+  const Vec3d ns = triangle_surface(mesh, primitive, b1, b2).ns;
+  const Vec3d bitangent = cross(ns, t.dpdu);
+  if (dot(bitangent, bitangent) > 0) t.shading_dpdu = cross(bitangent, ns), t.shading_dpdv = bitangent;
+  if (!linear.degenerate()) {
+    t.dndu = linear.along_u(normal(0) - normal(2), normal(1) - normal(2));
+    t.dndv = linear.along_v(normal(0) - normal(2), normal(1) - normal(2));
+  }
+  return t;
+}
+
 }  // namespace tyndall

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/frame.h"
 #include "math/warp.h"
 
 namespace tyndall {
@@ -65,6 +66,29 @@ std::optional<Vec2> CameraRays::film_position(Vec3 p) const {
   if (!(local[2] > 0)) return std::nullopt;
   const double x = (local[0] / local[2] - x0_) / (x1_ - x0_), y = (local[1] / local[2] - y1_) / (y0_ - y1_);
   return Vec2{static_cast<float>(x * width_), static_cast<float>(y * height_)};
+}
+
+/// Steps of a pixel at the point `to_p` from the center, without regard to the plane there.
+std::array<Vec3, 2> CameraRays::steps_across(Vec3 to_p) const {
+  const float sx = (x1_ - x0_) / width_, sy = (y0_ - y1_) / height_;
+  if (orthographic_) return {to_world_.vector({sx, 0, 0}), to_world_.vector({0, sy, 0})};
+  const float depth = dot(to_p, axis_);
+  if (film_position(center() + to_p)) return {to_world_.vector({sx * depth, 0, 0}), to_world_.vector({0, sy * depth, 0})};
+  const Frame frame = Frame::around(normalize(to_p));
+  const float distance = length(to_p);
+  return {frame.x * (sx * distance), frame.y * (sy * distance)};
+}
+
+std::array<Vec3, 2> CameraRays::pixel_steps(Vec3 p, Vec3 n) const {
+  const Vec3 to_p = orthographic_ ? axis_ : p - center();
+  std::array<Vec3, 2> steps = steps_across(p - center());
+  for (Vec3& step : steps) {
+    // The neighbouring ray leaves along to_p + step, or beside it: it meets the plane of p where n . (x - p) = 0.
+    const Vec3 neighbour = orthographic_ ? to_p : to_p + step;
+    const Vec3 on_plane = step - neighbour * (dot(n, step) / dot(n, neighbour));
+    if (is_finite(on_plane)) step = on_plane;
+  }
+  return steps;
 }
 
 float CameraRays::solid_angle(Vec2 p) const {

@@ -1,6 +1,7 @@
 /// From film positions to rays.
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "tyndall/scene.h"
@@ -18,6 +19,9 @@ class CameraRays {
   Vec3 center() const { return to_world_.point({0, 0, 0}); }
   /// Whether every ray starts at center().
   bool is_pinhole() const { return !orthographic_ && lens_radius_ == 0; }
+  /// How far a point of a plane at `p` with unit normal `n`, world space, moves for a step of one pixel to the right and
+  /// down; as the camera would see it through its middle where it does not see it.
+  std::array<Vec3, 2> pixel_steps(Vec3 p, Vec3 n) const;
   /// Where on the film (pixels of the full frame) a pinhole sees world point `p`; nothing for what is behind it.
   std::optional<Vec2> film_position(Vec3 p) const;
   /// Of the film at `p`, as a pinhole sees it whose transform keeps angles: sr per pixel^2.
@@ -34,6 +38,8 @@ class CameraRays {
  private:
   Transform to_world_;
   bool orthographic_;
+  std::array<Vec3, 2> steps_across(Vec3 to_p) const;
+
   float x0_, x1_, y0_, y1_;  ///< screen window, times tan(fov/2) in perspective
   float width_, height_;
   float lens_radius_, focal_distance_;

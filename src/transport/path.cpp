@@ -185,10 +185,41 @@ std::optional<Vertex> Path::arrive(const Trace& trace) {
 
 Vertex Path::surface_vertex(const SurfaceHit& hit) {
   const Vec3 wo = -ray_.d;
-  const SurfaceQuery query{
-      .p = hit.p, .uv = hit.uv, .shading = Frame::around(hit.ns, hit.dpdu), .wo = wo, .random = hash_to_unit(hit.p, wo)};
-  const Bsdf bsdf = context_.world.materials.bsdf(context_.world.material_of(hit), query);
-  return Vertex(Vertex::Surface{hit, bsdf}, wo, media_);
+  const Materials& materials = context_.world.materials;
+  const MaterialId material = context_.world.material_of(hit);
+  SurfaceQuery query{.p = hit.p,
+                     .uv = hit.uv,
+                     .shading = Frame::around(hit.ns, hit.dpdu),
+                     .wo = wo,
+                     .random = hash_to_unit(hit.p, wo),
+                     .ng = hit.ng};
+  std::optional<SurfaceDetail> detail;
+  if (materials.wants_detail(material)) query.detail = &detail.emplace(surface_detail(hit));
+  if (materials.is_dispersive(material)) query.channel = narrow_to_channel();
+  Vertex::Surface surface{hit, materials.bsdf(material, query)};
+  if (materials.bends_normals(material)) surface.hit.ns = surface.bsdf.normal();  // what lights are chosen by
+  return Vertex(surface, wo, media_);
+}
+
+/// Every hit takes the camera's footprint, reduced as pbrt reduces it for 64 samples a pixel and more: a picture must not
+/// depend on how many are yet to come.
+SurfaceDetail Path::surface_detail(const SurfaceHit& hit) const {
+  constexpr float kShare = 0.125f;
+  const auto [dpdx, dpdy] = context_.world.camera.pixel_steps(hit.p, hit.ng);
+  const SurfaceTangents tangents = context_.world.geometry.tangents(hit);
+  return {tangents, footprint_on(tangents, kShare * dpdx, kShare * dpdy)};
+}
+
+/// At its first dispersive surface a path chooses the channel it goes on with, whose weight makes up for the others.
+int Path::narrow_to_channel() {
+  if (!channel_) {
+    channel_ = std::min(static_cast<int>(3 * context_.sampler.next_1d()), 2);
+    Rgb one;
+    one[*channel_] = 3;
+    beta_ *= one;
+    if (seen_) *seen_ *= one;
+  }
+  return *channel_;
 }
 
 /// Light that reached the camera after `events` bounces.

@@ -73,6 +73,8 @@ class Path {
   Rgb light_at(const Directions& directions, Rgb beta);
   float scattering_mis_weight(LightId id, float light_pdf) const;
   Vertex surface_vertex(const SurfaceHit& hit);
+  SurfaceDetail surface_detail(const SurfaceHit& hit) const;
+  int narrow_to_channel();
   void add_environment();
   void add_surface_emission(const SurfaceHit& hit);
   void add(Rgb contribution, int events);
@@ -88,6 +90,7 @@ class Path {
   MediaState media_;
   Rgb beta_{1.0f};
   std::optional<Rgb> seen_;     ///< in place of beta_ for the light of what the camera's ray meets at its end
+  std::optional<int> channel_;  ///< the only one of beta_ that is not 0: a dispersive surface was met
   int depth_ = 0;               ///< bounces so far
   float eta_scale_ = 1;         ///< undoes the 1/eta^2 of transmissions in Russian roulette
   float before_ = 1;            ///< throughput up to an offer's vertex, where beta_ begins anew: for roulette

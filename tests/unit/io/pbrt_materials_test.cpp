@@ -57,7 +57,7 @@ TEST_CASE("dielectrics") {
   const SceneFile glass = test::read_world_file("Material \"dielectric\" \"spectrum eta\" \"glass-BK7\"");
   CHECK(last<DielectricMaterial>(glass.scene).eta == doctest::Approx(1.518).epsilon(0.003));
   REQUIRE(glass.warnings.size() == 1);
-  CHECK_CONTAINS(glass.warnings[0].message, "without dispersion");
+  CHECK_CONTAINS(glass.warnings[0].message, "red, green and blue are refracted each in one direction");
   CHECK_CONTAINS(world_error("Material \"dielectric\" \"float eta\" 0"), "no index of refraction");
   CHECK_CONTAINS(world_error("Material \"dielectric\" \"rgb eta\" [1 1 1]"), "is a float or spectrum, not a rgb");
 }
@@ -127,9 +127,45 @@ TEST_CASE("material errors") {
   CHECK_CONTAINS(world_error("Material \"diffuse\" \"rgb reflectance\" [1 1 1 1 1 1]"), "more than one colour");
 }
 
-TEST_CASE("displacement and normal maps are ignored with one warning") {
-  const SceneFile file = test::read_world_file(
-      "Material \"diffuse\" \"string normalmap\" \"a.png\" Material \"diffuse\" \"string normalmap\" \"b.png\"");
-  REQUIRE(file.warnings.size() == 1);
-  CHECK_CONTAINS(file.warnings[0].message, "\"normalmap\" of material \"diffuse\" is ignored");
+TEST_CASE("displacement and normal maps") {
+  const test::TempFolder folder;
+  folder.write("a.png", "not read here");
+  const auto file = [&](const std::string& body) { return read_scene_text("WorldBegin " + body, "test.pbrt", folder.path()); };
+  const std::string fbm = "Texture \"h\" \"float\" \"fbm\" ", diffuse = "Material \"diffuse\" ",
+                    bumps = "\"texture displacement\" \"h\" ", map = "\"string normalmap\" \"a.png\" ";
+  const Scene bumpy = file(fbm + diffuse + bumps + diffuse).scene;
+  REQUIRE(bumpy.materials.size() == 2);  // the default, which the last one shares, and the bumpy one
+  REQUIRE(test::last_material(bumpy).displacement.has_value());
+  CHECK(std::holds_alternative<NoiseTexture>(bumpy.textures.at(*test::last_material(bumpy).displacement).kind));
+
+  const Scene mapped = file(diffuse + map + "Material \"conductor\" " + map).scene;
+  REQUIRE(test::last_material(mapped).normal_map.has_value());
+  CHECK(mapped.materials.at(1).normal_map == test::last_material(mapped).normal_map);
+  const auto image = std::get<ImageTexture>(mapped.textures.at(*test::last_material(mapped).normal_map).kind);
+  CHECK(image.is_data);
+  CHECK(image.encoding == "linear");
+
+  const SceneFile both = file(fbm + diffuse + bumps + map);
+  CHECK_FALSE(test::last_material(both.scene).displacement.has_value());
+  REQUIRE(both.warnings.size() == 1);
+  CHECK_CONTAINS(both.warnings[0].message,
+                 "\"displacement\" of material \"diffuse\" is ignored: the material has a normal map");
+  CHECK_FALSE(
+      test::last_material(file(diffuse + "\"float displacement\" 0.1").scene).displacement.has_value());  // moves nothing
+  CHECK_CONTAINS(world_error("Material \"diffuse\" \"string normalmap\" \"absent.png\""), "does not exist");
+}
+
+TEST_CASE("dispersion: dielectrics take an index for each channel, coats their mean") {
+  const SceneFile glass = test::read_world_file("Material \"dielectric\" \"spectrum eta\" \"glass-F11\"");
+  const auto m = last<DielectricMaterial>(glass.scene);
+  REQUIRE(m.eta_rgb.has_value());
+  CHECK(m.eta_rgb->r < m.eta_rgb->g);
+  CHECK(m.eta_rgb->g < m.eta_rgb->b);
+  CHECK(m.eta == doctest::Approx(luminance(*m.eta_rgb)));
+  const auto constant_index =
+      last<DielectricMaterial>(read_world("Material \"dielectric\" \"spectrum eta\" [400 1.4 700 1.4]"));
+  CHECK_FALSE(constant_index.eta_rgb.has_value());
+  const SceneFile coat = test::read_world_file("Material \"coateddiffuse\" \"spectrum eta\" \"glass-F11\"");
+  REQUIRE(coat.warnings.size() == 1);
+  CHECK_CONTAINS(coat.warnings[0].message, "without dispersion");
 }

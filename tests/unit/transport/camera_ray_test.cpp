@@ -103,3 +103,27 @@ TEST_CASE("a point is seen at the film position whose ray passes it, far from th
     }
   }
 }
+
+TEST_CASE("a pixel's step on a plane is where the neighbouring pixel's ray meets it") {
+  Camera perspective, parallel;
+  perspective.fov_degrees = 50;
+  parallel.kind = Camera::Kind::orthographic;
+  for (Camera* camera : {&perspective, &parallel}) {
+    camera->to_world = Transform::translate(1, 2, 3) * Transform::rotate(30, 1, 1, 0);
+    const CameraRays rays(*camera, film(40, 30));
+    const Vec3 n = normalize(Vec3{0.3f, -0.4f, -0.8f});
+    const auto on_plane = [&](Vec2 pixel) {
+      const Ray ray = rays.ray(pixel, {0.5f, 0.5f});
+      return ray.at(dot(n, Vec3{2, 1, 9} - ray.o) / dot(n, ray.d));
+    };
+    const Vec3 p = on_plane({12.5f, 20.25f});
+    const auto [dx, dy] = rays.pixel_steps(p, n);
+    CHECK(length(dx - (on_plane({13.5f, 20.25f}) - p)) < 1e-4f * length(dx));
+    CHECK(length(dy - (on_plane({12.5f, 21.25f}) - p)) < 1e-4f * length(dy));
+  }
+  // What lies behind the camera counts as far as its distance says.
+  const CameraRays rays(perspective, film(40, 30));
+  const Vec3 back = rays.to_world().vector({0, 0, -1}), behind = rays.center() + 5.0f * back;
+  const Vec3 ahead = rays.center() - 5.0f * back;
+  CHECK(length(rays.pixel_steps(behind, back)[0]) == doctest::Approx(length(rays.pixel_steps(ahead, back)[0])));
+}
