@@ -30,6 +30,9 @@ struct PlacedShape {
 struct BoundaryGroup {
   std::optional<MediumId> inside, outside;
   Bounds3 bounds{};  ///< of its shapes, world space
+  /// Closed, with normals that point inward (ReverseOrientation, a mirrored quadric): what it holds was the scene's outside
+  /// medium, exchanged here. Where there was none, the inside medium stays within, since it cannot fill all space.
+  bool inverted = false;
 };
 
 struct SurfaceHit {

@@ -122,6 +122,37 @@ GeometryImpl::GeometryImpl(const Scene& scene, const Textures* textures, int thr
     }
   }
   bound_groups();
+  turn_groups();
+}
+
+/// Finds the closed groups whose normals point inward.
+void GeometryImpl::turn_groups() {
+  constexpr double kClosed = 0.01;  // of the area; what shapes of a closed surface leave over are tessellated quadrics
+  // Of an instance the set decides, as a mirroring map turns normals along with it.
+  std::map<const PartSet*, std::vector<std::uint32_t>> inverted;  // a part of each such group
+  for (const auto& set : sets) {
+    std::map<BoundaryId, std::pair<std::uint32_t, Enclosure>> enclosures;
+    for (const Part& part : set->parts) {
+      if (!part.shape->boundary || part.box.empty()) continue;
+      const auto entry = enclosures.try_emplace(*part.shape->boundary, part.index, Enclosure{}).first;
+      entry->second.second.add(part.enclosure(Vec3d(set->bounds.center())));
+    }
+    for (const auto& [boundary, found] : enclosures) {
+      const auto& [part, e] = found;
+      if (e.volume < 0 && length(e.vector_area) <= kClosed * e.area) inverted[set.get()].push_back(part);
+    }
+  }
+  const auto turn = [&](const PartSet& set, std::uint32_t first) {
+    const auto parts = inverted.find(&set);
+    if (parts == inverted.end()) return;
+    for (const std::uint32_t part : parts->second) {
+      BoundaryGroup& group = groups[placed[first + part].group];
+      group.inverted = true;
+      if (group.outside) std::swap(group.inside, group.outside);
+    }
+  };
+  turn(world(), 0);
+  for (const PlacedObject& object : objects) turn(*object.set, object.first_placed);
 }
 
 /// A part that is turned takes the box around its turned box.

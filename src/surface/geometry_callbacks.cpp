@@ -131,8 +131,10 @@ void part_record(const RTCIntersectFunctionNArguments* args) {
     const int number = which++;
     if (!(root.t > ray.tnear && root.t < ray.tfar)) continue;
     if (only_if_passed && stops(part, query, args->primID, root, number)) continue;
-    const int sign = -root.facing * part.orientation(args->primID);
-    query.records->push_back({root.t, root.cosine, query.impl->placed[shape].group, shape, args->primID, sign});
+    const std::uint32_t group = query.impl->placed[shape].group;
+    const int outward = part.orientation(args->primID) * (query.impl->groups[group].inverted ? -1 : 1);
+    const int sign = -root.facing * outward;
+    query.records->push_back({root.t, root.cosine, group, shape, args->primID, sign});
   }
 }
 

@@ -99,6 +99,7 @@ struct GeometryImpl {
  private:
   void create_device(int threads);
   void bound_groups();
+  void turn_groups();
   void place_shapes(const Scene& scene);
   std::unique_ptr<PartSet> make_set(const Scene& scene, const std::vector<Shape>& shapes, const Textures* textures);
   void build_set(PartSet& set, bool with_objects);

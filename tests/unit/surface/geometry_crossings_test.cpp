@@ -242,3 +242,50 @@ TEST_CASE("a boundary coplanar with the surface that is hit belongs to the far s
   }
   CHECK(hits == 20000);
 }
+
+TEST_CASE("closed boundaries whose normals point inward hold their outside medium; open ones stay as they are") {
+  const auto group_of = [](std::vector<Shape> shapes) {
+    Scene scene = empty_scene();
+    scene.boundaries[0] = {std::nullopt, MediumId{0}};
+    scene.shapes = std::move(shapes);
+    const Geometry geometry(scene, nullptr, 1);
+    int inside = 0;  // of the origin
+    for (const Crossing& c : geometry.trace_all({{0.1f, 0.2f, 0.3f}, {0.1f, 0.2f, 1}}, 0, kInfinity)) inside -= c.sign;
+    const BoundaryGroup& group = geometry.groups().at(0);
+    return std::pair(group, inside);
+  };
+  const auto reversed = [](Shape shape) {
+    shape.reverse_orientation = true;
+    return shape;
+  };
+  const Transform mirror = Transform::translate(0.1, 0, 0) * Transform::rotate(20, 1, 2, 3) * Transform::scale(-2, 2, 3);
+  const std::vector<Shape> inward{
+      reversed(make_shape(Sphere{2, -2, 2}, {}, kInterface)), reversed(make_shape(box_mesh(), {}, kInterface)),
+      reversed(make_shape(box_patches(), {}, kInterface)), make_shape(Sphere{}, mirror, kInterface)};
+  for (const Shape& shape : inward) {
+    const auto [group, inside] = group_of({shape});
+    CHECK(group.inverted);
+    CHECK(group.inside == MediumId{0});
+    CHECK_FALSE(group.outside.has_value());
+    CHECK(inside == 1);
+  }
+  for (const Shape& shape : {make_shape(Sphere{}, {}, kInterface), make_shape(box_mesh(), mirror, kInterface)})
+    CHECK_FALSE(group_of({shape}).first.inverted);
+
+  Shape top = make_shape(Disk{1}, {}, kInterface), bottom = reversed(make_shape(Disk{-1}, {}, kInterface));
+  Shape side = make_shape(Cylinder{}, {}, kInterface);
+  CHECK_FALSE(group_of({side, top, bottom}).first.inverted);
+  for (Shape* shape : {&top, &bottom, &side}) shape->reverse_orientation = !shape->reverse_orientation;
+  CHECK(group_of({side, top, bottom}).first.inverted);
+
+  // A bowl has volume on both sides of its middle and is no boundary of either.
+  CHECK_FALSE(group_of({reversed(make_shape(Sphere{2, -2, 0}, {}, kInterface))}).first.inverted);
+}
+
+TEST_CASE("an inward boundary without an outside medium keeps its inside medium within") {
+  Scene scene = empty_scene();
+  scene.shapes.push_back(make_shape(Sphere{}, Transform::scale(-1, 1, 1), kInterface));
+  const Geometry geometry(scene, nullptr, 1);
+  CHECK(geometry.groups().at(0).inverted);
+  CHECK(geometry.groups().at(0).inside == MediumId{0});
+}
