@@ -23,11 +23,22 @@ constexpr double kFamily = 1e-3;
 const std::string kFolder = std::string(TYNDALL_SOURCE_DIR) + "/tests/regression/pbrt";
 
 /// Coloured scenes: pbrt is spectral, Tyndall RGB; image means within 4 %.
-constexpr std::array kColoured{"light_infinite_const",      "light_infinite_map",       "light_area_sphere",
-                               "light_area_disk_blackbody", "light_mesh_textured_rgb",  "material_diffuse_rgb",
-                               "material_conductor_copper", "material_coatedconductor", "medium_emission",
-                               "medium_chromatic",          "medium_rgbgrid",           "medium_uniformgrid_temperature",
-                               "medium_vdb_temperature",    "texture_imagemap"};
+constexpr std::array kColoured{"light_infinite_const",
+                               "light_infinite_map",
+                               "light_area_sphere",
+                               "light_area_disk_blackbody",
+                               "light_mesh_textured_rgb",
+                               "material_diffuse_rgb",
+                               "material_conductor_copper",
+                               "material_coatedconductor",
+                               "medium_emission",
+                               "medium_chromatic",
+                               "medium_rgbgrid",
+                               "medium_uniformgrid_temperature",
+                               "medium_vdb_temperature",
+                               "texture_imagemap",
+                               "material_dispersion",
+                               "texture_marble"};
 /// Noise with tails too long for 64 pixels to be normal; judged by the image mean alone.
 constexpr std::array kLongTailed{"medium_light_inside", "medium_camera_inside", "medium_homog_forward",
                                  "medium_vdb_temperature"};
@@ -124,9 +135,9 @@ void print(const Verdict& v) {
 
 }  // namespace
 
-TEST_CASE("50 scenes agree with pbrt-v4") {
+TEST_CASE("73 scenes agree with pbrt-v4") {
   const std::vector<std::string> names = scene_names();
-  CHECK(names.size() == 50);
+  CHECK(names.size() == 73);
 
   std::size_t tests = 0;
   for (const std::string& name : names) {
