@@ -207,6 +207,11 @@ void read_make_named_medium(State& state, Tokenizer& in, const Location& where) 
   try {
     Medium medium = read_medium(state, params);
     params.finish();
+    if (!std::holds_alternative<HomogeneousMedium>(medium.kind) && !state.coordinate_systems.contains("camera") &&
+        !state.in_world && !state.render_in_world_space)
+      state.reports.warn(where,
+                         "a medium made before Camera stands in the world; pbrt-v4 moves it along with the camera's position "
+                         "unless Option \"rendercoordsys\" is \"world\"");
     add(std::move(medium));
   } catch (const Error&) {
     add({});  // so that its users are not reported as well

@@ -6,6 +6,7 @@
 
 #include "io/file_text.h"
 #include "io/pbrt_blocks.h"
+#include "io/pbrt_boundaries.h"
 #include "io/pbrt_directives.h"
 #include "io/pbrt_suggest.h"
 #include "io/pbrt_textures.h"
@@ -41,6 +42,7 @@ class Reading {
           throw top.error(top.peek().at, "the file ends without WorldBegin; add it after the camera and the film");
       });
       if (errors_.empty()) warn_of_idle_textures(state_);  // else what names them may be what failed
+      if (errors_.empty()) warn_of_crossing_boundaries(state_);
     } catch (TooManyErrors) {
       errors_.push_back("more errors are not shown; mend these first");
     }

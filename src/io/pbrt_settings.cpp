@@ -159,6 +159,7 @@ void read_option(State& state, Tokenizer& in, const Location& where) {
   if (std::find(known.begin(), known.end(), name) == known.end())
     throw in.error(declaration.at, "option \"" + printable(declaration.text) + "\" is unknown; " + suggestion(name, known));
   if (value.text == "false") return;
+  if (name == "rendercoordsys") state.render_in_world_space = value.text == "world";
   if (name == "disablepixeljitter")
     state.reports.warn(where,
                        "option \"disablepixeljitter\" is ignored: samples spread over the pixel, so that edges are smooth");

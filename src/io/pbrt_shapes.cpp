@@ -93,6 +93,8 @@ std::optional<AreaLight> emission(State& state, const Location& where) {
     state.reports.warn(where, "shapes with material \"interface\" do not emit: their AreaLightSource is ignored");
     return std::nullopt;
   }
+  if (state.open_object)
+    state.reports.warn(where, "shapes of an object emit, once for each instance; in pbrt-v4 they stay dark");
   return state.graphics.area_light;
 }
 

@@ -71,7 +71,8 @@ struct State {
   std::string folder;  ///< of the top file; relative names start here
 
   bool in_world = false;
-  bool world_assumed = false;  ///< WorldBegin was missed and that was said; more of the same need not be
+  bool render_in_world_space = false;  ///< Option "rendercoordsys" "world"
+  bool world_assumed = false;          ///< WorldBegin was missed and that was said; more of the same need not be
   GraphicsState graphics;
   std::vector<Block> blocks;
   std::optional<ObjectId> open_object;
