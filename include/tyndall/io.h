@@ -36,7 +36,7 @@ struct SceneCheck {
 };
 SceneCheck check_scene(const std::string& path);
 
-/// Read .exr (scanline or tiled, flat, single part), .png, .hdr, .jpg, .tga, .bmp by content, not by name.
+/// Read .exr (scanline or tiled, flat, single part), .png, .pfm, .hdr, .jpg, .tga, .bmp by content, not by name.
 /// 8-bit values are made linear by `encoding` ("": sRGB for 8-bit colour). Throws Error (scene).
 Image read_image(const std::string& path, const std::string& encoding = "");
 

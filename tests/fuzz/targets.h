@@ -12,6 +12,7 @@ void ply(std::string_view bytes);             ///< a polygon file
 void vdb(std::string_view bytes);             ///< a .vdb file, imported as a medium
 void nvdb(std::string_view bytes);            ///< a .nvdb file, imported as a medium
 void exr(std::string_view bytes);             ///< an OpenEXR image
+void pfm(std::string_view bytes);             ///< a portable float map
 void checkpoint(std::string_view bytes);      ///< a checkpoint but for its checksum, which is made to fit
 void volume_message(std::string_view bytes);  ///< what the process that reads .vdb files answers, should one take it over
 
@@ -26,6 +27,7 @@ inline constexpr Target kTargets[] = {{"vdb", vdb, true},
                                       {"ply", ply},
                                       {"nvdb", nvdb},
                                       {"exr", exr, true},
+                                      {"pfm", pfm},
                                       {"checkpoint", checkpoint},
                                       {"volume_message", volume_message}};
 
