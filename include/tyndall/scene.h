@@ -209,6 +209,9 @@ struct InfiniteLight {
   std::string path;  ///< environment map; empty: constant. Square: equal-area octahedral; 2:1: latitude-longitude
   std::array<float, 9> to_rec709{1, 0, 0, 0, 1, 0, 0, 0, 1};
   std::optional<float> illuminance;  ///< when set, scale so that an upward surface receives this much (pbrt)
+  /// World-space corners of a rectangle, in order around it: only what comes through it arrives, from the side of
+  /// (p3 - p0) x (p1 - p0) (pbrt).
+  std::optional<std::array<Vec3, 4>> portal;
 };
 struct Light {
   std::variant<PointLight, SpotLight, DistantLight, InfiniteLight> kind;

@@ -65,12 +65,20 @@ DistantLight distant_light(State& state, ParamList& params) {
   return {normalize(state.graphics.ctm.vector(aim(params, from, to))), E};
 }
 
+/// In world space, whatever the current transformation.
+std::optional<std::array<Vec3, 4>> portal_of(ParamList& params) {
+  const std::vector<Vec3> corners = params.triples("portal", ParamType::point3);
+  if (corners.empty()) return std::nullopt;
+  if (corners.size() != 4)
+    throw params.error("portal", "a portal has four corners, not " + std::to_string(corners.size()) +
+                                     "; give them in order around the rectangle");
+  return std::array<Vec3, 4>{corners[0], corners[1], corners[2], corners[3]};
+}
+
 InfiniteLight infinite_light(State& state, ParamList& params) {
   InfiniteLight light;
   light.to_world = state.graphics.ctm;
-  if (params.find("portal", {ParamType::point3}))
-    throw params.error("portal",
-                       "portals are not supported by Tyndall; remove the parameter, the picture is the same but for noise");
+  light.portal = portal_of(params);
   const float scale = params.number("scale", 1);
   const auto illuminance = positive(params, "illuminance");
   const auto L = find_color(state, params, "L", ColorUse::light);

@@ -65,7 +65,7 @@ void Builder::refer(Kind kind, std::size_t index, std::uint32_t primitive) {
   require_room(1);
   Lights::Parts::Reference& reference = parts_->lights.emplace_back();
   reference.kind = kind;
-  reference.index = static_cast<std::uint32_t>(index) & 0x1fffffff;
+  reference.index = static_cast<std::uint32_t>(index) & 0x0fffffff;
   reference.primitive = primitive;
 }
 
@@ -86,6 +86,11 @@ void Builder::add(const Light& light) {
     const auto& infinite = std::get<InfiniteLight>(light.kind);
     require_finite(infinite.L, light.where);
     parts_->infinite.push_back(static_cast<LightId>(parts_->lights.size()));
+    if (infinite.portal) {
+      refer(Kind::portal, parts_->portals.size());
+      parts_->portals.emplace_back(infinite, light.where);
+      return;
+    }
     refer(Kind::environment, parts_->environments.size());
     parts_->environments.emplace_back(infinite, light.where);
     if (parts_->environments.back().even()) ++parts_->even_skies;
@@ -193,6 +198,7 @@ SelectionInput Builder::selection_input() const {
     if (!tree || !(input.power.back() > 0)) continue;
     if (r.kind == Kind::emitter) add_near(p.emitters[r.index].bounds(r.primitive), id);
     if (r.kind == Kind::volume) add_near(p.volumes[r.index].bounds(), id);
+    if (r.kind == Kind::portal) add_near(p.portals[r.index].bounds(), id);
     if (r.kind == Kind::environment) input.far.push_back({p.environments[r.index].cones(), id});
     if (r.kind == Kind::distant) {
       const DeltaArrival a = p.distants[r.index].arrival();
@@ -255,6 +261,7 @@ void Builder::enclose() {
   Bounds3& all = parts_->near_box;
   all.expand(parts_->point_box);
   all.expand(box_of(parts_->emitters));
+  for (const Portal& portal : parts_->portals) all.expand(portal.bounds().box);
   std::vector<Bounds3> objects;
   for (const EmitterObject& o : parts_->instanced.objects()) objects.push_back(box_of(o.emitters()));
   for (const EmitterInstance& i : parts_->instanced.instances()) {

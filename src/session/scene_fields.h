@@ -23,8 +23,8 @@ constexpr int field_count() {
   if (kOneOf<T, CoatedConductorMaterial, Material, MediumOptics>) return 3;
   if (kOneOf<T, PixelBounds, Chromaticities, CheckerboardTexture, CloudMedium, SpotLight>) return 4;
   if (kOneOf<T, TriangleMesh, BilinearMesh, Sphere, Disk, Cylinder>) return 4;
-  if (kOneOf<T, Medium, InfiniteLight, AreaLight>) return 5;
-  if (kOneOf<T, TextureMapping, PixelFilter>) return 6;
+  if (kOneOf<T, Medium, AreaLight>) return 5;
+  if (kOneOf<T, TextureMapping, PixelFilter, InfiniteLight>) return 6;
   if (kOneOf<T, Coating>) return 7;
   if (kOneOf<T, ImageTexture, RgbGridMedium, Shape, Camera>) return 8;
   if (kOneOf<T, Film>) return 9;

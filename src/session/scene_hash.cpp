@@ -108,8 +108,9 @@ class SceneHasher {
     add_all(kind, optics, to_world);
   }
   void add(const InfiniteLight& light) {
-    const auto& [to_world, L, path, to_rec709, illuminance] = light;
+    const auto& [to_world, L, path, to_rec709, illuminance, portal] = light;
     add_all(to_world, L, FileContent{path}, to_rec709, illuminance);
+    if (portal) add(*portal);  // images from before there were portals can still be merged
   }
   void add(const AreaLight& light) {
     const auto& [L, path, to_rec709, power, two_sided] = light;

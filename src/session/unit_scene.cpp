@@ -123,6 +123,8 @@ class Units {
       change(spot->to_world);
       spot->I = scaled(spot->I, -2 * exponent_);
     }
+    if (auto* infinite = std::get_if<InfiniteLight>(&light.kind); infinite && infinite->portal)
+      for (Vec3& corner : *infinite->portal) corner = to_unit_.point(corner);
   }
   void change_emission(Shape& shape) const {
     if (shape.emission && shape.emission->power) shape.emission->power = std::ldexp(*shape.emission->power, -2 * exponent_);

@@ -85,8 +85,11 @@ TEST_CASE("infinite") {
   CHECK(map.L == Rgb(3.0f));
   CHECK(*map.illuminance == 9);
   CHECK_FALSE(map.to_world.is_identity());
-  CHECK_CONTAINS(world_error("LightSource \"infinite\" \"point3 portal\" [0 0 0 1 0 0 1 1 0 0 1 0]"),
-                 "portals are not supported");
+  // Portals stand in world space.
+  const auto portal = light<InfiniteLight>("Scale 2 2 2 LightSource \"infinite\" \"point3 portal\" [0 0 0 1 0 0 1 1 0 0 1 0]");
+  REQUIRE(portal.portal);
+  CHECK((*portal.portal)[2] == Vec3{1, 1, 0});
+  CHECK_CONTAINS(world_error("LightSource \"infinite\" \"point3 portal\" [0 0 0 1 0 0 1 1 0]"), "four corners, not 3");
   CHECK_CONTAINS(world_error("LightSource \"infinite\" \"string filename\" \"absent.exr\""), "does not exist");
 }
 

@@ -50,6 +50,7 @@ Scene everything(const std::string& path) {
   InfiniteLight sky;
   sky.path = path;
   sky.illuminance = 1.0f;
+  sky.portal.emplace();
   s.lights = {{PointLight{}, {}}, {SpotLight{}, {}}, {DistantLight{}, {}}, {sky, {}}};
   AreaLight area;
   area.path = path;
