@@ -49,6 +49,18 @@ struct ImageSize {
 };
 ImageSize read_image_size(const std::string& path);
 
+/// The intensities of a luminaire by direction, type C: a row of candela a horizontal angle, in it one a vertical angle.
+/// Vertical angles are 0 straight down and 180 straight up. The range of the horizontal ones says what is symmetric: one angle:
+/// all around, to 90: quadrants, to 180 or from 90 to 270: both sides, to 360: nothing.
+struct PhotometricWeb {
+  std::vector<float> vertical_degrees, horizontal_degrees;  ///< increasing
+  std::vector<float> candela;                               ///< of the luminaire: all its lamps, and the file's factors
+};
+/// Read an IES LM-63 file of photometric type C. Throws Error (scene) with the place in the file.
+PhotometricWeb read_ies(const std::string& path);
+/// The same from text; `name` stands for the file in messages.
+PhotometricWeb read_ies_text(std::string_view text, const std::string& name);
+
 /// The header of an .exr that read_image reads: windows, attributes, and channels without values. Throws Error (scene).
 Image read_exr_header(const std::string& path);
 

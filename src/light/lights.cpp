@@ -34,6 +34,8 @@ double Lights::Parts::power(LightId light) const {
       return strength(points[r.index].power());
     case Kind::spot:
       return strength(spots[r.index].power());
+    case Kind::profile:
+      return strength(profiles[r.index].power());
     case Kind::distant:
       return strength(distants[r.index].irradiance()) * disk;
     case Kind::environment:
@@ -85,6 +87,8 @@ std::optional<LightSample> Lights::sample(LightId light, Vec3 p, Vec2 u, bool mi
       return delta_sample(parts_->points[r.index].arrival(p));
     case Kind::spot:
       return delta_sample(parts_->spots[r.index].arrival(p));
+    case Kind::profile:
+      return delta_sample(parts_->profiles[r.index].arrival(p));
     case Kind::distant:
       return delta_sample(parts_->distants[r.index].arrival());
     case Kind::environment:
@@ -112,6 +116,8 @@ LightPlace Lights::place(LightId light) const {
       return {.center = parts_->points[r.index].position()};
     case Kind::spot:
       return {.center = parts_->spots[r.index].position(), .beam = parts_->spots[r.index].beam()};
+    case Kind::profile:
+      return {.center = parts_->profiles[r.index].position(), .beam = parts_->profiles[r.index].beam()};
     case Kind::portal:
       return parts_->portals[r.index].place();
     case Kind::emitter:
@@ -129,7 +135,7 @@ LightPlace Lights::place(LightId light) const {
 
 std::optional<Vec3> Lights::point(LightId light) const {
   const Kind kind = parts_->find(light).kind;
-  return kind == Kind::point || kind == Kind::spot ? place(light).center : std::nullopt;
+  return kind == Kind::point || kind == Kind::spot || kind == Kind::profile ? place(light).center : std::nullopt;
 }
 
 float Lights::pdf(LightId light, Vec3 p, const EmitterHit& hit) const {
@@ -165,7 +171,8 @@ float Lights::environment_pdf(LightId light, const Ray& ray, bool mis_partner) c
 std::size_t Lights::memory_bytes() const {
   const Parts& p = *parts_;
   std::size_t bytes = p.lights.capacity() * sizeof(Parts::Reference) + p.points.capacity() * sizeof(PointEmitter) +
-                      p.spots.capacity() * sizeof(SpotEmitter) + p.distants.capacity() * sizeof(DistantEmitter) +
+                      p.spots.capacity() * sizeof(SpotEmitter) + p.profiles.capacity() * sizeof(ProfileEmitter) +
+                      p.profile_library.memory_bytes() + p.distants.capacity() * sizeof(DistantEmitter) +
                       p.volumes.capacity() * sizeof(VolumeEmitter) + p.first_light.capacity() * sizeof(LightId) +
                       p.instanced.memory_bytes();
   for (const SelectorStats& s : p.selector_stats) bytes += s.memory_bytes;

@@ -108,11 +108,12 @@ class Lights {
   LightId first_volume() const;
   double power(LightId light) const;  ///< W, mean of the channels
   LightPlace place(LightId light) const;
-  /// Position of a point or spot light; nothing for any other. The scene's light sources, these among them, are the first.
+  /// Position of a light without extent that has one: point, spot, goniometric, projection; nothing for any other. The scene's
+  /// light sources, these among them, are the first.
   std::optional<Vec3> point(LightId light) const;
   /// Encloses all lights of surfaces and points, and portals; empty where all are at infinity. Media that emit are not in it.
   const Bounds3& near_box() const;
-  const Bounds3& point_box() const;  ///< of point and spot lights alone
+  const Bounds3& point_box() const;  ///< of those that have a point() alone
   const LightStats& stats() const;
   std::size_t memory_bytes() const;  ///< selectors included
 

@@ -11,11 +11,13 @@
 #include "light/instanced_emitters.h"
 #include "light/lights.h"
 #include "light/portal.h"
+#include "light/profile_emitter.h"
+#include "light/profile_library.h"
 
 namespace tyndall {
 
 struct Lights::Parts {
-  enum class Kind : std::uint32_t { point, spot, distant, environment, portal, emitter, volume, instanced };
+  enum class Kind : std::uint32_t { point, spot, profile, distant, environment, portal, emitter, volume, instanced };
   /// Where a light is to be found: eight bytes, since there may be millions.
   struct Reference {
     Kind kind : 4;
@@ -30,6 +32,8 @@ struct Lights::Parts {
   std::vector<Reference> lights;
   std::vector<PointEmitter> points;
   std::vector<SpotEmitter> spots;
+  std::vector<ProfileEmitter> profiles;
+  ProfileLibrary profile_library;  ///< what `profiles` refer to
   std::vector<DistantEmitter> distants;
   std::vector<Environment> environments;
   std::vector<Portal> portals;

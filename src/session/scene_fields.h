@@ -21,9 +21,9 @@ constexpr int field_count() {
   if (kOneOf<T, Boundary, PointLight, DistantLight, Light, Object, Instance>) return 2;
   if (kOneOf<T, Vec3, Rgb, MixTexture, Roughness, ConductorOptics, DiffuseTransmissionMaterial, MixMaterial>) return 3;
   if (kOneOf<T, CoatedConductorMaterial, Material, MediumOptics>) return 3;
-  if (kOneOf<T, PixelBounds, Chromaticities, CheckerboardTexture, CloudMedium, SpotLight>) return 4;
+  if (kOneOf<T, PixelBounds, Chromaticities, CheckerboardTexture, CloudMedium, SpotLight, GoniometricLight>) return 4;
   if (kOneOf<T, TriangleMesh, BilinearMesh, Sphere, Disk, Cylinder>) return 4;
-  if (kOneOf<T, Medium, AreaLight>) return 5;
+  if (kOneOf<T, Medium, AreaLight, ProjectionLight>) return 5;
   if (kOneOf<T, TextureMapping, PixelFilter, InfiniteLight>) return 6;
   if (kOneOf<T, Coating>) return 7;
   if (kOneOf<T, ImageTexture, RgbGridMedium, Shape, Camera>) return 8;

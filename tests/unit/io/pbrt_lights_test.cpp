@@ -93,6 +93,33 @@ TEST_CASE("infinite") {
   CHECK_CONTAINS(world_error("LightSource \"infinite\" \"string filename\" \"absent.exr\""), "does not exist");
 }
 
+TEST_CASE("goniometric and projection") {
+  const test::TempFolder folder;
+  folder.write("map.exr", "not read here");
+  const auto read = [&](const std::string& text) {
+    return read_scene_text("WorldBegin " + text, "test.pbrt", folder.path()).scene;
+  };
+  const std::string file = " \"string filename\" \"map.exr\" ";
+  const auto map = std::get<GoniometricLight>(
+      read("Translate 1 2 3 LightSource \"goniometric\"" + file + "\"rgb I\" [1 2 3] \"float scale\" 2 \"float power\" 7")
+          .lights.at(0)
+          .kind);
+  CHECK(map.path == folder.path() + "/map.exr");
+  CHECK(map.to_world.point({}) == Vec3{1, 2, 3});
+  check_near(map.I, {2, 4, 6});
+  CHECK(*map.power == 7);
+  const auto image = std::get<ProjectionLight>(
+      read("LightSource \"projection\"" + file + "\"float fov\" 30 \"float scale\" 4").lights.at(0).kind);
+  CHECK(image.fov_degrees == 30);
+  CHECK(image.I == Rgb(4));
+  CHECK(!image.power);
+  CHECK_CONTAINS(world_error("LightSource \"goniometric\""), "has no \"filename\"");
+  CHECK_CONTAINS(world_error("LightSource \"projection\""), "has no \"filename\"");
+  CHECK_CONTAINS(world_error("LightSource \"goniometric\" \"string filename\" \"absent.ies\""), "does not exist");
+  CHECK_THROWS_WITH_AS(read("LightSource \"projection\"" + file + "\"float fov\" 180"), doctest::Contains("below 180 degrees"),
+                       Error);
+}
+
 TEST_CASE("area lights") {
   check_near(area("").L, Rgb(1.0f));
   const AreaLight a = area("\"rgb L\" [4 8 3] \"float scale\" 2 \"bool twosided\" true \"float power\" 40");
@@ -125,7 +152,6 @@ TEST_CASE("colours are read in the colour space in force") {
 }
 
 TEST_CASE("light errors") {
-  CHECK_CONTAINS(world_error("LightSource \"goniometric\""), "not supported by Tyndall");
   CHECK_CONTAINS(world_error("LightSource \"pint\""), "did you mean \"point\"?");
   CHECK_CONTAINS(world_error("LightSource \"point\" \"rgb L\" [1 1 1]"), "light \"point\" has no parameter \"L\"");
   CHECK_CONTAINS(world_error("LightSource \"point\" \"spectrum I\" \"metal-Xx\""), "neither a named spectrum");

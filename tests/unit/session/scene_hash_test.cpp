@@ -51,7 +51,11 @@ Scene everything(const std::string& path) {
   sky.path = path;
   sky.illuminance = 1.0f;
   sky.portal.emplace();
-  s.lights = {{PointLight{}, {}}, {SpotLight{}, {}}, {DistantLight{}, {}}, {sky, {}}};
+  GoniometricLight map;
+  ProjectionLight image;
+  map.path = image.path = path;
+  map.power = image.power = 1.0f;
+  s.lights = {{PointLight{}, {}}, {SpotLight{}, {}}, {DistantLight{}, {}}, {sky, {}}, {map, {}}, {image, {}}};
   AreaLight area;
   area.path = path;
   area.power = 1.0f;
