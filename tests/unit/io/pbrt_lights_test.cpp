@@ -137,6 +137,15 @@ TEST_CASE("an interface does not emit, and that is said") {
   CHECK(file.warnings.size() == 1);
 }
 
+TEST_CASE("an emitter's alpha, which counts otherwise in pbrt, is warned of unless it is 0 or 1") {
+  const auto warnings = [](const std::string& alpha) {
+    return test::read_world_file("AreaLightSource \"diffuse\" Shape \"sphere\" \"float alpha\" " + alpha).warnings.size();
+  };
+  CHECK(warnings("0") == 0);
+  CHECK(warnings("1") == 0);
+  CHECK(warnings("0.5") == 1);
+}
+
 TEST_CASE("colours are read in the colour space in force") {
   const ColorSpace& aces = *find_color_space("aces2065-1");
   check_near(light<PointLight>("ColorSpace \"aces2065-1\" LightSource \"point\" \"rgb I\" [1 2 3]").I,
