@@ -36,7 +36,7 @@ struct SceneCheck {
 };
 SceneCheck check_scene(const std::string& path);
 
-/// Read .exr (scanline or tiled, flat, single part), .png, .hdr, .jpg, .tga, .bmp by content, not by name.
+/// Read .exr (scanline or tiled, flat, single part), .png, .pfm, .hdr, .jpg, .tga, .bmp by content, not by name.
 /// 8-bit values are made linear by `encoding` ("": sRGB for 8-bit colour). Throws Error (scene).
 Image read_image(const std::string& path, const std::string& encoding = "");
 
@@ -48,6 +48,18 @@ struct ImageSize {
   int width = 0, height = 0;
 };
 ImageSize read_image_size(const std::string& path);
+
+/// The intensities of a luminaire by direction, type C: a row of candela a horizontal angle, in it one a vertical angle.
+/// Vertical angles are 0 straight down and 180 straight up. The range of the horizontal ones says what is symmetric: one angle:
+/// all around, to 90: quadrants, to 180 or from 90 to 270: both sides, to 360: nothing.
+struct PhotometricWeb {
+  std::vector<float> vertical_degrees, horizontal_degrees;  ///< increasing
+  std::vector<float> candela;                               ///< of the luminaire: all its lamps, and the file's factors
+};
+/// Read an IES LM-63 file of photometric type C. Throws Error (scene) with the place in the file.
+PhotometricWeb read_ies(const std::string& path);
+/// The same from text; `name` stands for the file in messages.
+PhotometricWeb read_ies_text(std::string_view text, const std::string& name);
 
 /// The header of an .exr that read_image reads: windows, attributes, and channels without values. Throws Error (scene).
 Image read_exr_header(const std::string& path);

@@ -241,9 +241,29 @@ struct InfiniteLight {
   std::string path;  ///< environment map; empty: constant. Square: equal-area octahedral; 2:1: latitude-longitude
   std::array<float, 9> to_rec709{1, 0, 0, 0, 1, 0, 0, 0, 1};
   std::optional<float> illuminance;  ///< when set, scale so that an upward surface receives this much (pbrt)
+  /// World-space corners of a rectangle, in order around it: only what comes through it arrives, from the side of
+  /// (p3 - p0) x (p1 - p0) (pbrt).
+  std::optional<std::array<Vec3, 4>> portal;
+};
+/// A point whose intensity depends on direction.
+struct GoniometricLight {
+  Transform to_world;  ///< light at the origin
+  Rgb I{1.0f};         ///< W/sr where the map is 1; of a photometric file, a factor
+  /// A square equal-area map of the mean of its channels, whose z is the light's y and the other way round (pbrt); or .ies:
+  /// LM-63, up along the light's +y, horizontal angle 0 along +x and 90 along +z.
+  std::string path;
+  std::optional<float> power;  ///< when set, scale so that it emits this much times I
+};
+/// A point that projects an image along +z, its right to +x and its top to +y.
+struct ProjectionLight {
+  Transform to_world;          ///< light at the origin
+  Rgb I{1.0f};                 ///< W/sr where the image is 1
+  std::string path;            ///< image
+  float fov_degrees = 90;      ///< of its shorter side
+  std::optional<float> power;  ///< when set, scale so that it emits this much times I
 };
 struct Light {
-  std::variant<PointLight, SpotLight, DistantLight, InfiniteLight> kind;
+  std::variant<PointLight, SpotLight, DistantLight, InfiniteLight, GoniometricLight, ProjectionLight> kind;
   Location where;
 };
 /// Diffuse emission of a shape.

@@ -12,7 +12,7 @@ constexpr const char* kMaterialKinds[] = {
     "diffuse",       "conductor",       "dielectric", "thindielectric", "diffusetransmission",
     "coateddiffuse", "coatedconductor", "mix",        "interface"};
 constexpr const char* kMediumKinds[] = {"homogeneous", "uniformgrid", "rgbgrid", "cloud", "vdb"};
-constexpr const char* kLightKinds[] = {"point", "spot", "distant", "infinite"};
+constexpr const char* kLightKinds[] = {"point", "spot", "distant", "infinite", "goniometric", "projection"};
 constexpr const char* kShapeKinds[] = {"trianglemesh", "bilinearmesh", "sphere", "disk", "cylinder"};
 
 /// "3: 2 point, 1 spot" of anything that has a variant `kind`.

@@ -26,8 +26,13 @@ Image decode_png(std::string_view bytes, const Encoding& encoding, const std::st
 /// .hdr, .jpg, .tga and .bmp.
 Image decode_stb(std::string_view bytes, const Encoding& encoding, const std::string& path);
 
+/// .pfm: floats, which are linear.
+Image decode_pfm(std::string_view bytes, const std::string& path);
+bool is_pfm(std::string_view bytes);
+
 /// What their headers declare.
 ImageSize png_size(std::string_view bytes, const std::string& path);
+ImageSize pfm_size(std::string_view bytes, const std::string& path);
 ImageSize stb_size(std::string_view bytes, const std::string& path);
 
 /// `samples` interleaved values in [0,1], `count` a pixel (1: Y, 2: Y A, 3: R G B, 4: R G B A), as planes. Alpha is

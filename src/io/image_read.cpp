@@ -26,6 +26,7 @@ ImageSize read_image_size(const std::string& path) {
     return {header.width(), header.height()};
   }
   const std::string bytes = read_file_text(path);
+  if (is_pfm(bytes)) return pfm_size(bytes, path);
   return is_png(bytes) ? png_size(bytes, path) : stb_size(bytes, path);
 }
 
@@ -36,6 +37,7 @@ Image read_image(const std::string& path, const std::string& encoding) {
   const std::string bytes = read_file_text(path);
   if (bytes.empty()) throw Error(Failure::scene, path + ": is empty; it may not have been written to its end");
   if (is_png(bytes)) return decode_png(bytes, decoded_by, path);
+  if (is_pfm(bytes)) return decode_pfm(bytes, path);
   return decode_stb(bytes, decoded_by, path);
 }
 

@@ -130,8 +130,9 @@ ImageSize stb_size(std::string_view bytes, const std::string& path) {
   ImageSize size;
   int count = 0;
   if (!stbi_info_from_callbacks(&kCallbacks, &source, &size.width, &size.height, &count))
-    throw Error(Failure::scene,
-                path + ": cannot be read: it is none of OpenEXR, PNG, Radiance HDR, JPEG, TGA, BMP, or its header is damaged");
+    throw Error(
+        Failure::scene,
+        path + ": cannot be read: it is none of OpenEXR, PNG, PFM, Radiance HDR, JPEG, TGA, BMP, or its header is damaged");
   return size;
 }
 

@@ -59,18 +59,52 @@ SpotLight spot_light(State& state, ParamList& params) {
   return light;
 }
 
+std::string light_file(State& state, ParamList& params, const char* what) {
+  if (!params.find("filename", {ParamType::string})) throw params.error(params.owner() + " has no \"filename\"; name " + what);
+  return resolve_asset(state, params.where("filename"), params.string("filename", ""));
+}
+
+GoniometricLight goniometric_light(State& state, ParamList& params) {
+  GoniometricLight light;
+  light.to_world = state.graphics.ctm;
+  light.I = light_color(state, params, "I") * params.number("scale", 1);
+  light.path = light_file(state, params, "a square equal-area map or an .ies file");
+  light.power = positive(params, "power");
+  return light;
+}
+
+ProjectionLight projection_light(State& state, ParamList& params) {
+  ProjectionLight light;
+  light.to_world = state.graphics.ctm;
+  light.I = Rgb(params.number("scale", 1));
+  light.path = light_file(state, params, "an image to project");
+  light.power = positive(params, "power");
+  light.fov_degrees = params.number("fov", 90);
+  if (!(light.fov_degrees > 0 && light.fov_degrees < 180))
+    throw params.error("fov", "fov must be above 0 and below 180 degrees");
+  return light;
+}
+
 DistantLight distant_light(State& state, ParamList& params) {
   const Rgb E = light_color(state, params, "L") * params.number("scale", 1) * positive(params, "illuminance").value_or(1);
   const Vec3 from = params.point("from", {0, 0, 0}), to = params.point("to", {0, 0, 1});
   return {normalize(state.graphics.ctm.vector(aim(params, from, to))), E};
 }
 
+/// In world space, whatever the current transformation.
+std::optional<std::array<Vec3, 4>> portal_of(ParamList& params) {
+  const std::vector<Vec3> corners = params.triples("portal", ParamType::point3);
+  if (corners.empty()) return std::nullopt;
+  if (corners.size() != 4)
+    throw params.error("portal", "a portal has four corners, not " + std::to_string(corners.size()) +
+                                     "; give them in order around the rectangle");
+  return std::array<Vec3, 4>{corners[0], corners[1], corners[2], corners[3]};
+}
+
 InfiniteLight infinite_light(State& state, ParamList& params) {
   InfiniteLight light;
   light.to_world = state.graphics.ctm;
-  if (params.find("portal", {ParamType::point3}))
-    throw params.error("portal",
-                       "portals are not supported by Tyndall; remove the parameter, the picture is the same but for noise");
+  light.portal = portal_of(params);
   const float scale = params.number("scale", 1);
   const auto illuminance = positive(params, "illuminance");
   const auto L = find_color(state, params, "L", ColorUse::light);
@@ -91,10 +125,10 @@ decltype(Light::kind) read_light_kind(State& state, ParamList& params, const std
   if (type == "spot") return spot_light(state, params);
   if (type == "distant") return distant_light(state, params);
   if (type == "infinite") return infinite_light(state, params);
-  if (type == "projection" || type == "goniometric")
-    throw params.error("light \"" + type + "\" is not supported by Tyndall; use a spot light or an area light with an image");
+  if (type == "goniometric") return goniometric_light(state, params);
+  if (type == "projection") return projection_light(state, params);
   throw params.error("light \"" + printable(type) + "\" is unknown; " +
-                     suggestion(type, {"point", "spot", "distant", "infinite"}));
+                     suggestion(type, {"point", "spot", "distant", "infinite", "goniometric", "projection"}));
 }
 
 AreaLight read_area_light(State& state, ParamList& params, const std::string& type) {

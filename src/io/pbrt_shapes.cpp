@@ -122,6 +122,16 @@ std::optional<TextureId> read_alpha(State& state, ParamList& params) {
   return constant && constant->value.r >= 1 ? std::nullopt : alpha;
 }
 
+/// pbrt takes a share of the rays that meet such an emitter away, and then that share of their emission again.
+void warn_of_transparent_emitter(State& state, const std::optional<TextureId>& alpha, const Location& where) {
+  if (!alpha || !state.graphics.area_light) return;
+  const auto* constant = std::get_if<ConstantTexture>(&state.scene.textures[*alpha].kind);
+  if (constant && constant->value.r <= 0) return;
+  state.reports.warn(where,
+                     "alpha of an emitting shape weighs its emission once, where pbrt-v4 does so twice for rays that meet it "
+                     "and once for light sampling: it looks brighter here where it is partly transparent");
+}
+
 }  // namespace
 
 void read_shape(State& state, Tokenizer& in, const Location& where) {
@@ -132,6 +142,7 @@ void read_shape(State& state, Tokenizer& in, const Location& where) {
   params.finish();
   const Transform& to_world = usable_ctm(state, where);
   warn_of_mirrored_quadric(state, kinds, where);
+  warn_of_transparent_emitter(state, alpha, where);
 
   auto& shapes = state.open_object ? state.scene.objects[*state.open_object].shapes : state.scene.shapes;
   for (ShapeKind& kind : kinds) {

@@ -36,6 +36,8 @@ class Builder {
   static void require_finite(Rgb value, const Location& where);
   void require_room(std::size_t lights) const;
   void refer(Kind kind, std::size_t index, std::uint32_t primitive = 0);
+  template <typename Described>
+  void add_profile(const Described& light, const Location& where);
   Emitter emitter(const Shape& shape, const Transform& to_world);
   Emission emission(const Shape& shape);
   std::uint32_t image(const AreaLight& light, const Location& where);
@@ -65,7 +67,7 @@ void Builder::refer(Kind kind, std::size_t index, std::uint32_t primitive) {
   require_room(1);
   Lights::Parts::Reference& reference = parts_->lights.emplace_back();
   reference.kind = kind;
-  reference.index = static_cast<std::uint32_t>(index) & 0x1fffffff;
+  reference.index = static_cast<std::uint32_t>(index) & 0x0fffffff;
   reference.primitive = primitive;
 }
 
@@ -78,6 +80,10 @@ void Builder::add(const Light& light) {
     require_finite(s->I, light.where);
     refer(Kind::spot, parts_->spots.size());
     parts_->spots.emplace_back(*s);
+  } else if (const auto* goniometric = std::get_if<GoniometricLight>(&light.kind)) {
+    add_profile(*goniometric, light.where);
+  } else if (const auto* projection = std::get_if<ProjectionLight>(&light.kind)) {
+    add_profile(*projection, light.where);
   } else if (const auto* d = std::get_if<DistantLight>(&light.kind)) {
     require_finite(d->E, light.where);
     refer(Kind::distant, parts_->distants.size());
@@ -86,10 +92,23 @@ void Builder::add(const Light& light) {
     const auto& infinite = std::get<InfiniteLight>(light.kind);
     require_finite(infinite.L, light.where);
     parts_->infinite.push_back(static_cast<LightId>(parts_->lights.size()));
+    if (infinite.portal) {
+      refer(Kind::portal, parts_->portals.size());
+      parts_->portals.emplace_back(infinite, light.where);
+      return;
+    }
     refer(Kind::environment, parts_->environments.size());
     parts_->environments.emplace_back(infinite, light.where);
     if (parts_->environments.back().even()) ++parts_->even_skies;
   }
+}
+
+template <typename Described>
+void Builder::add_profile(const Described& light, const Location& where) {
+  require_finite(light.I, where);
+  const IntensityProfile& profile = parts_->profile_library.of(light, where);
+  refer(Kind::profile, parts_->profiles.size());
+  parts_->profiles.emplace_back(light.to_world, ProfileEmitter::Strength{light.I, light.power}, profile);
 }
 
 std::uint32_t Builder::image(const AreaLight& light, const Location& where) {
@@ -193,6 +212,8 @@ SelectionInput Builder::selection_input() const {
     if (!tree || !(input.power.back() > 0)) continue;
     if (r.kind == Kind::emitter) add_near(p.emitters[r.index].bounds(r.primitive), id);
     if (r.kind == Kind::volume) add_near(p.volumes[r.index].bounds(), id);
+    if (r.kind == Kind::profile) add_near(p.profiles[r.index].bounds(), id);
+    if (r.kind == Kind::portal) add_near(p.portals[r.index].bounds(), id);
     if (r.kind == Kind::environment) input.far.push_back({p.environments[r.index].cones(), id});
     if (r.kind == Kind::distant) {
       const DeltaArrival a = p.distants[r.index].arrival();
@@ -233,7 +254,7 @@ void Builder::count(const SelectionInput& input) {
   LightStats& stats = parts_->stats;
   stats.lights = parts_->lights.size() + parts_->instanced_lights;
   stats.infinite = parts_->infinite.size();
-  stats.points = parts_->points.size() + parts_->spots.size() + parts_->distants.size();
+  stats.points = parts_->points.size() + parts_->spots.size() + parts_->profiles.size() + parts_->distants.size();
   for (const Emitter& e : parts_->emitters) stats.emitters += e.size();
   for (const double power : input.power) {
     stats.power += power;
@@ -252,9 +273,11 @@ void Builder::count(const SelectionInput& input) {
 void Builder::enclose() {
   for (const PointEmitter& p : parts_->points) parts_->point_box.expand(p.position());
   for (const SpotEmitter& s : parts_->spots) parts_->point_box.expand(s.position());
+  for (const ProfileEmitter& p : parts_->profiles) parts_->point_box.expand(p.position());
   Bounds3& all = parts_->near_box;
   all.expand(parts_->point_box);
   all.expand(box_of(parts_->emitters));
+  for (const Portal& portal : parts_->portals) all.expand(portal.bounds().box);
   std::vector<Bounds3> objects;
   for (const EmitterObject& o : parts_->instanced.objects()) objects.push_back(box_of(o.emitters()));
   for (const EmitterInstance& i : parts_->instanced.instances()) {

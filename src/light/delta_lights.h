@@ -3,17 +3,10 @@
 
 #include <optional>
 
-#include "light/bounds.h"
+#include "light/light_space.h"
 #include "tyndall/scene.h"
 
 namespace tyndall {
-
-/// Light arriving at a point from one direction. `L` is the irradiance on a surface that faces it.
-struct DeltaArrival {
-  Vec3 wi;
-  float distance;
-  Rgb L;
-};
 
 class PointEmitter {
  public:
@@ -43,7 +36,7 @@ class SpotEmitter {
 
  private:
   Vec3 position_;
-  std::array<Vec3, 3> to_light_;  ///< rows of the linear part
+  LightSpace space_;
   Rgb I_;
   float start_, end_;  ///< half angles where the falloff begins and ends, radians
   float cos_start_, cos_end_;

@@ -149,6 +149,21 @@ Rgb Environment::radiance(Vec3 w) const {
   return L_ * image_.texel(static_cast<int>(t.x), static_cast<int>(t.y));
 }
 
+Rgb Environment::interpolated(Vec3 w) const {
+  if (layout_ != Layout::equal_area) return radiance(w);
+  const Vec2 st = equal_area_sphere_to_square(normalize(to_light(w)));
+  const int n = image_.width();
+  const float x = st.x * static_cast<float>(n) - 0.5f, y = st.y * static_cast<float>(n) - 0.5f;
+  const int left = static_cast<int>(std::floor(x)), above = static_cast<int>(std::floor(y));
+  const float s = x - static_cast<float>(left), t = y - static_cast<float>(above);
+  const auto texel = [&](int i, int j) {
+    const auto [column, row] = equal_area_neighbor(i, j, n);
+    return image_.texel(column, row);
+  };
+  return L_ * ((texel(left, above) * (1 - s) + texel(left + 1, above) * s) * (1 - t) +
+               (texel(left, above + 1) * (1 - s) + texel(left + 1, above + 1) * s) * t);
+}
+
 std::optional<Environment::Sample> Environment::sample(Vec2 u, bool mis_partner) const {
   if (layout_ == Layout::constant) {
     if (mis_partner) return std::nullopt;

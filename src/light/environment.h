@@ -22,6 +22,9 @@ class Environment {
   Environment(const InfiniteLight& light, const Location& where);
 
   Rgb radiance(Vec3 w) const;  ///< arriving from unit direction `w`
+  /// The same with square maps interpolated between texels, as pbrt resamples them for portals.
+  Rgb interpolated(Vec3 w) const;
+  int resolution() const { return layout_ == Layout::constant ? 1 : image_.height(); }  ///< texels from pole to pole
 
   struct Sample {
     Vec3 wi;

@@ -17,6 +17,15 @@ Vec3 equal_area_square_to_sphere(Vec2 p) {
       {std::copysign(std::cos(phi) * sine, u), std::copysign(std::sin(phi) * sine, v), std::copysign(1 - r * r, above)});
 }
 
+std::array<int, 2> equal_area_neighbor(int x, int y, int n) {
+  const auto outside = [n](int i) { return i < 0 || i >= n; };
+  const auto mirrored = [n](int i) { return i < 0 ? -1 - i : i >= n ? 2 * n - 1 - i : i; };
+  const bool across_x = outside(x), across_y = outside(y);
+  if (across_x) x = mirrored(x), y = n - 1 - y;
+  if (across_y) x = n - 1 - x, y = mirrored(y);
+  return {x, y};
+}
+
 Vec2 equal_area_sphere_to_square(Vec3 w) {
   const float x = std::abs(w.x), y = std::abs(w.y), z = std::abs(w.z);
   // 1 - z from the other components where z has run out of digits.

@@ -13,6 +13,11 @@ std::optional<LightSample> delta_sample(const std::optional<DeltaArrival>& a) {
   return LightSample{a->wi, a->distance, a->L, 1, true};
 }
 
+std::optional<LightSample> far_sample(const std::optional<Environment::Sample>& s) {
+  if (!s || is_black(s->L)) return std::nullopt;
+  return LightSample{s->wi, kInfinity, s->L, s->pdf, false};
+}
+
 std::optional<LightSample> surface_sample(const std::optional<Emitter::Sample>& s, bool delta) {
   if (!s) return std::nullopt;
   if (delta) return LightSample{s->point.wi, s->point.distance, s->L * (1 / s->point.pdf), 1, true};
@@ -29,10 +34,14 @@ double Lights::Parts::power(LightId light) const {
       return strength(points[r.index].power());
     case Kind::spot:
       return strength(spots[r.index].power());
+    case Kind::profile:
+      return strength(profiles[r.index].power());
     case Kind::distant:
       return strength(distants[r.index].irradiance()) * disk;
     case Kind::environment:
       return strength(environments[r.index].mean_radiance()) * 4 * kPi * disk;
+    case Kind::portal:
+      return portals[r.index].power();
     case Kind::emitter:
       return emitters[r.index].power(r.primitive);
     case Kind::volume:
@@ -78,13 +87,14 @@ std::optional<LightSample> Lights::sample(LightId light, Vec3 p, Vec2 u, bool mi
       return delta_sample(parts_->points[r.index].arrival(p));
     case Kind::spot:
       return delta_sample(parts_->spots[r.index].arrival(p));
+    case Kind::profile:
+      return delta_sample(parts_->profiles[r.index].arrival(p));
     case Kind::distant:
       return delta_sample(parts_->distants[r.index].arrival());
-    case Kind::environment: {
-      const auto s = parts_->environments[r.index].sample(u, mis_partner);
-      if (!s || is_black(s->L)) return std::nullopt;
-      return LightSample{s->wi, kInfinity, s->L, s->pdf, false};
-    }
+    case Kind::environment:
+      return far_sample(parts_->environments[r.index].sample(u, mis_partner));
+    case Kind::portal:
+      return far_sample(parts_->portals[r.index].sample(p, u));
     case Kind::emitter: {
       const Emitter& emitter = parts_->emitters[r.index];
       return surface_sample(emitter.sample(parts_->maps, r.primitive, p, u), emitter.delta());
@@ -106,6 +116,10 @@ LightPlace Lights::place(LightId light) const {
       return {.center = parts_->points[r.index].position()};
     case Kind::spot:
       return {.center = parts_->spots[r.index].position(), .beam = parts_->spots[r.index].beam()};
+    case Kind::profile:
+      return {.center = parts_->profiles[r.index].position(), .beam = parts_->profiles[r.index].beam()};
+    case Kind::portal:
+      return parts_->portals[r.index].place();
     case Kind::emitter:
       return parts_->emitters[r.index].place(r.primitive);
     case Kind::volume:
@@ -121,7 +135,7 @@ LightPlace Lights::place(LightId light) const {
 
 std::optional<Vec3> Lights::point(LightId light) const {
   const Kind kind = parts_->find(light).kind;
-  return kind == Kind::point || kind == Kind::spot ? place(light).center : std::nullopt;
+  return kind == Kind::point || kind == Kind::spot || kind == Kind::profile ? place(light).center : std::nullopt;
 }
 
 float Lights::pdf(LightId light, Vec3 p, const EmitterHit& hit) const {
@@ -142,20 +156,28 @@ Rgb Lights::emitted(LightId light, const EmitterHit& hit, Vec3 wo) const {
   return parts_->emitters[r.index].radiance(parts_->maps, r.primitive, hit.uv, hit.ng, wo);
 }
 
-Rgb Lights::environment(LightId light, Vec3 w) const { return parts_->environments[parts_->lights[light].index].radiance(w); }
+Rgb Lights::environment(LightId light, const Ray& ray) const {
+  const Parts::Reference r = parts_->lights[light];
+  return r.kind == Kind::portal ? parts_->portals[r.index].radiance(ray.o, ray.d)
+                                : parts_->environments[r.index].radiance(ray.d);
+}
 
-float Lights::environment_pdf(LightId light, Vec3 w, bool mis_partner) const {
-  return parts_->environments[parts_->lights[light].index].pdf(w, mis_partner);
+float Lights::environment_pdf(LightId light, const Ray& ray, bool mis_partner) const {
+  const Parts::Reference r = parts_->lights[light];
+  return r.kind == Kind::portal ? parts_->portals[r.index].pdf(ray.o, ray.d)
+                                : parts_->environments[r.index].pdf(ray.d, mis_partner);
 }
 
 std::size_t Lights::memory_bytes() const {
   const Parts& p = *parts_;
   std::size_t bytes = p.lights.capacity() * sizeof(Parts::Reference) + p.points.capacity() * sizeof(PointEmitter) +
-                      p.spots.capacity() * sizeof(SpotEmitter) + p.distants.capacity() * sizeof(DistantEmitter) +
+                      p.spots.capacity() * sizeof(SpotEmitter) + p.profiles.capacity() * sizeof(ProfileEmitter) +
+                      p.profile_library.memory_bytes() + p.distants.capacity() * sizeof(DistantEmitter) +
                       p.volumes.capacity() * sizeof(VolumeEmitter) + p.first_light.capacity() * sizeof(LightId) +
                       p.instanced.memory_bytes();
   for (const SelectorStats& s : p.selector_stats) bytes += s.memory_bytes;
   for (const Environment& e : p.environments) bytes += e.memory_bytes();
+  for (const Portal& portal : p.portals) bytes += portal.memory_bytes();
   for (const Emitter& e : p.emitters) bytes += e.memory_bytes();
   for (const TexelImage& i : p.maps.images)
     bytes += static_cast<std::size_t>(i.width()) * static_cast<std::size_t>(i.height()) * sizeof(Rgb);

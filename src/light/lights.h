@@ -97,9 +97,10 @@ class Lights {
   /// Radiance that leaves the emitter at `hit` along `wo`. Opacity is not in it: a hit has passed that test.
   Rgb emitted(LightId light, const EmitterHit& hit, Vec3 wo) const;
 
-  std::span<const LightId> infinite() const;                             ///< lights that rays leaving the scene see
-  Rgb environment(LightId light, Vec3 w) const;                          ///< radiance arriving from direction `w`
-  float environment_pdf(LightId light, Vec3 w, bool mis_partner) const;  ///< 1/sr, of sample() giving `w`
+  std::span<const LightId> infinite() const;             ///< lights that rays leaving the scene see
+  Rgb environment(LightId light, const Ray& ray) const;  ///< radiance arriving at the ray's origin from its direction
+  /// 1/sr, of sample() at the ray's origin giving its direction.
+  float environment_pdf(LightId light, const Ray& ray, bool mis_partner) const;
 
   /// The light that is primitive 0 of the emitter shape (in the order given to build_lights); primitive i follows at +i.
   LightId first_light(std::size_t emitter_shape) const;
@@ -107,11 +108,12 @@ class Lights {
   LightId first_volume() const;
   double power(LightId light) const;  ///< W, mean of the channels
   LightPlace place(LightId light) const;
-  /// Position of a point or spot light; nothing for any other. The scene's light sources, these among them, are the first.
+  /// Position of a light without extent that has one: point, spot, goniometric, projection; nothing for any other. The scene's
+  /// light sources, these among them, are the first.
   std::optional<Vec3> point(LightId light) const;
-  /// Encloses all lights of surfaces and points; empty where all are at infinity. Media that emit are not in it.
+  /// Encloses all lights of surfaces and points, and portals; empty where all are at infinity. Media that emit are not in it.
   const Bounds3& near_box() const;
-  const Bounds3& point_box() const;  ///< of point and spot lights alone
+  const Bounds3& point_box() const;  ///< of those that have a point() alone
   const LightStats& stats() const;
   std::size_t memory_bytes() const;  ///< selectors included
 

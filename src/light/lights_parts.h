@@ -10,15 +10,18 @@
 #include "light/environment.h"
 #include "light/instanced_emitters.h"
 #include "light/lights.h"
+#include "light/portal.h"
+#include "light/profile_emitter.h"
+#include "light/profile_library.h"
 
 namespace tyndall {
 
 struct Lights::Parts {
-  enum class Kind : std::uint32_t { point, spot, distant, environment, emitter, volume, instanced };
+  enum class Kind : std::uint32_t { point, spot, profile, distant, environment, portal, emitter, volume, instanced };
   /// Where a light is to be found: eight bytes, since there may be millions.
   struct Reference {
-    Kind kind : 3;
-    std::uint32_t index : 29;  ///< into the vector of its kind
+    Kind kind : 4;
+    std::uint32_t index : 28;  ///< into the vector of its kind
     std::uint32_t primitive = 0;
   };
 
@@ -29,8 +32,11 @@ struct Lights::Parts {
   std::vector<Reference> lights;
   std::vector<PointEmitter> points;
   std::vector<SpotEmitter> spots;
+  std::vector<ProfileEmitter> profiles;
+  ProfileLibrary profile_library;  ///< what `profiles` refer to
   std::vector<DistantEmitter> distants;
   std::vector<Environment> environments;
+  std::vector<Portal> portals;
   std::vector<Emitter> emitters;     ///< by emitter shape
   std::vector<LightId> first_light;  ///< of each emitter shape
   std::vector<LightId> infinite;

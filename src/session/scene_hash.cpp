@@ -116,8 +116,17 @@ class SceneHasher {
     add_all(kind, optics, to_world);
   }
   void add(const InfiniteLight& light) {
-    const auto& [to_world, L, path, to_rec709, illuminance] = light;
+    const auto& [to_world, L, path, to_rec709, illuminance, portal] = light;
     add_all(to_world, L, FileContent{path}, to_rec709, illuminance);
+    if (portal) add(*portal);  // images from before there were portals can still be merged
+  }
+  void add(const GoniometricLight& light) {
+    const auto& [to_world, I, path, power] = light;
+    add_all(to_world, I, FileContent{path}, power);
+  }
+  void add(const ProjectionLight& light) {
+    const auto& [to_world, I, path, fov, power] = light;
+    add_all(to_world, I, FileContent{path}, fov, power);
   }
   void add(const AreaLight& light) {
     const auto& [L, path, to_rec709, power, two_sided] = light;

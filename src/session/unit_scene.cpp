@@ -72,6 +72,9 @@ Box box_of(const Scene& scene) {
     if (const auto* point = std::get_if<PointLight>(&light.kind))
       box.expand(Transform().matrix(), point->position.x, point->position.y, point->position.z);
     if (const auto* spot = std::get_if<SpotLight>(&light.kind)) box.expand(spot->to_world.matrix(), 0, 0, 0);
+    if (const auto* goniometric = std::get_if<GoniometricLight>(&light.kind))
+      box.expand(goniometric->to_world.matrix(), 0, 0, 0);
+    if (const auto* projection = std::get_if<ProjectionLight>(&light.kind)) box.expand(projection->to_world.matrix(), 0, 0, 0);
   }
   return box;
 }
@@ -124,10 +127,16 @@ class Units {
       point->position = to_unit_.point(point->position);
       point->I = scaled(point->I, -2 * exponent_);
     }
-    if (auto* spot = std::get_if<SpotLight>(&light.kind)) {
-      change(spot->to_world);
-      spot->I = scaled(spot->I, -2 * exponent_);
-    }
+    const auto change_oriented = [this](auto* oriented) {
+      if (!oriented) return;
+      change(oriented->to_world);
+      oriented->I = scaled(oriented->I, -2 * exponent_);
+    };
+    change_oriented(std::get_if<SpotLight>(&light.kind));
+    change_oriented(std::get_if<GoniometricLight>(&light.kind));
+    change_oriented(std::get_if<ProjectionLight>(&light.kind));
+    if (auto* infinite = std::get_if<InfiniteLight>(&light.kind); infinite && infinite->portal)
+      for (Vec3& corner : *infinite->portal) corner = to_unit_.point(corner);
   }
   void change_emission(Shape& shape) const {
     if (shape.emission && shape.emission->power) shape.emission->power = std::ldexp(*shape.emission->power, -2 * exponent_);

@@ -85,10 +85,11 @@ void Path::add_volume_emission(const Span& span) {
 
 void Path::add_environment() {
   const Lights& lights = context_.world.lights;
+  const Ray ray{depth_ == 0 ? ray_.o : from_, ray_.d};  // from where lights were sampled, as portals depend on it
   for (const LightId id : lights.infinite()) {
-    const Rgb L = lights.environment(id, ray_.d);
+    const Rgb L = lights.environment(id, ray);
     if (is_black(L)) continue;
-    const float pdf = light_sampled_ ? lights.environment_pdf(id, ray_.d, true) : 0.0f;
+    const float pdf = light_sampled_ ? lights.environment_pdf(id, ray, true) : 0.0f;
     add(seen_.value_or(beta_) * L * scattering_mis_weight(id, pdf), depth_);
   }
 }

@@ -124,8 +124,10 @@ std::size_t plan_pictures(const Scene& scene) {
   Pictures pictures;
   for (const Texture& texture : scene.textures)
     if (const auto* image = std::get_if<ImageTexture>(&texture.kind)) pictures.add(image->path, kTexel);
-  for (const Light& light : scene.lights)
+  for (const Light& light : scene.lights) {
     if (const auto* sky = std::get_if<InfiniteLight>(&light.kind)) pictures.add(sky->path, kTexelOfSky);
+    if (const auto* projection = std::get_if<ProjectionLight>(&light.kind)) pictures.add(projection->path, kTexel);
+  }
   add_pictures(scene.shapes, pictures);
   for (const Object& object : scene.objects) add_pictures(object.shapes, pictures);
   return pictures.bytes();

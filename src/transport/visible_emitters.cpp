@@ -34,7 +34,7 @@ bool is_wanted(const BuiltWorld& world, const RenderSettings& settings) {
 /// `light` as the camera sees it.
 std::optional<FilmEmitters::Spot> spot_of(const BuiltWorld& world, LightId light) {
   const LightPlace place = world.lights.place(light);
-  if (!place.center || !(place.radius > 0)) return std::nullopt;
+  if (!place.center || !(place.radius > 0) || place.opening) return std::nullopt;
   // Of a two-sided emitter a direction may be drawn by points in front and behind, and its density is known of one.
   if (place.two_sided && !place.flat()) return std::nullopt;
   const auto at = world.camera.film_position(*place.center);

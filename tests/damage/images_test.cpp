@@ -54,6 +54,16 @@ TEST_CASE("damaged .png files") {
         true);
 }
 
+TEST_CASE("damaged .pfm files") {
+  const Scratch folder;
+  std::string colour = "PF\n8 8\n-1\n", grey = "Pf 4 16 2.5\n";
+  for (int i = 0; i < 8 * 8 * 3 * 4; ++i) colour += static_cast<char>(i % 4 == 3 ? 62 : i);
+  for (int i = 0; i < 4 * 16 * 4; ++i) grey += static_cast<char>(i % 4 == 0 ? 62 : i);
+  write_bytes(folder / "colour.pfm", colour);
+  write_bytes(folder / "grey.pfm", grey);
+  check({folder / "colour.pfm", folder / "grey.pfm"}, true);
+}
+
 TEST_CASE("damaged .jpg, .hdr, .tga and .bmp files") {
   const Scratch folder;
   std::string hdr = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 8 +X 16\n", tga("\0\0\2\0\0\0\0\0\0\0\0\0\10\0\10\0\30\0", 18);

@@ -71,6 +71,14 @@ void exr(std::string_view bytes) {
   attempt([&] { read_exr(file_of(bytes, "fuzz.exr")); });
 }
 
+void pfm(std::string_view bytes) {
+  if (bytes.starts_with('P')) attempt([&] { read_image(file_of(bytes, "fuzz.pfm")); });
+}
+
+void ies(std::string_view bytes) {
+  attempt([&] { read_ies_text(bytes, "fuzz.ies"); });
+}
+
 void checkpoint(std::string_view bytes) {
   StreamHash hash;
   hash.add(bytes.data(), bytes.size());

@@ -137,6 +137,22 @@ TEST_CASE("JPEG, BMP, TGA and HDR") {
   CHECK(radiance.rgb(1, 0) == Rgb(512.0f));
 }
 
+TEST_CASE("PFM: rows from the bottom, either byte order, scaled") {
+  const Scratch folder;
+  const std::string one("\0\0\x80\x3f", 4), two("\0\0\0\x40", 4), eno("\x3f\x80\0\0", 4);
+  write_bytes(folder / "colour.pfm", "PF\n1 2\n-1.0\n" + one + two + two + two + one + one);
+  const Image colour = read_image(folder / "colour.pfm");
+  CHECK(colour.rgb(0, 0) == Rgb(2, 1, 1));
+  CHECK(colour.rgb(0, 1) == Rgb(1, 2, 2));
+  CHECK(read_image_size(folder / "colour.pfm").height == 2);
+  write_bytes(folder / "grey.pfm", "Pf 2 1 3\n" + eno + eno);
+  CHECK(read_image(folder / "grey.pfm").rgb(1, 0) == Rgb(3));
+  for (const std::string head : {"PF\n1 x\n-1\n", "PF\n1 0\n-1\n", "PF\n1 70000\n-1\n", "PF\n1 1\n0\n", "PF\n1 2\n-1\n"}) {
+    write_bytes(folder / "bad.pfm", head + one + one + one);
+    CHECK(reason(folder / "bad.pfm").find("bad.pfm: cannot be read") != std::string::npos);
+  }
+}
+
 TEST_CASE("files that are cut off or no images are refused with their name") {
   const Scratch folder;
   write_png(grey_ramp(), folder / "a.png");

@@ -85,9 +85,39 @@ TEST_CASE("infinite") {
   CHECK(map.L == Rgb(3.0f));
   CHECK(*map.illuminance == 9);
   CHECK_FALSE(map.to_world.is_identity());
-  CHECK_CONTAINS(world_error("LightSource \"infinite\" \"point3 portal\" [0 0 0 1 0 0 1 1 0 0 1 0]"),
-                 "portals are not supported");
+  // Portals stand in world space.
+  const auto portal = light<InfiniteLight>("Scale 2 2 2 LightSource \"infinite\" \"point3 portal\" [0 0 0 1 0 0 1 1 0 0 1 0]");
+  REQUIRE(portal.portal);
+  CHECK((*portal.portal)[2] == Vec3{1, 1, 0});
+  CHECK_CONTAINS(world_error("LightSource \"infinite\" \"point3 portal\" [0 0 0 1 0 0 1 1 0]"), "four corners, not 3");
   CHECK_CONTAINS(world_error("LightSource \"infinite\" \"string filename\" \"absent.exr\""), "does not exist");
+}
+
+TEST_CASE("goniometric and projection") {
+  const test::TempFolder folder;
+  folder.write("map.exr", "not read here");
+  const auto read = [&](const std::string& text) {
+    return read_scene_text("WorldBegin " + text, "test.pbrt", folder.path()).scene;
+  };
+  const std::string file = " \"string filename\" \"map.exr\" ";
+  const auto map = std::get<GoniometricLight>(
+      read("Translate 1 2 3 LightSource \"goniometric\"" + file + "\"rgb I\" [1 2 3] \"float scale\" 2 \"float power\" 7")
+          .lights.at(0)
+          .kind);
+  CHECK(map.path == folder.path() + "/map.exr");
+  CHECK(map.to_world.point({}) == Vec3{1, 2, 3});
+  check_near(map.I, {2, 4, 6});
+  CHECK(*map.power == 7);
+  const auto image = std::get<ProjectionLight>(
+      read("LightSource \"projection\"" + file + "\"float fov\" 30 \"float scale\" 4").lights.at(0).kind);
+  CHECK(image.fov_degrees == 30);
+  CHECK(image.I == Rgb(4));
+  CHECK(!image.power);
+  CHECK_CONTAINS(world_error("LightSource \"goniometric\""), "has no \"filename\"");
+  CHECK_CONTAINS(world_error("LightSource \"projection\""), "has no \"filename\"");
+  CHECK_CONTAINS(world_error("LightSource \"goniometric\" \"string filename\" \"absent.ies\""), "does not exist");
+  CHECK_THROWS_WITH_AS(read("LightSource \"projection\"" + file + "\"float fov\" 180"), doctest::Contains("below 180 degrees"),
+                       Error);
 }
 
 TEST_CASE("area lights") {
@@ -107,6 +137,15 @@ TEST_CASE("an interface does not emit, and that is said") {
   CHECK(file.warnings.size() == 1);
 }
 
+TEST_CASE("an emitter's alpha, which counts otherwise in pbrt, is warned of unless it is 0 or 1") {
+  const auto warnings = [](const std::string& alpha) {
+    return test::read_world_file("AreaLightSource \"diffuse\" Shape \"sphere\" \"float alpha\" " + alpha).warnings.size();
+  };
+  CHECK(warnings("0") == 0);
+  CHECK(warnings("1") == 0);
+  CHECK(warnings("0.5") == 1);
+}
+
 TEST_CASE("colours are read in the colour space in force") {
   const ColorSpace& aces = *find_color_space("aces2065-1");
   check_near(light<PointLight>("ColorSpace \"aces2065-1\" LightSource \"point\" \"rgb I\" [1 2 3]").I,
@@ -122,7 +161,6 @@ TEST_CASE("colours are read in the colour space in force") {
 }
 
 TEST_CASE("light errors") {
-  CHECK_CONTAINS(world_error("LightSource \"goniometric\""), "not supported by Tyndall");
   CHECK_CONTAINS(world_error("LightSource \"pint\""), "did you mean \"point\"?");
   CHECK_CONTAINS(world_error("LightSource \"point\" \"rgb L\" [1 1 1]"), "light \"point\" has no parameter \"L\"");
   CHECK_CONTAINS(world_error("LightSource \"point\" \"spectrum I\" \"metal-Xx\""), "neither a named spectrum");

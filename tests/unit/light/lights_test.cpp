@@ -104,7 +104,7 @@ TEST_CASE("ids run through the scene's lights, then the primitives of the shapes
   CHECK(lights.first_light(2) == 7);
   REQUIRE(lights.infinite().size() == 1);
   CHECK(lights.infinite()[0] == 1);
-  CHECK(lights.environment(1, {0, 0, 1}) == Rgb(1));
+  CHECK(lights.environment(1, {{}, {0, 0, 1}}) == Rgb(1));
   CHECK(lights.stats().emitters == 5);
   CHECK(lights.stats().dark == 2);
   CHECK(lights.power(0) == doctest::Approx(4 * kPi));

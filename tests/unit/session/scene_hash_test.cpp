@@ -50,7 +50,12 @@ Scene everything(const std::string& path) {
   InfiniteLight sky;
   sky.path = path;
   sky.illuminance = 1.0f;
-  s.lights = {{PointLight{}, {}}, {SpotLight{}, {}}, {DistantLight{}, {}}, {sky, {}}};
+  sky.portal.emplace();
+  GoniometricLight map;
+  ProjectionLight image;
+  map.path = image.path = path;
+  map.power = image.power = 1.0f;
+  s.lights = {{PointLight{}, {}}, {SpotLight{}, {}}, {DistantLight{}, {}}, {sky, {}}, {map, {}}, {image, {}}};
   AreaLight area;
   area.path = path;
   area.power = 1.0f;
