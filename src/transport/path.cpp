@@ -63,12 +63,13 @@ void Path::complete_offer() {
   record_ = before;
 }
 
-/// The density of passing other media than homogeneous ones is known as an estimate only.
+/// Not where dispersion has left a single channel: others want them all.
 bool Path::may_offer(const Vertex& first) const {
-  return offers_ && depth_ == 1 && limits_.max_depth > 1 && first.has_smooth();
+  return offers_ && depth_ == 1 && limits_.max_depth > 1 && first.has_smooth() && !channel_;
 }
 
-/// What the surface sends back must not depend on which of the paths looks at it.
+/// What the surface sends back must not depend on which of the paths looks at it. Nor is the density known of passing other
+/// media than homogeneous ones.
 bool Path::is_offered(const Vertex& second) const {
   return offers_ && depth_ == 1 && offer_ && known_passage_ && second.on_surface() && second.surface()->bsdf.diffuse();
 }
