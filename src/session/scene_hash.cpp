@@ -100,7 +100,8 @@ class SceneHasher {
   void add(const Material& material) {
     const auto& [kind, name, where, displacement, normal_map, displacement_scale] = material;
     add(kind);
-    if (displacement || normal_map) add_all(displacement, normal_map, displacement_scale);
+    if (displacement || normal_map || displacement_scale != Material().displacement_scale)
+      add_all(displacement, normal_map, displacement_scale);
   }
   void add(const DielectricMaterial& material) {
     const auto& [eta, roughness, eta_rgb] = material;

@@ -110,7 +110,7 @@ TEST_CASE("a pass that is given up is undone; a first one leaves what it finishe
   const std::uint64_t paths = job.report().paths;
   std::atomic<int> calls{0};
   CHECK_FALSE(job.advance(
-      1, [&](double) { return ++calls < 50; }, RenderJob::GivenUp::undone));
+      1, [&](double) { return ++calls < 10; }, RenderJob::GivenUp::undone));
   CHECK(same(job.image(), before));
   CHECK(job.report().paths == paths);
   job.advance(3);
@@ -123,7 +123,7 @@ TEST_CASE("a pass that is given up is undone; a first one leaves what it finishe
   RenderJob begun(world, one_thread), full(world, one_thread);
   calls = 0;
   CHECK_FALSE(begun.advance(
-      1, [&](double) { return ++calls < 28; }, RenderJob::GivenUp::undone));
+      1, [&](double) { return ++calls < 8; }, RenderJob::GivenUp::undone));
   full.advance(1);
   const Image part = begun.image(), all = full.image();
   const auto &count = part.find("SampleCount")->values, &red = part.find("R")->values, &expected = all.find("R")->values;
