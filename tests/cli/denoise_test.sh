@@ -11,7 +11,7 @@ says 'as rendered in noisy.R .G .B' err.txt
 expect 0 "$T" render s.pbrt --spp 16 --reproducible --quiet --aov Denoise -o noisy.exr
 expect 0 "$T" denoise noisy.exr -o later.exr
 expect 0 "$T" diff now.exr later.exr --channels RGB --exact
-expect 0 "$T" render s.pbrt --spp 16 --reproducible --quiet -o plain.exr
+expect 0 "$T" render s.pbrt --spp 16 --reuse off --reproducible --quiet -o plain.exr
 expect 0 "$T" diff plain.exr noisy.exr --channels RGB --exact
 [ "$(channels now.exr)" = "A Albedo.B Albedo.G Albedo.R B G Mse.B Mse.G Mse.R R noisy.B noisy.G noisy.R " ] ||
   fail "channels of a denoised render: $(channels now.exr)"
