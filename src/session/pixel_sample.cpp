@@ -68,8 +68,7 @@ void PixelGroup::run(const SampleContext& context, Counters& counters) {
     if (path.run_until_offer()) offering[count++] = &path;
   }
   for (std::size_t i = 0; i < count; ++i) offering[i]->complete_offer();
-  Sampler unused(SampleKey{});
-  share_suffixes({context.world.built, context.selector, context.settings, unused, counters}, {offering.data(), count});
+  share_suffixes(context.world.built, {offering.data(), count}, counters);
 }
 
 }  // namespace tyndall

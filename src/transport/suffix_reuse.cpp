@@ -20,6 +20,11 @@ struct Connection {
   Rgb f;          ///< scattering function times cosines over squared distance
   float pdf = 0;  ///< 1/area, with which the path would have found it, were nothing in between
 };
+/// What connections go through, and where they are counted.
+struct Between {
+  const BuiltWorld& world;
+  Counters& counters;
+};
 using Connections = std::array<Connection, kMostSharing>;
 
 bool same_side(Vec3 n, Vec3 a, Vec3 b) { return dot(n, a) * dot(n, b) > 0; }
@@ -38,11 +43,11 @@ Connection connect(const PathOffer& from, const Vertex& to) {
 }
 
 /// What is in between: surfaces end the connection, and media that are not homogeneous; those that are weaken it.
-Connection through(const Connection& connection, const LightContext& context, const PathOffer& from, const Vertex& to) {
-  const BuiltWorld& world = context.world;
+Connection through(const Connection& connection, const Between& between, const PathOffer& from, const Vertex& to) {
+  const BuiltWorld& world = between.world;
   const Vec3 w = normalize(to.p() - from.first.p()), origin = from.first.origin(world.geometry, w);
   const float distance = length(to.p() - origin);
-  ++context.counters.shadow_rays;
+  ++between.counters.shadow_rays;
   const auto crossings = world.geometry.trace_shadow({origin, w}, 0, distance * kShadowEnd);
   if (!crossings) return {};
   if (!world.has_media()) return connection;
@@ -55,13 +60,13 @@ Connection through(const Connection& connection, const LightContext& context, co
     const UniformPassage passage = passage_of(interval->view(), double{interval->t1} - interval->t0, from.beta * passed.f);
     passed = {passed.f * passage.transmittance, passed.pdf * passage.probability};
   }
-  context.counters.parity_errors += walk.parity_errors();
+  between.counters.parity_errors += walk.parity_errors();
   return passed;
 }
 
 /// Who could have found what path number `finder` found, with which density: the others' are set to 0. Their sum; 0 where the
 /// finder is left out, as its find is its own.
-float keep_finders(const LightContext& context, std::span<Path* const> paths, std::size_t finder, Connections& all) {
+float keep_finders(const Between& between, std::span<Path* const> paths, std::size_t finder, Connections& all) {
   float most = 0;
   for (std::size_t k = 0; k < paths.size(); ++k) most = std::max(most, all[k].pdf);
   const float least = kLeastPart * most;
@@ -69,7 +74,7 @@ float keep_finders(const LightContext& context, std::span<Path* const> paths, st
   float sum = 0;
   for (std::size_t k = 0; k < paths.size(); ++k) {
     const bool finds = all[k].pdf > 0 && all[k].pdf >= least;
-    all[k] = finds ? through(all[k], context, paths[k]->offer(), found) : Connection{};
+    all[k] = finds ? through(all[k], between, paths[k]->offer(), found) : Connection{};
     sum += all[k].pdf;
   }
   return all[finder].pdf > 0 ? sum : 0.0f;
@@ -78,14 +83,15 @@ float keep_finders(const LightContext& context, std::span<Path* const> paths, st
 }  // namespace
 
 /// L(x1) = sum over finds x2 of f(x1, x2) L(x2) / sum_k p_k(x2): the balance heuristic's weights p_j / sum p_k over p_j.
-void share_suffixes(const LightContext& context, std::span<Path* const> paths) {
+void share_suffixes(const BuiltWorld& world, std::span<Path* const> paths, Counters& counters) {
+  const Between between{world, counters};
   for (std::size_t j = 0; j < paths.size(); ++j) {
     const PathOffer& find = paths[j]->offer();
     if (is_black(find.radiance)) continue;
     Connections all;
     for (std::size_t k = 0; k < paths.size(); ++k) all[k] = connect(paths[k]->offer(), *find.at);
     // What is not a number stays with its path, and is counted once.
-    const float sum = is_finite(find.radiance) ? keep_finders(context, paths, j, all) : 0;
+    const float sum = is_finite(find.radiance) ? keep_finders(between, paths, j, all) : 0;
     if (!(sum > 0) || !std::isfinite(sum)) {
       paths[j]->take(find.arrived * find.radiance);
       continue;

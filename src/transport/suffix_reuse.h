@@ -16,6 +16,6 @@ namespace tyndall {
 inline constexpr std::size_t kMostSharing = 16;
 
 /// Hands out what the offers of `paths` are worth to each of them: at most kMostSharing, all with complete offers.
-void share_suffixes(const LightContext& context, std::span<Path* const> paths);
+void share_suffixes(const BuiltWorld& world, std::span<Path* const> paths, Counters& counters);
 
 }  // namespace tyndall
