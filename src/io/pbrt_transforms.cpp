@@ -11,7 +11,7 @@ namespace {
 constexpr const char* kNoMotion =
     "moving transforms are not supported by Tyndall: everything stands as at the start of the shutter";
 
-bool is_singular(double factor) { return std::isfinite(factor) && !std::isfinite(1 / factor); }
+bool is_singular(double factor) { return factor == 0 || (std::isfinite(factor) && !std::isfinite(1 / factor)); }
 
 /// A matrix that Transform refuses has no inverse when this holds; otherwise it is wrong in another way.
 bool is_affine(const Transform::Matrix& m) {
