@@ -61,14 +61,16 @@ void PixelGroup::run(const SampleContext& context, Counters& counters) {
     for (std::size_t i = 0; i < size_; ++i) slots_[i]->path().run();
     return;
   }
-  std::array<Path*, kMostSharing> offering;
+  std::array<Path*, kMostSharing> sharing;
   std::size_t count = 0;
   for (std::size_t i = 0; i < size_; ++i) {
     Path& path = slots_[i]->path();
-    if (path.run_until_offer()) offering[count++] = &path;
+    if (path.run_until_offer()) sharing[count++] = &path;
   }
-  for (std::size_t i = 0; i < count; ++i) offering[i]->complete_offer();
-  share_suffixes(context.world.built, {offering.data(), count}, counters);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (sharing[i]->offer().at) sharing[i]->complete_offer();
+  }
+  share_suffixes({context.world.built, context.settings.transmittance, counters}, {sharing.data(), count});
 }
 
 }  // namespace tyndall

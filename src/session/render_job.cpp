@@ -190,18 +190,11 @@ class RenderJob::Impl {
   }
 
   /// Whoever shares with a pixel that is rendered has its path as well, so that a crop has the same bits.
-  void render_shared(PixelBlock block, int count, PixelGroup& group, Counters& counters) {
+  void render_shared(const PixelBlock& block, int count, PixelGroup& group, Counters& counters) {
     for (int s = samples_; s < samples_ + count; ++s) {
-      block.shuffle(settings_.seed, first_sample_ + s);
-      for (std::span<const PixelPlace> left = block.pixels(); !left.empty();) {
-        const auto sharing = left.first(std::min(left.size(), kMostSharing));
-        left = left.subspan(sharing.size());
-        const PixelBounds& crop = film_.crop();
-        if (std::none_of(sharing.begin(), sharing.end(), [&](PixelPlace p) { return crop.contains(p.x, p.y); })) continue;
-        group.clear();
-        for (const PixelPlace p : sharing) group.add(sample_context_, key_of(p, s), film_of(p), counters);
-        add_to_film(group, counters);
-      }
+      group.clear();
+      for (const PixelPlace p : block.pixels()) group.add(sample_context_, key_of(p, s), film_of(p), counters);
+      add_to_film(group, counters);
     }
   }
 

@@ -78,6 +78,10 @@ bool Bsdf::has_smooth() const {
   return std::visit([](const auto& lobe) { return lobe.has_smooth(); }, lobe_);
 }
 
+bool Bsdf::has_exact_pdf() const {
+  return !std::holds_alternative<CoatedDiffuseLobe>(lobe_) && !std::holds_alternative<CoatedConductorLobe>(lobe_);
+}
+
 bool Bsdf::reflects() const {
   return std::visit([](const auto& lobe) { return lobe.reflects(); }, lobe_);
 }

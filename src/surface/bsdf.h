@@ -42,6 +42,8 @@ class Bsdf {
 
   /// Some lobe is not specular: next-event estimation makes sense.
   bool has_smooth() const;
+  /// pdf() is the density of sample(), no proxy for it.
+  bool has_exact_pdf() const;
   /// It scatters alike in all directions of a side.
   bool diffuse() const { return std::holds_alternative<DiffuseLobe>(lobe_); }
   bool reflects() const;

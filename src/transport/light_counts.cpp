@@ -6,6 +6,8 @@ namespace tyndall {
 namespace {
 
 constexpr LightCounts kOnlyVertex{8, 0}, kVertex{2, 2};
+/// Later light is averaged over paths that share it; this is not (docs/measurements.md).
+constexpr LightCounts kFirstVertex{4, 4};
 /// Bounds of clusters say little of where a narrow lobe meets a light. Where most is scattered elsewhere, as under a coat, more
 /// candidates are not worth their time (docs/measurements.md).
 constexpr LightCounts kGlossyVertex{4, 2};
@@ -65,7 +67,9 @@ LightCounts counts_at_vertex(const LightContext& context, const PointQuery& quer
     if (lights.stats().points == lights.stats().lights) counts.candidates = among(lights.sought(), counts).candidates;
     return chosen(context.settings, counts);
   }
-  return chosen(context.settings, among(lights.sought(), mostly_glossy(query) ? kGlossyVertex : kVertex));
+  const LightCounts later = mostly_glossy(query) ? kGlossyVertex : kVertex;
+  const bool first = context.bounce == 0 && context.settings.reuse == ReuseStrategy::pixels;
+  return chosen(context.settings, among(lights.sought(), first ? kFirstVertex : later));
 }
 
 SpanCounts counts_along_span(const LightContext& context, float scattered, float depth) {

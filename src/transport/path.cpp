@@ -17,9 +17,16 @@ float hash_to_unit(Vec3 p, Vec3 w) {
   return static_cast<float>(h >> 40) * 0x1p-24f;
 }
 
+Rgb divided(Rgb a, Rgb b) {
+  for (int channel = 0; channel < 3; ++channel) a[channel] = b[channel] != 0 ? a[channel] / b[channel] : 0.0f;
+  return a;
+}
+
 /// Russian roulette is for paths of less throughput than this: a dark wall's path into bright smoke is too rare to be made
 /// rarer (docs/measurements.md).
 constexpr float kRouletteBelow = 1 / 3.0f;
+/// The step beyond all others whose numbers the offer takes.
+constexpr int kSharingStep = 1 << 30;
 /// Guided paths have small weights and large contributions; roulette by weight alone would undo the guiding
 /// (docs/measurements.md).
 constexpr float kGuidedLive = 0.75f;
@@ -43,35 +50,47 @@ void Path::run() {
 
 PathRecord Path::result() { return beyond_ ? Path(*this, *beyond_).run_beyond(beyond_->trace) : record_; }
 
-bool Path::run_until_offer() {
+PathOffer* Path::run_until_offer() {
   ++context_.counters.paths;
-  offers_ = true;
+  sharing_ = Sharing::offering;
   auto vertex = follow(next_vertex());
-  if (!vertex) return false;
+  if (!offer_) return nullptr;
+  if (!vertex) return &*offer_;
   offer_->at.emplace(std::move(*vertex));
   offer_->arrived = beta_;
-  return true;
+  offer_->flown = flown_;
+  context_.sampler.begin_step(kSharingStep);
+  offer_->rng = context_.sampler.stream();
+  return &*offer_;
 }
 
 void Path::complete_offer() {
   const PathRecord before = std::exchange(record_, {});
   before_ = max_component(beta_);
   beta_ = Rgb(1.0f);
-  offers_ = false;
+  sharing_ = Sharing::completing;
   follow(offer_->at);
+  sharing_ = Sharing::none;
   offer_->radiance = record_.radiance();
+  if (!offer_->at->on_surface()) offer_->radiance = divided(offer_->radiance, offer_->scattered);
   record_ = before;
+  take(offer_->arrived * offer_->own);
 }
 
-/// Not where dispersion has left a single channel: others want them all.
+bool Path::completes_collision() const { return sharing_ == Sharing::completing && !offer_->at->on_surface(); }
+
+/// Not where dispersion has left a single channel: others want them all. Nor where they could not tell how likely the path
+/// went where it did.
 bool Path::may_offer(const Vertex& first) const {
-  return offers_ && depth_ == 1 && limits_.max_depth > 1 && first.has_smooth() && !channel_;
+  return sharing_ == Sharing::offering && depth_ == 1 && limits_.max_depth > 1 && first.has_smooth() && first.has_exact_pdf() &&
+         !channel_;
 }
 
-/// What the surface sends back must not depend on which of the paths looks at it. Nor is the density known of passing other
-/// media than homogeneous ones.
+/// What the surface sends back must not depend on which of the paths looks at it. Of a collision's light only that of the
+/// next bounce and later is shared.
 bool Path::is_offered(const Vertex& second) const {
-  return offers_ && depth_ == 1 && offer_ && known_passage_ && second.on_surface() && second.surface()->bsdf.diffuse();
+  if (sharing_ != Sharing::offering || depth_ != 1 || !offer_ || !light_sampled_) return false;
+  return second.on_surface() ? second.surface()->bsdf.diffuse() : limits_.max_depth > 2;
 }
 
 Path::Path(const Path& camera, const Beyond& beyond)
@@ -124,20 +143,26 @@ bool Path::scatter(const Vertex& vertex) {
   add(seen * light_at(directions, seen), depth_);
   if (is_black(beta_) || (is_last_bounce(context_) && !context_.world.rays_find_lights())) return false;
 
-  const auto joint = joint_search(context_, vertex);
+  // What is aimed at lights weighs against the directions of this path alone.
+  const bool offered = depth_ == 2 && completes_collision();
+  const auto joint = offered ? std::nullopt : joint_search(context_, vertex);
   if (joint) add(beta_ * joint_light(context_, vertex, *joint), depth_ + 1);
 
   begin(Step::scatter);
   const float uc = context_.sampler.next_1d();
   const auto s = directions.sample(beta_, uc, context_.sampler.next_2d());
   if (!s) return false;
-  if (s->specular) offer_.reset();
+  if (offered) {
+    offer_->wi = s->wi;
+    offer_->scattered = s->weight;
+  }
   light_sampled_ = !s->specular && vertex.has_smooth();
   from_ = vertex.p();
   pdf_ = span_collision_ ? vertex.pdf(s->wi, Rgb(1.0f)) : s->pdf;
   media_ = vertex.media_toward(context_.world.geometry, s->wi);
   ray_ = {vertex.origin(context_.world.geometry, s->wi), s->wi};
   context_.joint = joint ? &joint_.emplace(*joint, s->wi, vertex.pdf(s->wi, Rgb(1.0f))) : nullptr;
+  flown_ = Rgb(1.0f);
   beta_ *= s->weight;
   eta_scale_ *= s->eta * s->eta;
   guided_pdf_ratio_ *= s->guided_pdf_ratio;
@@ -162,7 +187,6 @@ std::optional<Vertex> Path::next_vertex() {
   }
   const Trace trace = context_.world.geometry.trace(ray_, 0, kInfinity);
   if (depth_ == 0) record_camera_ray(trace);
-  known_passage_ = true;
   if (context_.world.has_media()) {
     if (auto collision = pass_media(trace)) return collision;
   }
@@ -225,7 +249,9 @@ int Path::narrow_to_channel() {
 
 /// Light that reached the camera after `events` bounces.
 void Path::add(Rgb contribution, int events) {
-  if (events == 0) {
+  if (events == 2 && completes_collision()) {
+    offer_->own += contribution;
+  } else if (events == 0) {
     record_.emission += contribution;
   } else if (first_bounce_in_medium_) {
     (events == 1 ? record_.volume_direct : record_.volume_indirect) += contribution;

@@ -27,11 +27,12 @@ class Path {
   void run();
 
   /// In place of run(), where paths share what they find beyond their first bounce (suffix_reuse.h): the path goes until it
-  /// ends, or stands at a vertex that others may see as well. True: it has an offer, which is to be completed.
-  bool run_until_offer();
-  /// The rest of the path: what the offer's vertex scatters. Its light counts only as it is handed out, by take().
+  /// ends, or stands at a vertex that others may see as well. Its offer; nothing: it shares with nobody.
+  PathOffer* run_until_offer();
+  PathOffer& offer() { return *offer_; }
+  /// The rest of a path whose offer has a find: the light that is scattered there. What others may count too counts only as it
+  /// is handed out, by take().
   void complete_offer();
-  const PathOffer& offer() const { return *offer_; }
   /// Light of two bounces or more.
   void take(Rgb light) { add(light, 2); }
   /// What the ended path has found.
@@ -60,6 +61,7 @@ class Path {
   std::optional<Vertex> follow(std::optional<Vertex> vertex);
   bool may_offer(const Vertex& first) const;
   bool is_offered(const Vertex& second) const;
+  bool completes_collision() const;
   std::optional<Vertex> next_vertex();
   std::optional<Vertex> arrive(const Trace& trace);
   std::optional<Vertex> collide_untraced();
@@ -111,8 +113,9 @@ class Path {
   std::optional<SpanSearch> span_search_;
   float collision_t_ = 0, collision_density_ = 0;
 
-  bool offers_ = false;        ///< it stands before an offer, if it can have one
-  bool known_passage_ = true;  ///< its last ray passed no media but homogeneous ones
+  Rgb flown_{1.0f};  ///< weight of the flight since the last bounce
+  enum class Sharing { none, offering, completing };
+  Sharing sharing_ = Sharing::none;  ///< whether an offer is still ahead, or what it is worth is being found
   std::optional<PathOffer> offer_;
 
   std::optional<Beyond> beyond_;  ///< what this path, which collided, leaves to another

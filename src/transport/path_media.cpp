@@ -50,6 +50,7 @@ std::optional<Vertex> Path::collide_untraced() {
   const auto crossings = world.geometry.trace_shadow(ray_, 0, flight.t + margin);
   if (!crossings || !crossings->empty()) return std::nullopt;
   beta_ *= flight.weight;
+  flown_ *= flight.weight;
   return Vertex(Vertex::InMedium{ray_.at(flight.t), flight.phase}, -ray_.d, media_);
 }
 
@@ -59,7 +60,6 @@ std::optional<Vertex> Path::pass_media(const Trace& trace) {
   const Span span = make_span(context_.world.media_context(), media_, ray_, trace, context_.counters.parity_errors);
   if (depth_ == 0 && limits_.want_transmittance) record_transmittance(span);
   media_ = span.end;
-  known_passage_ = homogeneous_throughout(span.parts);
   if (span.empty()) return std::nullopt;
   // After the last bounce only what the ray hits at its end counts: no collision need be drawn.
   if (depth_ >= limits_.max_depth) {
@@ -117,6 +117,7 @@ std::optional<Vertex> Path::fly(const Span& span, const Trace& trace) {
   for (const SpanPart& part : span.parts) {
     const Flight flight = free_flight(part.view(), ray_, part.t0, part.t1, beta_, u, rng, context_.counters.tracking);
     beta_ *= flight.weight;
+    flown_ *= flight.weight;
     if (is_black(beta_)) return std::nullopt;
     if (flight.collided) {
       collision_t_ = collision_place(context_.world.geometry, ray_, part, trace.hit, flight.t);

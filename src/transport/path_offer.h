@@ -7,7 +7,7 @@
 
 namespace tyndall {
 
-/// The light of a diffuse surface that the path met after its first bounce.
+/// What the path met after its first bounce, a diffuse surface or a collision, and the light that is scattered there.
 struct PathOffer {
   PathOffer(const LightContext& context, const Vertex& vertex, Rgb throughput)
       : first(vertex), directions(context, first), beta(throughput) {}
@@ -17,9 +17,16 @@ struct PathOffer {
   Directions directions;  ///< how the path went on from there
   Rgb beta;               ///< throughput before that bounce
 
-  std::optional<Vertex> at;  ///< the surface, seen from `first` through at most homogeneous media
+  std::optional<Vertex> at;  ///< what was met; nothing: others may still have found something for this path
   Rgb arrived;               ///< throughput with which the path itself came there
-  Rgb radiance;              ///< what it scatters toward `first`, and to all on that side: an estimate
+  Rgb flown;                 ///< the part of it that the flight through media weighs
+  Rng rng{0};                ///< for the connections of others
+
+  /// An estimate: of what a surface scatters to all on the side of `first`; of what comes to a collision from `wi`.
+  Rgb radiance;
+  Vec3 wi;              ///< where the path went on from a collision
+  Rgb scattered{1.0f};  ///< phase function toward `first`, over its density
+  Rgb own;              ///< light that a collision scatters toward `first` and that only the path itself counts
 };
 
 }  // namespace tyndall

@@ -1,9 +1,9 @@
 /// Light found beyond the first bounce, shared by the paths of neighbouring pixels [Bekaert et al. 2002].
 ///
-/// Neighbours see much the same, yet each path looks in one direction. Where its ray from the first vertex meets a diffuse
-/// surface, what that scatters is connected to the first vertices of the other paths too, which might have drawn it as well:
-/// each surface found counts for all of them, weighted by the balance heuristic [Veach 1997] over the densities with which any
-/// would have found it. For the price of a shadow ray each path gets the light of many.
+/// Neighbours see much the same, yet each path looks in one direction. What its ray from the first vertex meets, a diffuse
+/// surface or a collision in a medium, is connected to the first vertices of the other paths too, which might have met it as
+/// well: each find counts for all of them, weighted by the balance heuristic [Veach 1997] over the densities, or proxies of
+/// them, with which any would have met it. For the price of a shadow ray each path gets the light of many.
 #pragma once
 
 #include <span>
@@ -15,7 +15,14 @@ namespace tyndall {
 /// Most paths that share.
 inline constexpr std::size_t kMostSharing = 16;
 
+/// What connections go through, how, and where they are counted.
+struct Between {
+  const BuiltWorld& world;
+  TransmittanceStrategy transmittance;
+  Counters& counters;
+};
+
 /// Hands out what the offers of `paths` are worth to each of them: at most kMostSharing, all with complete offers.
-void share_suffixes(const BuiltWorld& world, std::span<Path* const> paths, Counters& counters);
+void share_suffixes(const Between& between, std::span<Path* const> paths);
 
 }  // namespace tyndall

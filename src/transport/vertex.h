@@ -42,11 +42,14 @@ class Vertex {
   const MediaState& media() const { return media_; }                       ///< on the side of wo
   const Surface* surface() const { return std::get_if<Surface>(&kind_); }  ///< nullptr in a medium
   bool on_surface() const { return std::holds_alternative<Surface>(kind_); }
+  const InMedium* medium() const { return std::get_if<InMedium>(&kind_); }  ///< nullptr on a surface
 
   /// How light selection sees this vertex: with the directions that it favours.
   PointQuery light_query() const;
   /// Some light arriving from a sampled direction could be scattered: next-event estimation makes sense.
   bool has_smooth() const;
+  /// pdf() is the density of sample(), no proxy for it.
+  bool has_exact_pdf() const { return !on_surface() || surface()->bsdf.has_exact_pdf(); }
 
   /// f |cos| at surfaces; the phase function in media (the albedo is in the collision's weight).
   Rgb eval(Vec3 wi) const;

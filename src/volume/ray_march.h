@@ -17,9 +17,13 @@ namespace tyndall::kernel {
 /// that they are where the medium varies and nothing about the ray needs to be known beforehand, wider apart the more the
 /// control has attenuated what is left to estimate; and N has a geometric tail, whose weights keep the variance finite however
 /// far the X_i lie apart.
+///
+/// Of 1/T the same with all signs turned: exp(x) = exp(X_i) exp(x - X_i). Then nothing is given up, as nothing is negligible.
 class RayMarch {
  public:
-  RayMarch(float spacing, Rng& rng, TrackingStats& stats) : base_spacing_(spacing), orders_(draw_orders(rng, stats)) {
+  enum class Of { transmittance, inverse };
+  RayMarch(Of of, float spacing, Rng& rng, TrackingStats& stats)
+      : sign_(of == Of::inverse ? 1.0f : -1.0f), base_spacing_(spacing), orders_(draw_orders(rng, stats)) {
     for (int i = 0; i <= orders_; ++i) combs_.push_back({double{rng.uniform()}, {}});
   }
 
@@ -31,7 +35,8 @@ class RayMarch {
     if (rate > 0) {
       // Known before any look-up, so that it does not depend on what they read. A single tooth of what roulette left
       // must not bring back all that the control took: there it grows no more.
-      spacing_ = base_spacing_ * (1 + std::min({control_.r, control_.g, control_.b, kThick}));
+      const float attenuated = sign_ < 0 ? std::min({control_.r, control_.g, control_.b, kThick}) : 0.0f;
+      spacing_ = base_spacing_ * (1 + attenuated);
       const double end = marched_ + rate * length / spacing_;
       for (Comb& comb : combs_)
         if (!read_teeth(comb, walk, end, rng, stats)) return false;
@@ -41,7 +46,7 @@ class RayMarch {
     return survives_roulette(control_, rng);
   }
 
-  Rgb transmittance() const { return {transmittance(0), transmittance(1), transmittance(2)}; }
+  Rgb estimate() const { return {estimate(0), estimate(1), estimate(2)}; }
 
  private:
   static constexpr float kMore = 0.05f;     // P(N >= 1)
@@ -83,6 +88,7 @@ class RayMarch {
 
   /// On exp of what is known so far, `control` and the first comb: any function of the past will do.
   bool survives_roulette(Rgb control, Rng& rng) {
+    if (sign_ > 0) return true;
     float least = kInfinity;
     for (int channel = 0; channel < 3; ++channel) least = std::min(least, control[channel] + combs_[0].x[channel]);
     const float left = least - relief_;
@@ -93,10 +99,12 @@ class RayMarch {
     return true;
   }
 
-  float transmittance(int channel) const {
+  float estimate(int channel) const {
     double sum = 0;
-    for (int pivot = 0; pivot <= orders_; ++pivot)
-      sum += std::exp(double{relief_} - control_[channel] - combs_[index(pivot)].x[channel]) * series(pivot, channel);
+    for (int pivot = 0; pivot <= orders_; ++pivot) {
+      const double depth = double{control_[channel]} + combs_[index(pivot)].x[channel];
+      sum += std::exp(double{relief_} + double{sign_} * depth) * series(pivot, channel);
+    }
     return static_cast<float>(sum / (orders_ + 1));
   }
 
@@ -107,7 +115,7 @@ class RayMarch {
     int count = 0;
     for (int i = 0; i <= orders_; ++i) {
       if (i == pivot) continue;
-      const double difference = double{combs_[index(pivot)].x[channel]} - combs_[index(i)].x[channel];
+      const double difference = double{sign_} * (double{combs_[index(i)].x[channel]} - combs_[index(pivot)].x[channel]);
       ++count;
       for (int k = count; k > 0; --k) e[index(k)] += difference * e[index(k - 1)];
     }
@@ -120,6 +128,7 @@ class RayMarch {
     return sum;
   }
 
+  float sign_;          // of the optical depth in the exponent
   float base_spacing_;  // of the teeth where nothing is attenuated yet
   LoopGuard guard_;     // of all combs together
   int orders_;
@@ -131,11 +140,11 @@ class RayMarch {
 };
 
 template <typename Walk>
-Rgb ray_marching(Walk& walk, float spacing, Rng& rng, TrackingStats& stats) {
-  RayMarch march(spacing, rng, stats);
+Rgb ray_marching(Walk& walk, RayMarch::Of of, float spacing, Rng& rng, TrackingStats& stats) {
+  RayMarch march(of, spacing, rng, stats);
   while (walk.next())
     if (!march.add(walk, rng, stats)) return {};
-  return march.transmittance();
+  return march.estimate();
 }
 
 }  // namespace tyndall::kernel

@@ -59,6 +59,10 @@ struct TransmittanceMethod {
 Rgb transmittance(TransmittanceMethod method, MediaView media, const Ray& ray, float t0, float t1, Rng& rng,
                   TrackingStats& stats);
 
+/// Unbiased estimate of exp(+integral of sigma_t over [t0, t1]), t1 finite, by ray marching at `spacing`, as above; exact when
+/// all media are homogeneous. For what was reached with a probability that is a transmittance.
+Rgb inverse_transmittance(float spacing, MediaView media, const Ray& ray, float t0, float t1, Rng& rng, TrackingStats& stats);
+
 /// What a path makes of the emission that it passes.
 class EmissionGauge {
  public:

@@ -101,7 +101,7 @@ Rgb transmittance(TransmittanceMethod method, MediaView media, const Ray& ray, f
   const TransmittanceStrategy strategy = method.strategy;
   if (strategy == TransmittanceStrategy::raymarch) {
     return with_walk<WalkMode::march>(media, ray, t0, t1, [&](auto& walk) {
-      const Rgb T = ray_marching(walk, method.spacing, rng, stats);
+      const Rgb T = ray_marching(walk, RayMarch::Of::transmittance, method.spacing, rng, stats);
       finish(walk, stats);
       return T;
     });
@@ -118,6 +118,20 @@ Rgb transmittance(TransmittanceMethod method, MediaView media, const Ray& ray, f
         strategy == TransmittanceStrategy::ratio ? ratio_tracking(walk, rng, stats) : delta_tracking(walk, rng, stats);
     finish(walk, stats);
     return T;
+  });
+}
+
+// NOLINTNEXTLINE(readability-function-size): as free_flight
+Rgb inverse_transmittance(float spacing, MediaView media, const Ray& ray, float t0, float t1, Rng& rng, TrackingStats& stats) {
+  if (media.empty() || !(t0 < t1)) return Rgb{1.0f};
+  if (all_homogeneous(media)) {
+    ++stats.segments;
+    return exp(sum_of(media).sigma_t() * (t1 - t0));
+  }
+  return with_walk<WalkMode::march>(media, ray, t0, t1, [&](auto& walk) {
+    const Rgb inverse = ray_marching(walk, RayMarch::Of::inverse, spacing, rng, stats);
+    finish(walk, stats);
+    return inverse;
   });
 }
 

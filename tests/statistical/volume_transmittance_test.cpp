@@ -69,13 +69,15 @@ struct Stripes {
   }
 };
 
-/// Estimates of the transmittance of so many walks, red.
-Moments marched(const Stripes& walk, int count, std::uint64_t seed, TrackingStats& stats) {
+using Of = kernel::RayMarch::Of;
+
+/// Estimates of so many walks, red.
+Moments marched(const Stripes& walk, int count, std::uint64_t seed, TrackingStats& stats, Of of = Of::transmittance) {
   Moments moments;
   Rng rng(seed);
   for (int i = 0; i < count; ++i) {
     Stripes one = walk;
-    moments.add(kernel::ray_marching(one, 0.5f, rng, stats).r);
+    moments.add(kernel::ray_marching(one, of, 0.5f, rng, stats).r);
   }
   return moments;
 }
@@ -102,6 +104,33 @@ TEST_CASE("channels and overlapping, rotated and stretched media are estimated w
   check_all({"two", {&red, &blue}, kDiagonal, 0, 4}, 60000);
   check_all({"three", {&red, &blue, &fog}, kDiagonal, 0, 4}, 60000);
   check_all({"one twice", {&red, &red}, kDiagonal, 0, 4}, 60000);
+}
+
+TEST_CASE("the inverse of the transmittance agrees with the integral, however much its optical depths scatter") {
+  const auto red = test::clumpy({{0.1f, 1.0f, 3.0f}, {0.4f, 0.2f, 1.0f}, 0.3f}, 5);
+  const auto fog = test::homogeneous({{0.0f, 0.1f, 0.3f}, {0.0f, 0.0f, 0.2f}, 0});
+  for (const auto& media : std::vector<std::vector<const ParticipatingMedium*>>{{&red}, {&red, &fog}, {&fog}}) {
+    const test::LineIntegrals exact = test::integrate_line(media, kDiagonal, 0, 3);
+    std::array<Moments, 3> moments;
+    TrackingStats stats;
+    Rng rng(19);
+    for (int i = 0; i < 60'000; ++i) {
+      const Rgb inverse = inverse_transmittance(0.5f, media, kDiagonal, 0, 3, rng, stats);
+      for (int c = 0; c < 3; ++c) moments[static_cast<std::size_t>(c)].add(inverse[c]);
+    }
+    for (int c = 0; c < 3; ++c) {
+      const double expected = 1 / exact.transmittance(c);
+      CHECK(moments[static_cast<std::size_t>(c)].deviation(expected, 2e-5 * expected) < 4);
+      CHECK(moments[static_cast<std::size_t>(c)].standard_error() < 0.01 * expected);
+    }
+    CHECK(stats.majorant_violations == 0);
+  }
+  for (const double length : {0.25, 0.5, 1.0}) {
+    TrackingStats stats;
+    const Moments moments = marched({length}, 1'000'000, 3, stats, Of::inverse);
+    CHECK(moments.deviation(std::exp(length)) < 4);
+    CHECK(moments.standard_error() < 0.01 * std::exp(length));
+  }
 }
 
 TEST_CASE("homogeneous media are exact, at any depth and to infinity") {
@@ -171,7 +200,7 @@ TEST_CASE("a march that would never end is given up and counted") {
   Stripes walk{1e17, 0, 0};
   Rng rng(7);
   TrackingStats stats;
-  CHECK(is_black(kernel::ray_marching(walk, 0.5f, rng, stats)));
+  CHECK(is_black(kernel::ray_marching(walk, Of::transmittance, 0.5f, rng, stats)));
   CHECK(stats.caps_hit == 1);
   CHECK(stats.lookups == kernel::kMaxLookups);
 }
