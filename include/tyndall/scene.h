@@ -320,7 +320,13 @@ struct Instance {
 // ------------------------------------------------------------------------------------- camera, film, whole
 
 struct Camera {
-  enum class Kind { perspective, orthographic } kind = Kind::perspective;
+  /// The spherical ones see all around: +y up, to_world and medium count, all else is for the others.
+  enum class Kind {
+    perspective,
+    orthographic,
+    spherical_equal_area,       ///< pbrt's square: +y in the middle, -y in the corners, +x to the right, +z to the bottom
+    spherical_equirectangular,  ///< +y on top; from +x at the left edge over +z
+  } kind = Kind::perspective;
   Transform to_world;                                 ///< camera space: +z forward, +y up
   float fov_degrees = 90;                             ///< of the shorter screen axis
   std::optional<std::array<float, 4>> screen_window;  ///< x0 x1 y0 y1

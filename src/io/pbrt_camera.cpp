@@ -33,6 +33,16 @@ void read_screen(ParamList& params, Camera& camera) {
   camera.screen_window = {window[0], window[1], window[2], window[3]};
 }
 
+/// pbrt takes the parameters of lens and screen here too, and passes them over.
+Camera::Kind read_mapping(ParamList& params) {
+  Camera unused;
+  read_lens(params, unused);
+  read_screen(params, unused);
+  return params.choice("mapping", "equalarea", {"equalarea", "equirectangular"}) == "equalarea"
+             ? Camera::Kind::spherical_equal_area
+             : Camera::Kind::spherical_equirectangular;
+}
+
 }  // namespace
 
 void read_camera(State& state, Tokenizer& in, const Location& where) {
@@ -43,13 +53,18 @@ void read_camera(State& state, Tokenizer& in, const Location& where) {
   camera.medium = state.graphics.outside;
   if (type == "orthographic")
     camera.kind = Camera::Kind::orthographic;
-  else if (type == "realistic" || type == "spherical")
-    throw params.error("camera \"" + type + "\" is not supported by Tyndall; use \"perspective\" or \"orthographic\"");
-  else if (type != "perspective")
-    throw params.error("camera \"" + printable(type) + "\" is unknown; " + suggestion(type, {"perspective", "orthographic"}));
+  else if (type == "realistic")
+    throw params.error("camera \"realistic\" is not supported by Tyndall; use \"perspective\" or \"orthographic\"");
+  else if (type != "perspective" && type != "spherical")
+    throw params.error("camera \"" + printable(type) + "\" is unknown; " +
+                       suggestion(type, {"perspective", "orthographic", "spherical"}));
   const double exposure = read_exposure(params);
-  read_lens(params, camera);
-  read_screen(params, camera);
+  if (type == "spherical") {
+    camera.kind = read_mapping(params);
+  } else {
+    read_lens(params, camera);
+    read_screen(params, camera);
+  }
   if (camera.kind == Camera::Kind::perspective) {
     camera.fov_degrees = params.number("fov", 90);
     if (!(camera.fov_degrees > 0 && camera.fov_degrees < 180))

@@ -135,9 +135,9 @@ void print(const Verdict& v) {
 
 }  // namespace
 
-TEST_CASE("83 scenes agree with pbrt-v4") {
+TEST_CASE("85 scenes agree with pbrt-v4") {
   const std::vector<std::string> names = scene_names();
-  CHECK(names.size() == 83);
+  CHECK(names.size() == 85);
 
   std::size_t tests = 0;
   for (const std::string& name : names) {

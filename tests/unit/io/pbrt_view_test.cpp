@@ -35,8 +35,23 @@ TEST_CASE("Camera") {
   CHECK_CONTAINS(error_of("Camera \"perspective\" \"float fov\" 180"), "fov must lie between");
   CHECK_CONTAINS(error_of("Camera \"perspective\" \"float screenwindow\" [1 2]"), "takes four numbers");
   CHECK_CONTAINS(error_of("Camera \"perspective\" \"float shutteropen\" 2"), "shutter does not open");
-  CHECK_CONTAINS(error_of("Camera \"spherical\""), "not supported by Tyndall");
+  CHECK_CONTAINS(error_of("Camera \"realistic\""), "not supported by Tyndall");
   CHECK_CONTAINS(error_of("Camera \"perspectiv\""), "did you mean \"perspective\"?");
+}
+
+TEST_CASE("spherical cameras: both mappings, and what pbrt passes over") {
+  CHECK(read("Camera \"spherical\" WorldBegin").camera.kind == Camera::Kind::spherical_equal_area);
+  CHECK(read("Camera \"spherical\" \"string mapping\" \"equalarea\" WorldBegin").camera.kind ==
+        Camera::Kind::spherical_equal_area);
+  const Camera camera = read(R"(Translate 0 0 5 Camera "spherical" "string mapping" "equirectangular" "float shutterclose" .5
+    "float lensradius" .1 "float focaldistance" 5 "float screenwindow" [-2 2 -1 1] WorldBegin)")
+                            .camera;
+  CHECK(camera.kind == Camera::Kind::spherical_equirectangular);
+  CHECK(camera.to_world.point({0, 0, 0}).z == -5);
+  CHECK(camera.lens_radius == 0);
+  CHECK_FALSE(camera.screen_window);
+  CHECK_CONTAINS(error_of("Camera \"spherical\" \"string mapping\" \"mercator\""), "equirectangular");
+  CHECK_CONTAINS(error_of("Camera \"spherical\" \"float fov\" 90"), "has no parameter \"fov\"");
 }
 
 TEST_CASE("the camera's medium is the outside of the MediumInterface before it") {

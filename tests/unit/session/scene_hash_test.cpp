@@ -197,6 +197,18 @@ TEST_CASE("another kind of the same thing is another scene") {
   CHECK(seen.size() == 3);
 }
 
+TEST_CASE("each kind of camera is another scene, and the first has the hash that it always had") {
+  std::set<std::uint64_t> seen;
+  using Kind = Camera::Kind;
+  for (const Kind kind : {Kind::perspective, Kind::orthographic, Kind::spherical_equal_area, Kind::spherical_equirectangular}) {
+    Scene scene;
+    scene.camera.kind = kind;
+    seen.insert(hash_scene(scene));
+  }
+  CHECK(seen.size() == 4);
+  CHECK(hash_scene(Scene{}) == 5435084645036978678u);
+}
+
 TEST_CASE("a file that is gone is named") {
   CHECK_THROWS_WITH_AS(hash_scene(everything("/no/such/asset")), doctest::Contains("/no/such/asset: cannot be opened"), Error);
 }
