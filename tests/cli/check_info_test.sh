@@ -22,10 +22,11 @@ expect 3 "$T" check tests/scenes/bad/several.pbrt
 [ "$(wc -l <"$scratch/out.txt")" -ge 3 ] || fail "several.pbrt: not every problem is listed"
 
 # A folder: a table of the scenes below it. What is only included, or speaks of WorldBegin in a comment, is none.
+rm -rf "$scratch/scenes" "$scratch/empty"
 mkdir -p "$scratch/scenes/rooms"
 cat >"$scratch/scenes/rooms/good.pbrt" <<'SCENE'
 Include "camera.pbrt"
-Film "rgb" "string sensor" "canon_eos_100d"
+Film "gbuffer" "string coordinatesystem" "world"
 WorldBegin
 Shape "sphere"
 SCENE
@@ -34,7 +35,7 @@ printf 'Integrator "bdpt"\nWorldBegin\n' | gzip >"$scratch/scenes/packed.pbrt.gz
 expect 0 "$T" check "$scratch/scenes"
 [ "$(grep -cE "(good.pbrt|packed.pbrt.gz) +ok$" "$scratch/out.txt")" = 2 ] || fail "not two scenes: $(cat "$scratch/out.txt")"
 says "2 scenes: 2 ok, 0 not" "$scratch/out.txt"
-says "    1 with warning: film sensors are not simulated" "$scratch/out.txt"
+says "    1 with warning: parameter \"coordinatesystem\" is ignored" "$scratch/out.txt"
 printf 'WorldBegin\nShape "ball"\nMaterial "shiny"\n' >"$scratch/scenes/bad.pbrt"
 expect 3 "$T" check "$scratch/scenes"
 grep -qE "^$scratch/scenes/bad.pbrt +$scratch/scenes/bad.pbrt:2:1: .* \(and 1 more\)$" "$scratch/out.txt" ||

@@ -1,3 +1,4 @@
+#include "io/color.h"
 #include "unit/io/reader_checks.h"
 
 using namespace tyndall;
@@ -88,10 +89,19 @@ TEST_CASE("Film: size, crop, exposure") {
   CHECK_CONTAINS(error_of("Film \"rgb\" \"float gain\" 1"), "film \"rgb\" has no parameter \"gain\"");
 }
 
-TEST_CASE("sensors are not simulated, and that is said once") {
-  const SceneFile file =
-      read_scene_text("Film \"rgb\" \"string sensor\" \"canon_eos_100d\" \"float whitebalance\" 5000 WorldBegin", "test.pbrt");
-  CHECK(file.warnings.size() == 2);
+TEST_CASE("sensor and white balance are part of the film's colours") {
+  const auto film = [](const std::string& parameters) { return read("Film \"rgb\" " + parameters + " WorldBegin").film; };
+  CHECK(film("\"string sensor\" \"cie1931\"").from_rec709 == Film().from_rec709);
+  const auto warm = film("\"float whitebalance\" 4000").from_rec709,
+             canon = film("\"string sensor\" \"canon_eos_5d\"").from_rec709;
+  CHECK(mul(warm, Rgb(1.0f)).b > 1.5f);
+  CHECK(mul(canon, Rgb(1.0f)).g == doctest::Approx(1).epsilon(0.02));
+  CHECK(canon != film("\"string sensor\" \"canon_eos_5d\" \"float whitebalance\" 4000").from_rec709);
+  CHECK_CONTAINS(error_of("Film \"rgb\" \"string sensor\" \"canon_eos_5\""), "did you mean \"canon_eos_5d");
+  CHECK_CONTAINS(error_of("Film \"rgb\" \"float whitebalance\" -1"), "whitebalance must be 0");
+  const auto warnings = [](const char* text) { return read_scene_text(text, "test.pbrt").warnings.size(); };
+  CHECK(warnings("Film \"rgb\" \"string sensor\" \"nikon_d850\" WorldBegin") == 0);
+  CHECK(warnings("Film \"rgb\" \"string sensor\" \"nikon_d850\" \"float maxcomponentvalue\" 2 WorldBegin") == 1);
 }
 
 TEST_CASE("the film is written in the colour space in force at Film") {
