@@ -13,7 +13,8 @@ constexpr const char* kMaterialKinds[] = {
     "coateddiffuse", "coatedconductor", "mix",        "interface"};
 constexpr const char* kMediumKinds[] = {"homogeneous", "uniformgrid", "rgbgrid", "cloud", "vdb"};
 constexpr const char* kLightKinds[] = {"point", "spot", "distant", "infinite", "goniometric", "projection"};
-constexpr const char* kCameraKinds[] = {"perspective", "orthographic", "spherical, equal-area", "spherical, equirectangular"};
+constexpr const char* kCameraKinds[] = {"perspective", "orthographic", "spherical, equal-area", "spherical, equirectangular",
+                                        "realistic"};
 constexpr const char* kShapeKinds[] = {"trianglemesh", "bilinearmesh", "sphere", "disk", "cylinder"};
 
 /// "3: 2 point, 1 spot" of anything that has a variant `kind`.

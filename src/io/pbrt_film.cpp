@@ -90,7 +90,8 @@ void read_film(State& state, Tokenizer& in, const Location& where) {
   film.max_component = params.number("maxcomponentvalue", kInfinity);
   if (!(film.max_component > 0)) throw params.error("maxcomponentvalue", "maxcomponentvalue must be above 0");
   params.boolean("savefp16", true);  // pictures are always written as float
-  params.number("diagonal", 35);     // matters to realistic cameras only
+  state.film_diagonal = params.number("diagonal", 35) / 1000;
+  if (!(state.film_diagonal > 0)) throw params.error("diagonal", "diagonal must be above 0");
   state.iso = read_iso(params);
   film.from_rec709 = read_sensor(params, *state.graphics.color_space);
   params.finish();

@@ -137,6 +137,11 @@ class SceneHasher {
     const auto& [name, shapes] = object;
     add(shapes);
   }
+  void add(const Camera& camera) {
+    const auto& [kind, to_world, fov, window, aspect, lens_radius, focal_distance, medium, lenses] = camera;
+    add_all(kind, to_world, fov, window, aspect, lens_radius, focal_distance, medium);
+    if (lenses) add(*lenses);
+  }
   void add(const Film& film) {
     const auto& [width, height, crop, filename, imaging_ratio, max_component, gbuffer, from_rec709, chromaticities] = film;
     add_all(width, height, imaging_ratio, max_component, from_rec709, chromaticities);

@@ -45,12 +45,35 @@ CameraRays::CameraRays(const Camera& camera, const Film& film)
       lens_radius_(camera.lens_radius),
       focal_distance_(camera.focal_distance),
       axis_(normalize(camera.to_world.vector({0, 0, 1}))) {
-  const auto window = screen_window(camera, film);
-  const float scale = kind_ == Camera::Kind::orthographic ? 1.0f : std::tan(camera.fov_degrees * (kPi / 360.0f));
+  if (camera.lenses) look_through(*camera.lenses);
+  const auto window = lenses_ ? seen_by_film() : screen_window(camera, film);
+  const float scale = lenses_ || kind_ == Camera::Kind::orthographic ? 1.0f : std::tan(camera.fov_degrees * (kPi / 360.0f));
   x0_ = window[0] * scale;
   x1_ = window[1] * scale;
   y0_ = window[2] * scale;
   y1_ = window[3] * scale;
+}
+
+void CameraRays::look_through(const Lenses& lenses) {
+  lenses_ = std::make_shared<const LensSystem>(lenses);
+  const float across = lenses.film_diagonal / std::hypot(width_, height_);
+  film_size_ = {across * width_, across * height_};
+}
+
+/// The slopes of what the film's edges see, by the thick lens that the lenses are near their axis.
+std::array<float, 4> CameraRays::seen_by_film() const {
+  const float s = static_cast<float>(0.5 / lenses_->image_distance());
+  return {-film_size_.x * s, film_size_.x * s, -film_size_.y * s, film_size_.y * s};
+}
+
+std::optional<CameraRays::Sample> CameraRays::sample(Vec2 p, Vec2 lens) const {
+  if (!lenses_) return Sample{ray(p, lens), 1};
+  // The picture on the film is upside down.
+  const Vec2 film{film_size_.x * (0.5f - p.x / width_), film_size_.y * (p.y / height_ - 0.5f)};
+  const auto through = lenses_->sample(film, lens);
+  if (!through) return std::nullopt;
+  const Vec3 o = to_world_.point(to_vec3(through->ray.o)), d = to_world_.vector(to_vec3(through->ray.d));
+  return Sample{{o, normalize(d)}, static_cast<float>(through->weight)};
 }
 
 Ray CameraRays::ray(Vec2 p, Vec2 lens) const {

@@ -1,4 +1,5 @@
 #include "io/color.h"
+#include "support/scratch.h"
 #include "unit/io/reader_checks.h"
 
 using namespace tyndall;
@@ -36,7 +37,6 @@ TEST_CASE("Camera") {
   CHECK_CONTAINS(error_of("Camera \"perspective\" \"float fov\" 180"), "fov must lie between");
   CHECK_CONTAINS(error_of("Camera \"perspective\" \"float screenwindow\" [1 2]"), "takes four numbers");
   CHECK_CONTAINS(error_of("Camera \"perspective\" \"float shutteropen\" 2"), "shutter does not open");
-  CHECK_CONTAINS(error_of("Camera \"realistic\""), "not supported by Tyndall");
   CHECK_CONTAINS(error_of("Camera \"perspectiv\""), "did you mean \"perspective\"?");
 }
 
@@ -53,6 +53,35 @@ TEST_CASE("spherical cameras: both mappings, and what pbrt passes over") {
   CHECK_FALSE(camera.screen_window);
   CHECK_CONTAINS(error_of("Camera \"spherical\" \"string mapping\" \"mercator\""), "equirectangular");
   CHECK_CONTAINS(error_of("Camera \"spherical\" \"float fov\" 90"), "has no parameter \"fov\"");
+}
+
+TEST_CASE("realistic cameras: lenses, stop, focus, film") {
+  test::Scratch folder;
+  test::write_bytes(folder / "a.dat", "50 5 1.5 20\n0 1 0 12\n-50 40 1 20\n");
+  const auto camera = [&](const std::string& parameters) {
+    return "Camera \"realistic\" \"string lensfile\" \"" + (folder / "a.dat") + "\" " + parameters + " WorldBegin";
+  };
+  const Camera plain = read(camera("")).camera;
+  CHECK(plain.kind == Camera::Kind::realistic);
+  REQUIRE(plain.lenses);
+  CHECK(plain.lenses->elements.size() == 3);
+  CHECK(plain.lenses->elements[1].aperture_radius == 0.0005f);
+  CHECK(plain.lenses->focus_distance == 10);
+  CHECK(plain.lenses->stop == Lenses::Stop::circle);
+  CHECK(plain.lenses->film_diagonal == doctest::Approx(0.035));
+  const Camera set = read("Film \"rgb\" \"float diagonal\" 20 " +
+                          camera("\"float aperturediameter\" 8 \"float focusdistance\" 2 \"string aperture\" \"star\""))
+                         .camera;
+  CHECK(set.lenses->elements[1].aperture_radius == 0.004f);
+  CHECK(set.lenses->focus_distance == 2);
+  CHECK(set.lenses->stop == Lenses::Stop::star);
+  CHECK(set.lenses->film_diagonal == doctest::Approx(0.02));
+  const SceneFile wide = read_scene_text(camera("\"float aperturediameter\" 13"), "test.pbrt");
+  CHECK(wide.warnings.size() == 1);
+  CHECK(wide.scene.camera.lenses->elements[1].aperture_radius == 0.006f);
+  CHECK_CONTAINS(error_of("Camera \"realistic\""), "needs \"string lensfile\"");
+  CHECK_CONTAINS(error_of(camera("\"string aperture\" \"leaf.png\"")), "images of an aperture are not supported");
+  CHECK_CONTAINS(error_of(camera("\"float lensradius\" 1")), "has no parameter \"lensradius\"");
 }
 
 TEST_CASE("the camera's medium is the outside of the MediumInterface before it") {

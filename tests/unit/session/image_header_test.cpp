@@ -25,13 +25,14 @@ TEST_CASE("the text of the options is as typed, and tells the nearest of setting
   }
 }
 
-TEST_CASE("no matrix takes the world to the frame of a spherical camera") {
-  for (const char* kind : {"perspective", "spherical"}) {
-    const std::string text = std::string("Film \"rgb\" \"integer xresolution\" 2 \"integer yresolution\" 2 Camera \"") + kind +
-                             "\" WorldBegin Shape \"sphere\"";
+TEST_CASE("no matrix takes the world to the frame of a spherical or a realistic camera") {
+  const std::string lenses = "\"realistic\" \"string lensfile\" \"" TYNDALL_SOURCE_DIR "/tests/fuzz/corpus/lens/double.dat\"";
+  for (const std::string& camera : {std::string("\"perspective\""), std::string("\"spherical\""), lenses}) {
+    const std::string text =
+        "Film \"rgb\" \"integer xresolution\" 2 \"integer yresolution\" 2 Camera " + camera + " WorldBegin Shape \"sphere\"";
     const Image image = render(build(read_scene_text(text, "a.pbrt", ".").scene), {.spp = 1}).image;
     CHECK(image.attributes.contains("worldToCamera"));
-    CHECK(image.attributes.contains("worldToNDC") == (kind == std::string("perspective")));
+    CHECK(image.attributes.contains("worldToNDC") == (camera == "\"perspective\""));
   }
 }
 

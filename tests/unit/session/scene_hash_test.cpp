@@ -205,7 +205,14 @@ TEST_CASE("each kind of camera is another scene, and the first has the hash that
     scene.camera.kind = kind;
     seen.insert(hash_scene(scene));
   }
-  CHECK(seen.size() == 4);
+  Scene scene;
+  scene.camera.kind = Kind::realistic;
+  for (const float radius : {0.1f, 0.2f}) {
+    scene.camera.lenses = Lenses{};
+    scene.camera.lenses->elements = {{radius, 1, 1.5f, 1}};
+    seen.insert(hash_scene(scene));
+  }
+  CHECK(seen.size() == 6);
   CHECK(hash_scene(Scene{}) == 5435084645036978678u);
 }
 
