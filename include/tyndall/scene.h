@@ -47,7 +47,8 @@ struct MixTexture {
 };
 struct ImageTexture {
   enum class Wrap { repeat, black, clamp, octahedral } wrap = Wrap::repeat;  ///< octahedral: mirrored across the edges
-  enum class Filter { point, bilinear } filter = Filter::bilinear;
+  enum class Filter { point, bilinear, trilinear, elliptical } filter = Filter::bilinear;
+  float max_anisotropy = 8;  ///< of the elliptical filter
   std::string path;
   TextureMapping mapping;
   float scale = 1;

@@ -28,8 +28,8 @@ constexpr int field_count() {
   if (kOneOf<T, TextureMapping, PixelFilter, InfiniteLight, NoiseTexture, Material>) return 6;
   if (kOneOf<T, Coating>) return 7;
   if (kOneOf<T, RgbGridMedium, Shape>) return 8;
-  if (kOneOf<T, ImageTexture, Film, Camera>) return 9;
-  if (kOneOf<T, VdbMedium>) return 10;
+  if (kOneOf<T, Film, Camera>) return 9;
+  if (kOneOf<T, VdbMedium, ImageTexture>) return 10;
   if (kOneOf<T, UniformGridMedium>) return 11;
   if (kOneOf<T, Scene>) return 13;
   return -1;

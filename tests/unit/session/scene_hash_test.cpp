@@ -21,8 +21,10 @@ Scene everything(const std::string& path) {
   s.camera.screen_window = {-1, 1, -1, 1};
   s.camera.frame_aspect_ratio = 1.5f;
   s.camera.medium = 0;
+  s.camera.lenses.emplace().elements.emplace_back();
   s.textures = {{ConstantTexture{}, {}}, {ScaleTexture{}, {}}, {MixTexture{}, {}}, {CheckerboardTexture{}, {}}};
-  s.textures.push_back({ImageTexture{.path = path, .mapping = {}, .encoding = {}}, {}});
+  using Filter = ImageTexture::Filter;
+  s.textures.push_back({ImageTexture{.filter = Filter::elliptical, .path = path, .mapping = {}, .encoding = {}}, {}});
   const ConductorOptics optics{.reflectance = 0};
   s.materials = {{DiffuseMaterial{}, {}, {}},
                  {ConductorMaterial{optics, {}}, {}, {}},
@@ -139,6 +141,7 @@ std::set<const void*> without_effect(Scene& s) {
   std::set<const void*> addresses{&s.source, &s.film.filename, &s.film.gbuffer};
   Walk collect([&](const void* address) { addresses.insert(address); });
   collect.visit(s.film.crop);
+  if (s.camera.lenses) collect.visit(s.camera.lenses->where);
   for (Texture& t : s.textures) collect.visit(t.where);
   for (Material& m : s.materials) collect.visit(m.where), collect.visit(m.name);
   for (Medium& m : s.media) collect.visit(m.where), collect.visit(m.name);
