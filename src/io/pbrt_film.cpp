@@ -56,9 +56,6 @@ std::array<float, 9> read_sensor(ParamList& params, const ColorSpace& film_space
   constexpr float kColdest = 1000, kHottest = 100000;
   if (kelvin != 0 && !(kelvin >= kColdest && kelvin <= kHottest))
     throw params.error("whitebalance", "whitebalance must be 0, for none, or from 1000 to 100000 kelvin");
-  if (sensor != "cie1931" && params.find("maxcomponentvalue", {ParamType::number}))
-    params.reports().warn(params.where("maxcomponentvalue"),
-                          "\"maxcomponentvalue\" limits colours in Rec.709, where pbrt limits the sensor's own");
   if (sensor == "cie1931" && kelvin == 0) return film_space.from_rec709;
   Matrix3 film_from_rec709;
   std::copy(film_space.from_rec709.begin(), film_space.from_rec709.end(), film_from_rec709.begin());
@@ -89,9 +86,14 @@ void read_film(State& state, Tokenizer& in, const Location& where) {
   film.filename = params.string("filename", "");
   film.max_component = params.number("maxcomponentvalue", kInfinity);
   if (!(film.max_component > 0)) throw params.error("maxcomponentvalue", "maxcomponentvalue must be above 0");
+  if (params.find("maxcomponentvalue", {ParamType::number}))
+    params.reports().warn(params.where("maxcomponentvalue"),
+                          "\"maxcomponentvalue\" limits samples' colours in Rec.709; pbrt-v4 limits what its sensor makes of a "
+                          "few wavelengths, and comes out darker");
   params.boolean("savefp16", true);  // pictures are always written as float
-  state.film_diagonal = params.number("diagonal", 35) / 1000;
-  if (!(state.film_diagonal > 0)) throw params.error("diagonal", "diagonal must be above 0");
+  const float diagonal = params.number("diagonal", 35);
+  if (!(diagonal >= 1e-3f && diagonal <= 1e6f)) throw params.error("diagonal", "diagonal must be from 0.001 to 1e6 mm");
+  state.film_diagonal = diagonal / 1000;
   state.iso = read_iso(params);
   film.from_rec709 = read_sensor(params, *state.graphics.color_space);
   params.finish();
