@@ -39,7 +39,7 @@ class LensReader {
     const double eta = number("an index of refraction");
     if (eta != 0 && !(eta >= 1 && eta <= 10)) throw error("an index of refraction must be from 1 to 10, or 0 for air");
     const double diameter = number("a diameter");
-    if (!(diameter > 0)) throw error("a diameter must be above 0");
+    if (!(diameter >= 1e-3)) throw error("a diameter must be at least 0.001");
     const auto metres = [](double mm) { return static_cast<float>(mm / 1000); };
     return {metres(radius), metres(thickness), static_cast<float>(eta), metres(diameter / 2)};
   }

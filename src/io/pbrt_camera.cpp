@@ -47,7 +47,7 @@ Camera::Kind read_mapping(ParamList& params) {
 
 void set_aperture(ParamList& params, std::vector<LensElement>& elements) {
   const float diameter = params.number("aperturediameter", 1);
-  if (!(diameter > 0)) throw params.error("aperturediameter", "aperturediameter must be above 0");
+  if (!(diameter >= 1e-3f)) throw params.error("aperturediameter", "aperturediameter must be at least 0.001 mm");
   const auto stop = std::find_if(elements.begin(), elements.end(), [](const LensElement& e) { return e.radius == 0; });
   if (stop == elements.end()) {
     if (params.find("aperturediameter", {ParamType::number}))

@@ -94,7 +94,7 @@ typename Of::Value elliptical_of(const MipMap& map, const MipLookup& at, float m
     s1 = {s1.x * scale, s1.y * scale};
     shorter *= scale;
   }
-  const float exact = std::max(0.0f, level_of(map, shorter));
+  const float exact = std::clamp(level_of(map, shorter), 0.0f, static_cast<float>(levels(map)));
   const int below = static_cast<int>(exact);
   const auto in_level = [&](int i) {
     return i >= levels(map) ? Of::texel(level(map, levels(map) - 1), 0, 0)

@@ -19,10 +19,20 @@ CardinalPoints cardinal_points(const LensRay& in, const LensRay& out) {
   return {out.o.z - out.o.x * slope, out.o.z + (in.o.x - out.o.x) * slope};
 }
 
+void require_usable(const Lenses& lenses) {
+  if (lenses.elements.empty()) throw Error(lenses.where, "a realistic camera has no lenses; name a lens file that has some");
+  for (const LensElement& e : lenses.elements) {
+    if (!(e.aperture_radius > 0)) throw Error(lenses.where, "a lens lets nothing pass; its diameter must be above 0");
+    if (!(index_of(e.eta) >= 1)) throw Error(lenses.where, "an index of refraction is below 1; correct the lens file");
+  }
+  if (!(lenses.film_diagonal > 0 && lenses.focus_distance > 0))
+    throw Error(lenses.where, "the film's diagonal and the distance of focus must be above 0; correct them");
+}
+
 }  // namespace
 
 LensSystem::LensSystem(const Lenses& lenses) : stop_(lenses.stop), film_radius_(lenses.film_diagonal / 2) {
-  if (lenses.elements.empty()) throw Error(lenses.where, "a realistic camera has no lenses; name a lens file that has some");
+  require_usable(lenses);
   place_surfaces(lenses.elements);
   focus(lenses);
   const double rear = 1.5 * surfaces_.back().aperture_radius;
@@ -49,7 +59,7 @@ void LensSystem::place_surfaces(const std::vector<LensElement>& elements) {
 }
 
 /// Moves the film so that 1/s + 1/s' = 1/f, s and s' being the distances of what is in focus and of the film from their
-/// principal planes. Their sum L does not change with that: s' = (L - sqrt(L (L - 4 f))) / 2.
+/// principal planes. Their sum L does not change with that: s' = (L - sqrt(L (L - 4 f))) / 2, or 2 L f / (L + sqrt(...)).
 void LensSystem::focus(const Lenses& lenses) {
   double height = 1e-3 * lenses.film_diagonal;
   for (const Surface& s : surfaces_) height = std::min(height, 0.1 * s.aperture_radius);
@@ -64,7 +74,7 @@ void LensSystem::focus(const Lenses& lenses) {
   if (!(sum > 4 * f))
     throw Error(lenses.where, "focusdistance is too short for the lenses, whose focal length is " + std::to_string(f * 1000) +
                                   " mm; give more than " + std::to_string(4 * f + before.principal - behind.principal));
-  image_distance_ = (sum - std::sqrt(sum * (sum - 4 * f))) / 2;
+  image_distance_ = 2 * sum * f / (sum + std::sqrt(sum * (sum - 4 * f)));
   const double shift = image_distance_ - behind.principal;
   for (Surface& s : surfaces_) s.z += shift;
   if (!(rear_z() > 0)) throw Error(lenses.where, "focused, the last lens would stand behind the film; correct the lens file");

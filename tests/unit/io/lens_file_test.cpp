@@ -40,7 +40,7 @@ TEST_CASE("lens files that cannot be used are refused with the place") {
   CHECK(error_of("34 5 x 22").starts_with("a.dat:1:6: expected an index of refraction"));
   CHECK(error_of("34 -5 1.5 22").starts_with("a.dat:1:4: a thickness must not be negative"));
   CHECK(error_of("34 5 0.5 22").starts_with("a.dat:1:6: an index of refraction must be from 1"));
-  CHECK(error_of("34 5 1.5 0").starts_with("a.dat:1:10: a diameter must be above 0"));
+  CHECK(error_of("34 5 1.5 0").starts_with("a.dat:1:10: a diameter must be at least 0.001"));
   CHECK(error_of("34 5 1.5 2e6").starts_with("a.dat:1:10: a diameter must not be above 1e6"));
   CHECK(error_of("0 5 0 2\n34 5 1.5 2\n0 5 0 2").find("a second stop") != std::string::npos);
   CHECK(error_of("0 5 0 2").find("a stop without lenses") != std::string::npos);

@@ -105,9 +105,10 @@ TEST_CASE("filters go over edges as the wrap mode says") {
   const float nan = std::nanf("");
   for (const Wrap wrap : {Wrap::repeat, Wrap::clamp, Wrap::black, Wrap::octahedral}) {
     f.wrap = wrap;
-    for (const Vec2 odd : {Vec2{nan, 0}, Vec2{1e30f, 1e-30f}, Vec2{-kInfinity, 0}}) {
+    for (const Vec2 odd : {Vec2{nan, 0}, Vec2{1e30f, 1e-30f}, Vec2{-kInfinity, 0}, Vec2{1e-30f, 0}, Vec2{1e38f, 1e38f}}) {
       CHECK(std::isfinite(f.elliptical(odd, odd, {0.1f, 0.2f})));
       CHECK(std::isfinite(f.elliptical({0.3f, 0.9f}, odd, {0.1f, 0.2f})));
+      CHECK(std::isfinite(f.elliptical({0.3f, 0.9f}, odd, {1e-37f, 1e-37f})));
       CHECK(std::isfinite(f.trilinear(odd, odd, {0.1f, 0.2f})));
     }
   }

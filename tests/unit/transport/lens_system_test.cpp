@@ -118,8 +118,19 @@ TEST_CASE("lenses that make no picture are refused") {
   lenses.elements[2].thickness = 0;
   lenses.elements[1].thickness = 0.2f;
   CHECK_THROWS_AS(LensSystem{lenses}, Error);
+  lenses = simple_lens(0);
+  CHECK_THROWS_WITH_AS(LensSystem{lenses}, doctest::Contains("lets nothing pass"), Error);
+  lenses = simple_lens();
+  lenses.film_diagonal = 0;
+  CHECK_THROWS_WITH_AS(LensSystem{lenses}, doctest::Contains("must be above 0"), Error);
   lenses.elements.clear();
   CHECK_THROWS_WITH_AS(LensSystem{lenses}, doctest::Contains("no lenses"), Error);
+}
+
+TEST_CASE("focused at infinity the film stands in the focal plane") {
+  Lenses lenses = simple_lens();
+  lenses.focus_distance = 1e30f;
+  CHECK(LensSystem(lenses).image_distance() == doctest::Approx(kFocalLength).epsilon(1e-3));
 }
 
 TEST_CASE("any table of lenses is refused or gives finite rays") {
