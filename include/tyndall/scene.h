@@ -47,7 +47,8 @@ struct MixTexture {
 };
 struct ImageTexture {
   enum class Wrap { repeat, black, clamp, octahedral } wrap = Wrap::repeat;  ///< octahedral: mirrored across the edges
-  enum class Filter { point, bilinear } filter = Filter::bilinear;
+  enum class Filter { point, bilinear, trilinear, elliptical } filter = Filter::bilinear;
+  float max_anisotropy = 8;  ///< of the elliptical filter
   std::string path;
   TextureMapping mapping;
   float scale = 1;
@@ -319,14 +320,36 @@ struct Instance {
 
 // ------------------------------------------------------------------------------------- camera, film, whole
 
+/// One surface of a lens, or the stop. Lengths in camera space, of which pbrt's unit is the metre.
+struct LensElement {
+  float radius = 0;           ///< of curvature, positive where it bulges toward the scene; 0: the stop
+  float thickness = 0;        ///< to the next one, of the last one to the film
+  float eta = 1;              ///< index of refraction behind it
+  float aperture_radius = 0;  ///< light passes within this distance of the axis
+};
+struct Lenses {
+  enum class Stop { circle, gaussian, square, pentagon, star } stop = Stop::circle;  ///< all but the circle have pbrt's shapes
+  std::vector<LensElement> elements;  ///< from the scene to the film; focusing moves the film
+  float focus_distance = 10;          ///< from the film
+  float film_diagonal = 0.035f;
+  Location where;
+};
 struct Camera {
-  enum class Kind { perspective, orthographic } kind = Kind::perspective;
+  /// The spherical ones see all around: +y up, to_world and medium count, all else is for the others.
+  enum class Kind {
+    perspective,
+    orthographic,
+    spherical_equal_area,       ///< pbrt's square: +y in the middle, -y in the corners, +x to the right, +z to the bottom
+    spherical_equirectangular,  ///< +y on top; from +x at the left edge over +z
+    realistic,                  ///< through `lenses`, the film's middle at the origin
+  } kind = Kind::perspective;
   Transform to_world;                                 ///< camera space: +z forward, +y up
   float fov_degrees = 90;                             ///< of the shorter screen axis
   std::optional<std::array<float, 4>> screen_window;  ///< x0 x1 y0 y1
   std::optional<float> frame_aspect_ratio;
   float lens_radius = 0, focal_distance = 1e6f;
   std::optional<MediumId> medium;
+  std::optional<Lenses> lenses;  ///< of a realistic camera
 };
 struct Film {
   int width = 1280, height = 720;

@@ -1,50 +1,54 @@
+#include <algorithm>
+#include <filesystem>
+
 #include "cli/command.h"
-#include "cli/memory.h"
+#include "cli/folder_check.h"
 #include "cli/notes.h"
 #include "cli/print.h"
-#include "tyndall/io.h"
-#include "tyndall/render.h"
 
 namespace tyndall::cli {
 namespace {
 
-/// Problems of one scene, printed one a line; returns how many.
-std::size_t check_file(const std::string& path) {
-  SceneCheck check = check_scene(path);
-  print_text(notes_text(path, check.warnings, {}));
-  for (const std::string& error : check.errors) print("{}\n", error);
-  if (!check.errors.empty()) return check.errors.size();
-  try {
-    const World world = build(std::move(check.scene), {.max_memory = memory_limit({})});
-    print_text(notes_text(path, {}, world.summary()));
-  } catch (const Error& e) {
-    print("{}\n", e.what());
-    return 1;
-  }
-  print("{}: ok\n", path);
-  return 0;
+/// Problems of one scene, printed one a line.
+void print_verdict(const Verdict& verdict) {
+  print_text(notes_text(verdict.path, verdict.warnings, verdict.build));
+  for (const std::string& error : verdict.errors) print("{}\n", error);
+  if (verdict.ok()) print("{}: ok\n", verdict.path);
 }
 
-int run_check(const std::vector<std::string>& scenes) {
-  std::size_t problems = 0;
-  for (const std::string& scene : scenes) {
-    try {
-      problems += check_file(scene);
-    } catch (const Error& e) {
-      print("{}\n", e.what());
-      ++problems;
+int run_check(const std::vector<std::string>& paths, bool json) {
+  std::vector<std::string> in_folders;
+  std::vector<Verdict> verdicts;
+  for (const std::string& path : paths) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored)) {
+      const std::vector<std::string> scenes = scenes_below(path);
+      in_folders.insert(in_folders.end(), scenes.begin(), scenes.end());
+    } else {
+      verdicts.push_back(verdict_on(path));
+      if (!json) print_verdict(verdicts.back());
     }
   }
-  return problems > 0 ? static_cast<int>(Failure::scene) : 0;
+  const std::vector<Verdict> table = check_all(in_folders, !json);
+  verdicts.insert(verdicts.end(), table.begin(), table.end());
+  if (json) print_json(verdicts);
+  const bool ok = std::all_of(verdicts.begin(), verdicts.end(), [](const Verdict& v) { return v.ok(); });
+  return ok ? 0 : static_cast<int>(Failure::scene);
 }
 
 }  // namespace
 
 void add_check(CLI::App& app, int& exit_code) {
   auto* command = app.add_subcommand("check", "read and build scenes, list every problem, render nothing");
-  auto scenes = std::make_shared<std::vector<std::string>>();
-  command->add_option("scenes", *scenes, "scene files")->required();
-  command->callback([scenes, &exit_code] { exit_code = run_check(*scenes); });
+  command->footer(
+      "Of a folder: a table of all the scenes below it, .pbrt and .pbrt.gz that have a WorldBegin. Exit code 3: not all are "
+      "ok.\n"
+      "Example: tyndall check scenes");
+  auto paths = std::make_shared<std::vector<std::string>>();
+  auto json = std::make_shared<bool>(false);
+  command->add_option("scenes", *paths, "scene files, and folders of them")->required();
+  command->add_flag("--json", *json, "as JSON on stdout");
+  command->callback([paths, json, &exit_code] { exit_code = run_check(*paths, *json); });
 }
 
 }  // namespace tyndall::cli

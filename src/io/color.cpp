@@ -8,29 +8,6 @@
 namespace tyndall {
 namespace {
 
-/// Values at each whole nm of the observer's range.
-using Sampled = std::array<double, kLambdaCount>;
-
-Sampled sampled(const Spectrum& s) {
-  Sampled result{};
-  const std::size_t n = std::min(s.lambda.size(), s.value.size());
-  if (n == 0) return result;
-  if (n == 1) {
-    result.fill(s.value[0]);
-    return result;
-  }
-  std::size_t i = 0;  // of the segment [i, i + 1] that holds lambda
-  for (int k = 0; k < kLambdaCount; ++k) {
-    const double lambda = kLambdaMin + k;
-    if (lambda < s.lambda.front() || lambda > s.lambda[n - 1]) continue;
-    while (i + 2 < n && s.lambda[i + 1] < lambda) ++i;
-    const double width = static_cast<double>(s.lambda[i + 1]) - s.lambda[i];
-    const double t = width > 0 ? std::clamp((lambda - s.lambda[i]) / width, 0.0, 1.0) : 0.0;
-    result[k] = (1 - t) * s.value[i] + t * s.value[i + 1];
-  }
-  return result;
-}
-
 /// Integral of the colour matching functions times the spectrum, nm.
 Xyz integrate(const Sampled& s) {
   const auto& cmf = color_matching_functions();
@@ -56,6 +33,26 @@ Rgb under_d65(const Sampled& reflectance) {
 }
 
 }  // namespace
+
+Sampled sampled(const Spectrum& s) {
+  Sampled result{};
+  const std::size_t n = std::min(s.lambda.size(), s.value.size());
+  if (n == 0) return result;
+  if (n == 1) {
+    result.fill(s.value[0]);
+    return result;
+  }
+  std::size_t i = 0;  // of the segment [i, i + 1] that holds lambda
+  for (int k = 0; k < kLambdaCount; ++k) {
+    const double lambda = kLambdaMin + k;
+    if (lambda < s.lambda.front() || lambda > s.lambda[n - 1]) continue;
+    while (i + 2 < n && s.lambda[i + 1] < lambda) ++i;
+    const double width = static_cast<double>(s.lambda[i + 1]) - s.lambda[i];
+    const double t = width > 0 ? std::clamp((lambda - s.lambda[i]) / width, 0.0, 1.0) : 0.0;
+    result[k] = (1 - t) * s.value[i] + t * s.value[i + 1];
+  }
+  return result;
+}
 
 Rgb reflectance_rgb(const Spectrum& spectrum) {
   const auto& v = spectrum.value;

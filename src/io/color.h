@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "math/cie.h"
 #include "tyndall/color.h"
 #include "tyndall/image.h"
 #include "tyndall/math.h"
@@ -20,11 +21,19 @@ struct Spectrum {
   std::vector<float> lambda, value;
 };
 
+/// Values at each whole nm of the observer's range.
+using Sampled = std::array<double, kLambdaCount>;
+Sampled sampled(const Spectrum& s);
+
 /// pbrt-v4's named spectra: "metal-Cu-eta", "metal-Cu-k", "glass-BK7", "stdillum-D65", "illum-acesD60" ...
 std::optional<Spectrum> named_spectrum(std::string_view name);
 
 /// Planck's law over 360..830 nm divided by its peak (Wien), as pbrt's BlackbodySpectrum; all 0 for kelvin <= 0.
 Spectrum blackbody_spectrum(float kelvin);
+
+/// Daylight of that correlated colour temperature [CIE 15:2004, 3.1], below 4000 K a black body; as pbrt has it, whose kelvin
+/// are those of the illuminants' old c2.
+Spectrum daylight_spectrum(float kelvin);
 
 /// For eta, k, sigma_a, sigma_s and reflectances: the colour seen under D65, Rec.709's white, clamped to >= 0.
 /// A constant spectrum c gives exactly Rgb(c).

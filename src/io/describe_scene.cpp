@@ -13,6 +13,8 @@ constexpr const char* kMaterialKinds[] = {
     "coateddiffuse", "coatedconductor", "mix",        "interface"};
 constexpr const char* kMediumKinds[] = {"homogeneous", "uniformgrid", "rgbgrid", "cloud", "vdb"};
 constexpr const char* kLightKinds[] = {"point", "spot", "distant", "infinite", "goniometric", "projection"};
+constexpr const char* kCameraKinds[] = {"perspective", "orthographic", "spherical, equal-area", "spherical, equirectangular",
+                                        "realistic"};
 constexpr const char* kShapeKinds[] = {"trianglemesh", "bilinearmesh", "sphere", "disk", "cylinder"};
 
 /// "3: 2 point, 1 spot" of anything that has a variant `kind`.
@@ -90,7 +92,7 @@ void add_camera_and_film(const Scene& scene, Description& result) {
   const Camera& camera = scene.camera;
   const bool perspective = camera.kind == Camera::Kind::perspective;
   const Vec3 eye = camera.to_world.point({});
-  result.properties.push_back({"camera", "kind", perspective ? "perspective" : "orthographic"});
+  result.properties.push_back({"camera", "kind", kCameraKinds[static_cast<int>(camera.kind)]});
   result.properties.push_back({"camera", "position", number_text(eye.x) + " " + number_text(eye.y) + " " + number_text(eye.z)});
   if (perspective) result.properties.push_back({"camera", "fov", number_text(camera.fov_degrees) + " degrees"});
   result.properties.push_back({"film", "size", std::to_string(scene.film.width) + " x " + std::to_string(scene.film.height)});

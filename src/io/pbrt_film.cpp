@@ -3,6 +3,8 @@
 #include <string>
 #include <utility>
 
+#include "io/camera_sensor.h"
+#include "io/color.h"
 #include "io/pbrt_suggest.h"
 #include "io/pbrt_view.h"
 
@@ -41,16 +43,28 @@ PixelBounds read_crop(ParamList& params, int width, int height) {
   return crop;
 }
 
-/// Sensor parameters; of the sensors only the colorimetric one is honoured.
 float read_iso(ParamList& params) {
   const float iso = params.number("iso", 100);
   if (!(iso > 0)) throw params.error("iso", "iso must be above 0");
-  if (params.string("sensor", "cie1931") != "cie1931")
-    params.reports().warn(params.where("sensor"), "film sensors are not simulated; \"cie1931\" is used");
-  if (params.number("whitebalance", 0) != 0)
-    params.reports().warn(params.where("whitebalance"),
-                          "parameter \"whitebalance\" is ignored: film sensors are not simulated");
   return iso;
+}
+
+/// Sensor and white balance become part of the way from Rec.709 to the film's colours.
+std::array<float, 9> read_sensor(ParamList& params, const ColorSpace& film_space) {
+  const std::string sensor = params.string("sensor", "cie1931");
+  const float kelvin = params.number("whitebalance", 0);
+  constexpr float kColdest = 1000, kHottest = 100000;
+  if (kelvin != 0 && !(kelvin >= kColdest && kelvin <= kHottest))
+    throw params.error("whitebalance", "whitebalance must be 0, for none, or from 1000 to 100000 kelvin");
+  if (sensor == "cie1931" && kelvin == 0) return film_space.from_rec709;
+  Matrix3 film_from_rec709;
+  std::copy(film_space.from_rec709.begin(), film_space.from_rec709.end(), film_from_rec709.begin());
+  const Xyz white = inverse(film_from_rec709 * rec709_from_xyz()) * Xyz{1, 1, 1};
+  const double sum = white.x + white.y + white.z;
+  const auto to_xyz = sensor_xyz_from_rec709(sensor, kelvin, {white.x / sum, white.y / sum});
+  if (!to_xyz)
+    throw params.error("sensor", "sensor \"" + printable(sensor) + "\" is unknown; " + suggestion(sensor, sensor_names()));
+  return to_float(film_from_rec709 * rec709_from_xyz() * *to_xyz);
 }
 
 }  // namespace
@@ -72,11 +86,17 @@ void read_film(State& state, Tokenizer& in, const Location& where) {
   film.filename = params.string("filename", "");
   film.max_component = params.number("maxcomponentvalue", kInfinity);
   if (!(film.max_component > 0)) throw params.error("maxcomponentvalue", "maxcomponentvalue must be above 0");
+  if (params.find("maxcomponentvalue", {ParamType::number}))
+    params.reports().warn(params.where("maxcomponentvalue"),
+                          "\"maxcomponentvalue\" limits samples' colours in Rec.709; pbrt-v4 limits what its sensor makes of a "
+                          "few wavelengths, and comes out darker");
   params.boolean("savefp16", true);  // pictures are always written as float
-  params.number("diagonal", 35);     // matters to realistic cameras only
+  const float diagonal = params.number("diagonal", 35);
+  if (!(diagonal >= 1e-3f && diagonal <= 1e6f)) throw params.error("diagonal", "diagonal must be from 0.001 to 1e6 mm");
+  state.film_diagonal = diagonal / 1000;
   state.iso = read_iso(params);
+  film.from_rec709 = read_sensor(params, *state.graphics.color_space);
   params.finish();
-  film.from_rec709 = state.graphics.color_space->from_rec709;
   film.chromaticities = state.graphics.color_space->chromaticities;
   state.scene.film = std::move(film);
 }

@@ -47,6 +47,7 @@ class Reading {
       errors_.push_back("more errors are not shown; mend these first");
     }
     state_.scene.film.imaging_ratio = static_cast<float>(state_.exposure_time * state_.iso / 100);
+    if (state_.scene.camera.lenses) state_.scene.camera.lenses->film_diagonal = state_.film_diagonal;
     state_.scene.source = top.name();
   }
 

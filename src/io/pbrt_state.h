@@ -93,10 +93,11 @@ struct State {
   Names<TextureId> normal_maps;  ///< by path
   Names<Rgb> spectrum_colors;    ///< of named spectra and black bodies, by use
 
-  // Wait for WorldBegin: the film needs the camera's shutter, the settings the Film's frame.
+  // Wait for WorldBegin: the film needs the camera's shutter, the camera the film's size, the settings the Film's frame.
   Location film_where;
   double exposure_time = 1;
   float iso = 100;
+  float film_diagonal = 0.035f;  ///< metres
   bool spp_from_sampler = false, spp_from_integrator = false, seed_from_integrator = false;
 };
 

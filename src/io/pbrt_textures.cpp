@@ -78,11 +78,14 @@ ImageTexture read_image_map(State& state, ParamList& params, Content) {
            : wrap == "clamp" ? ImageTexture::Wrap::clamp
                              : ImageTexture::Wrap::octahedral;
   const std::string filter = params.choice("filter", "bilinear", {"point", "bilinear", "trilinear", "ewa", "EWA"});
-  t.filter = filter == "point" ? ImageTexture::Filter::point : ImageTexture::Filter::bilinear;
-  if (filter != "point" && filter != "bilinear")
-    params.reports().warn(params.where("filter"),
-                          "texture filter \"" + filter + "\" is replaced by \"bilinear\": textures have no levels");
-  params.ignore("maxanisotropy", {ParamType::number}, "textures have no levels");
+  using Filter = ImageTexture::Filter;
+  t.filter = filter == "point"       ? Filter::point
+             : filter == "bilinear"  ? Filter::bilinear
+             : filter == "trilinear" ? Filter::trilinear
+                                     : Filter::elliptical;
+  t.max_anisotropy = params.number("maxanisotropy", 8);
+  if (!(t.max_anisotropy >= 1 && t.max_anisotropy <= 100))
+    throw params.error("maxanisotropy", "maxanisotropy must be from 1 to 100");
   t.encoding = params.string("encoding", "");
   if (!t.encoding.empty() && t.encoding != "sRGB" && t.encoding != "linear" && !t.encoding.starts_with("gamma "))
     throw params.error("encoding", "encoding \"" + printable(t.encoding) + "\" is unknown; use sRGB, linear or \"gamma 2.2\"");

@@ -91,6 +91,17 @@ std::optional<Spectrum> named_spectrum(std::string_view name) {
   return illuminant(name);
 }
 
+Spectrum daylight_spectrum(float kelvin) {
+  const double t = kelvin * 1.4388 / 1.4380;
+  if (t < 4000) return blackbody_spectrum(static_cast<float>(t));
+  const double x = t <= 7000 ? ((-4.6070e9 / t + 2.9678e6) / t + 0.09911e3) / t + 0.244063
+                             : ((-2.0064e9 / t + 1.9018e6) / t + 0.24748e3) / t + 0.237040;
+  const double y = (-3 * x + 2.87) * x - 0.275;
+  const double m = 0.0241 + 0.2562 * x - 0.7341 * y;
+  return daylight(static_cast<float>((-1.3515 - 1.7703 * x + 5.9114 * y) / m),
+                  static_cast<float>((0.03 - 31.4424 * x + 30.0717 * y) / m));
+}
+
 Spectrum blackbody_spectrum(float kelvin) {
   Spectrum result;
   for (int lambda = kLambdaMin; lambda <= kLambdaMax; ++lambda) {

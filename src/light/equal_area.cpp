@@ -1,5 +1,7 @@
 #include "light/equal_area.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace tyndall {
@@ -15,6 +17,15 @@ Vec3 equal_area_square_to_sphere(Vec2 p) {
   const float sine = r * std::sqrt(std::max(0.0f, 2 - r * r));
   return normalize(
       {std::copysign(std::cos(phi) * sine, u), std::copysign(std::sin(phi) * sine, v), std::copysign(1 - r * r, above)});
+}
+
+Vec2 equal_area_wrapped(Vec2 p) {
+  const auto in_period = [](float x) { return x - 2 * std::floor(x / 2); };  // across two edges: as before
+  p = {in_period(p.x), p.y};
+  if (p.x > 1) p = {2 - p.x, 1 - p.y};
+  p.y = in_period(p.y);
+  if (p.y > 1) p = {1 - p.x, 2 - p.y};
+  return p;
 }
 
 std::array<int, 2> equal_area_neighbor(int x, int y, int n) {

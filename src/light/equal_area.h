@@ -12,6 +12,9 @@ Vec3 equal_area_square_to_sphere(Vec2 p);
 /// Inverse of the above; `w` has unit length.
 Vec2 equal_area_sphere_to_square(Vec3 w);
 
+/// The point of [0, 1]^2 that stands for `p` anywhere in the plane: across an edge the square goes on upside down.
+Vec2 equal_area_wrapped(Vec2 p);
+
 /// The texel of an n x n map that holds texel (x, y), which may lie one beyond an edge: across an edge the square goes on
 /// upside down.
 std::array<int, 2> equal_area_neighbor(int x, int y, int n);

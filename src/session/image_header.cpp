@@ -48,7 +48,7 @@ std::string_view version() { return kVersion; }
 void write_header(Image& image, const World::Parts& world, const RenderSettings& settings, const RenderReport& report) {
   auto& a = image.attributes;
   a["worldToCamera"] = world.user_camera.world_to_camera();
-  a["worldToNDC"] = world.user_camera.world_to_ndc();
+  if (world.user_camera.has_projection()) a["worldToNDC"] = world.user_camera.world_to_ndc();
   a["software"] = "Tyndall " + std::string(kVersion);
   a["tyndall/scene"] = world.built.scene.source;
   a["tyndall/sceneHash"] = scene_hash_text(world.scene_hash, settings);

@@ -29,10 +29,14 @@ PixelSample::PixelSample(const SampleContext& sample, const SampleKey& key, Pixe
     context.emitters = &emitter_ray_;
     of_emitters_ = visible_emitters(context, film_.emitters, center_of(key), sampler_.fork());
   }
-  path_.emplace(context, sample.limits, world_.built.camera.ray(on_film_, lens));
+  const auto seen = world_.built.camera.sample(on_film_, lens);
+  if (!seen) return;
+  weight_of_ray_ = seen->weight;
+  path_.emplace(context, sample.limits, seen->ray);
 }
 
 PathRecord PixelSample::record() {
+  if (!path_) return {};
   PathRecord record = path_->result();
   record.volume_direct += of_points_ * (1 / offset_.weight);  // the film takes it times that weight
   record.emission += of_emitters_ * (1 / offset_.weight);
@@ -50,7 +54,7 @@ void PixelSample::place(PathRecord& record) const {
 
 void PixelSample::expose(PathRecord& record) const {
   const Film& film = world_.built.scene.film;
-  record.scale_radiance(film.imaging_ratio);
+  record.scale_radiance(film.imaging_ratio * weight_of_ray_);
   const Rgb radiance = record.radiance();  // may be negative, where the filter is
   const float brightest = std::max(max_component(radiance), max_component(radiance * -1.0f));
   if (brightest > film.max_component) record.scale_radiance(film.max_component / brightest);
@@ -58,14 +62,16 @@ void PixelSample::expose(PathRecord& record) const {
 
 void PixelGroup::run(const SampleContext& context, Counters& counters) {
   if (context.settings.reuse != ReuseStrategy::pixels) {
-    for (std::size_t i = 0; i < size_; ++i) slots_[i]->path().run();
+    for (std::size_t i = 0; i < size_; ++i) {
+      if (Path* path = slots_[i]->path()) path->run();
+    }
     return;
   }
   std::array<Path*, kMostSharing> sharing;
   std::size_t count = 0;
   for (std::size_t i = 0; i < size_; ++i) {
-    Path& path = slots_[i]->path();
-    if (path.run_until_offer()) sharing[count++] = &path;
+    Path* path = slots_[i]->path();
+    if (path && path->run_until_offer()) sharing[count++] = path;
   }
   for (std::size_t i = 0; i < count; ++i) {
     if (sharing[i]->offer().at) sharing[i]->complete_offer();

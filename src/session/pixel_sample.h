@@ -33,7 +33,8 @@ class PixelSample {
   PixelSample(const PixelSample&) = delete;  // its path refers to it
 
   const SampleKey& key() const { return key_; }
-  Path& path() { return *path_; }
+  /// Null where the lenses of the camera let nothing pass.
+  Path* path() { return path_ ? &*path_ : nullptr; }
   /// Of the ended path, in the user's units; `weight` is that of the sample in its pixel.
   PathRecord record();
   float weight() const { return offset_.weight; }
@@ -51,6 +52,7 @@ class PixelSample {
   FilmRay film_ray_;
   EmitterRay emitter_ray_;
   Rgb of_points_, of_emitters_;
+  float weight_of_ray_ = 1;
   std::optional<Path> path_;
 };
 

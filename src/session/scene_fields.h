@@ -21,14 +21,15 @@ constexpr int field_count() {
   if (kOneOf<T, Boundary, PointLight, DistantLight, Light, Object, Instance>) return 2;
   if (kOneOf<T, Vec3, Rgb, MixTexture, Roughness, ConductorOptics, DiffuseTransmissionMaterial, MixMaterial>) return 3;
   if (kOneOf<T, CoatedConductorMaterial, DielectricMaterial, DotsTexture, DirectionMixTexture, MediumOptics>) return 3;
-  if (kOneOf<T, PixelBounds, Chromaticities, CheckerboardTexture, CloudMedium, SpotLight, GoniometricLight>) return 4;
+  if (kOneOf<T, PixelBounds, Chromaticities, CheckerboardTexture, LensElement, CloudMedium, SpotLight, GoniometricLight>)
+    return 4;
   if (kOneOf<T, TriangleMesh, BilinearMesh, Sphere, Disk, Cylinder>) return 4;
-  if (kOneOf<T, Medium, AreaLight, ProjectionLight, BilerpTexture>) return 5;
+  if (kOneOf<T, Medium, AreaLight, ProjectionLight, BilerpTexture, Lenses>) return 5;
   if (kOneOf<T, TextureMapping, PixelFilter, InfiniteLight, NoiseTexture, Material>) return 6;
   if (kOneOf<T, Coating>) return 7;
-  if (kOneOf<T, RgbGridMedium, Shape, Camera>) return 8;
-  if (kOneOf<T, ImageTexture, Film>) return 9;
-  if (kOneOf<T, VdbMedium>) return 10;
+  if (kOneOf<T, RgbGridMedium, Shape>) return 8;
+  if (kOneOf<T, Film, Camera>) return 9;
+  if (kOneOf<T, VdbMedium, ImageTexture>) return 10;
   if (kOneOf<T, UniformGridMedium>) return 11;
   if (kOneOf<T, Scene>) return 13;
   return -1;

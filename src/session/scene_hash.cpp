@@ -92,9 +92,10 @@ class SceneHasher {
   void add(const Location&) {}
   void add(const RenderSettings&) {}  // how to render, not what; scene_hash_text adds the depth
   void add(const ImageTexture& texture) {
-    const auto& [wrap, filter, path, mapping, scale, invert, encoding, to_rec709, is_data] = texture;
+    const auto& [wrap, filter, max_anisotropy, path, mapping, scale, invert, encoding, to_rec709, is_data] = texture;
     add_all(wrap, filter, FileContent{path}, mapping, scale, invert, encoding, to_rec709);
     if (is_data) add(is_data);
+    if (filter == ImageTexture::Filter::elliptical) add(max_anisotropy);
   }
   // What came later counts where it is used, so that images of scenes without it can still be merged.
   void add(const Material& material) {
@@ -136,6 +137,11 @@ class SceneHasher {
   void add(const Object& object) {
     const auto& [name, shapes] = object;
     add(shapes);
+  }
+  void add(const Camera& camera) {
+    const auto& [kind, to_world, fov, window, aspect, lens_radius, focal_distance, medium, lenses] = camera;
+    add_all(kind, to_world, fov, window, aspect, lens_radius, focal_distance, medium);
+    if (lenses) add(*lenses);
   }
   void add(const Film& film) {
     const auto& [width, height, crop, filename, imaging_ratio, max_component, gbuffer, from_rec709, chromaticities] = film;

@@ -24,6 +24,7 @@ void require_camera_within_reach(const Camera& camera, const std::string& source
 
 Camera as_given(Camera camera, const Transform& to_user) {
   camera.to_world = to_user * camera.to_world;
+  camera.lenses.reset();  // of no use to what images say of it
   return camera;
 }
 

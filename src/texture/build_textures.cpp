@@ -46,6 +46,11 @@ std::vector<TextureId> evaluation_order(const std::vector<Texture>& textures) {
   return order;
 }
 
+bool asks_for_footprint(const Texture& texture) {
+  const auto* image = std::get_if<ImageTexture>(&texture.kind);
+  return image ? is_mip_mapped(*image) : std::holds_alternative<NoiseTexture>(texture.kind);
+}
+
 }  // namespace
 
 class Textures::Builder {
@@ -58,7 +63,7 @@ class Textures::Builder {
   Textures build() {
     for (TextureId id : evaluation_order(textures_)) {
       result_.nodes_[id] = make_node(textures_[id]);
-      result_.uses_footprint_[id] = std::holds_alternative<NoiseTexture>(textures_[id].kind);
+      result_.uses_footprint_[id] = asks_for_footprint(textures_[id]);
       for (const TextureId input : inputs(textures_[id]))
         if (result_.uses_footprint_[input]) result_.uses_footprint_[id] = true;
       if (foldable(id)) result_.nodes_[id] = ConstantTexture{result_.eval(id, {})};
@@ -91,6 +96,8 @@ class Textures::Builder {
     auto found = loaded_.find(key);
     if (found == loaded_.end()) found = loaded_.emplace(key, load(texture, where)).first;
     ImageNode node{texture, found->second.index};
+    if (auto& coarser = result_.coarser_[node.image]; coarser.empty() && is_mip_mapped(texture))
+      coarser = coarser_levels(result_.images_[node.image]);
     if (found->second.to_rec709) node.texture.to_rec709 = *found->second.to_rec709;
     return node;
   }
@@ -100,6 +107,7 @@ class Textures::Builder {
     Loaded loaded{result_.images_.size(), {}};
     if (image.chromaticities && !texture.is_data) loaded.to_rec709 = rec709_from(*image.chromaticities, true);
     result_.images_.push_back(TexelImage::from(image, texture.path));
+    result_.coarser_.emplace_back();
     return loaded;
   } catch (const Error& error) {
     throw Error(where, error.what());

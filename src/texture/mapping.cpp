@@ -32,4 +32,20 @@ Vec2 map_to_texture(const TextureMapping& mapping, const TextureQuery& query) {
   return {mapping.scale.x * query.uv.x + mapping.offset.x, mapping.scale.y * query.uv.y + mapping.offset.y};
 }
 
+std::array<Vec2, 2> steps_of_texture(const TextureMapping& mapping, const TextureQuery& query) {
+  if (query.footprint == nullptr) return {};
+  const Footprint& f = *query.footprint;
+  const Vec2 here = map_to_texture(mapping, query);
+  const auto step = [&](Vec3 dp, Vec2 duv) {
+    TextureQuery beside = query;
+    beside.p += dp;
+    beside.uv = query.uv + duv;
+    Vec2 d = map_to_texture(mapping, beside) - here;
+    if (mapping.kind == TextureMapping::Kind::spherical) d.y -= std::round(d.y);  // not all around where an angle begins
+    if (mapping.kind == TextureMapping::Kind::cylindrical) d.x -= std::round(d.x);
+    return d;
+  };
+  return {step(f.dpdx, f.duvdx), step(f.dpdy, f.duvdy)};
+}
+
 }  // namespace tyndall

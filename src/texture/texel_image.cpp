@@ -21,9 +21,7 @@ int wrapped(int i, int n, TexelImage::Wrap wrap) {
   return i < 0 ? i + n : i - n;
 }
 
-struct Texel {
-  int x, y;
-};
+using Texel = TexelPlace;
 
 /// Beyond an edge of the octahedral square one comes in again through the same edge, mirrored about its middle. Columns and
 /// rows below 0 are turned as pbrt-v4 turns them: -1 becomes 1.
@@ -139,6 +137,25 @@ TexelImage TexelImage::load(const std::string& path, const std::string& encoding
     for (Rgb& texel : result.texels_) texel = transformed(matrix, texel);
   return result;
 }
+
+std::optional<TexelPlace> TexelImage::place(int x, int y, Wrap wrap) const {
+  const auto inside = [](int i, int n) { return i >= 0 && i < n; };
+  if (inside(x, width_) && inside(y, height_)) return TexelPlace{x, y};
+  const auto period = [](int i, int n) { return (i % n + n) % n; };
+  switch (wrap) {
+    case Wrap::black:
+      return std::nullopt;
+    case Wrap::clamp:
+      return TexelPlace{std::clamp(x, 0, width_ - 1), std::clamp(y, 0, height_ - 1)};
+    case Wrap::octahedral:
+      return folded(x, y, width_, height_);
+    case Wrap::repeat:
+      break;
+  }
+  return TexelPlace{period(x, width_), period(y, height_)};
+}
+
+Vec2 TexelImage::tamed(Vec2 st, Wrap wrap) { return {tyndall::tamed(st.x, wrap), tyndall::tamed(st.y, wrap)}; }
 
 Rgb TexelImage::nearest(Vec2 st, Wrap wrap) const {
   const auto held = holder(st, width_, height_, wrap);

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,10 @@
 #include "tyndall/scene.h"
 
 namespace tyndall {
+
+struct TexelPlace {
+  int x, y;
+};
 
 /// Linear RGB texels, row by row from the top. Image coordinates st: (0,0) is the top left corner, (1,1) the bottom
 /// right one, texel centres at (x + 0.5) / width. Surface uv has v upward: pass {u, 1 - v}, as pbrt does.
@@ -41,6 +46,11 @@ class TexelImage {
 
   const Rgb& texel(int x, int y) const { return texels_[index(x, y)]; }  ///< 0 <= x < width, 0 <= y < height
   float alpha(int x, int y) const { return alpha_.empty() ? 1.0f : alpha_[index(x, y)]; }
+
+  /// Where the texel lies that continues the image at any x and y; nothing where that is black.
+  std::optional<TexelPlace> place(int x, int y, Wrap wrap) const;
+  /// Coordinates brought to where one period is at most a texel away, so that texels fit an int; NaN and infinity to 0.
+  static Vec2 tamed(Vec2 st, Wrap wrap);
 
   Rgb nearest(Vec2 st, Wrap wrap) const;  ///< the texel that holds st
   Rgb bilinear(Vec2 st, Wrap wrap) const;

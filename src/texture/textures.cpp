@@ -53,13 +53,38 @@ Vec2 image_coordinates(const ImageTexture& texture, const TextureQuery& query) {
   return {st.x, 1 - st.y};  // v points up, rows go down
 }
 
-Rgb lookup(const TexelImage& image, const ImageTexture& texture, Vec2 st) {
-  return texture.filter == ImageTexture::Filter::point ? image.nearest(st, texture.wrap) : image.bilinear(st, texture.wrap);
+MipLookup mip_lookup(const ImageTexture& texture, const TextureQuery& query) {
+  MipLookup at{image_coordinates(texture, query), steps_of_texture(texture.mapping, query), texture.wrap};
+  for (Vec2& step : at.steps) step.y = -step.y;
+  return at;
 }
 
-float lookup_alpha(const TexelImage& image, const ImageTexture& texture, Vec2 st) {
-  return texture.filter == ImageTexture::Filter::point ? image.nearest_alpha(st, texture.wrap)
-                                                       : image.bilinear_alpha(st, texture.wrap);
+Rgb lookup(const MipMap& map, const ImageTexture& texture, const TextureQuery& query) {
+  switch (texture.filter) {
+    case ImageTexture::Filter::point:
+      return map.image.nearest(image_coordinates(texture, query), texture.wrap);
+    case ImageTexture::Filter::bilinear:
+      break;
+    case ImageTexture::Filter::trilinear:
+      return trilinear(map, mip_lookup(texture, query));
+    case ImageTexture::Filter::elliptical:
+      return elliptical(map, mip_lookup(texture, query), texture.max_anisotropy);
+  }
+  return map.image.bilinear(image_coordinates(texture, query), texture.wrap);
+}
+
+float lookup_alpha(const MipMap& map, const ImageTexture& texture, const TextureQuery& query) {
+  switch (texture.filter) {
+    case ImageTexture::Filter::point:
+      return map.image.nearest_alpha(image_coordinates(texture, query), texture.wrap);
+    case ImageTexture::Filter::bilinear:
+      break;
+    case ImageTexture::Filter::trilinear:
+      return trilinear_alpha(map, mip_lookup(texture, query));
+    case ImageTexture::Filter::elliptical:
+      return elliptical_alpha(map, mip_lookup(texture, query), texture.max_anisotropy);
+  }
+  return map.image.bilinear_alpha(image_coordinates(texture, query), texture.wrap);
 }
 
 }  // namespace
@@ -76,7 +101,7 @@ struct Textures::RgbEvaluator {
   }
   Rgb operator()(const ImageNode& node) const {
     const ImageTexture& t = node.texture;
-    Rgb c = t.scale * lookup(textures.images_[node.image], t, image_coordinates(t, query));
+    Rgb c = t.scale * lookup(textures.mip_map(node), t, query);
     c = clamp_zero(t.invert ? Rgb(1.0f) - c : c);
     return t.to_rec709 == TexelImage::kIdentity ? c : clamp_zero(transformed(t.to_rec709, c));
   }
@@ -104,9 +129,8 @@ struct Textures::FloatEvaluator {
   }
   float operator()(const ImageNode& node) const {
     const ImageTexture& t = node.texture;
-    const TexelImage& image = textures.images_[node.image];
-    const Vec2 st = image_coordinates(t, query);
-    const float value = t.scale * (image.has_alpha() ? lookup_alpha(image, t, st) : mean(lookup(image, t, st)));
+    const MipMap map = textures.mip_map(node);
+    const float value = t.scale * (map.image.has_alpha() ? lookup_alpha(map, t, query) : mean(lookup(map, t, query)));
     return t.invert ? std::max(0.0f, 1 - value) : value;
   }
   float operator()(const CheckerboardTexture& t) const { return textures.eval_float(checker(t, query), query); }
@@ -133,6 +157,8 @@ std::optional<Rgb> Textures::constant(TextureId id) const {
 std::size_t Textures::memory_bytes() const {
   std::size_t sum = 0;
   for (const TexelImage& image : images_) sum += image.memory_bytes();
+  for (const auto& levels : coarser_)
+    for (const TexelImage& level : levels) sum += level.memory_bytes();
   return sum;
 }
 

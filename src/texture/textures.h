@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "texture/mapping.h"
+#include "texture/mip_map.h"
 #include "texture/texel_image.h"
 #include "tyndall/scene.h"
 
@@ -38,10 +39,12 @@ class Textures {
   struct RgbEvaluator;
   struct FloatEvaluator;
   class Builder;
+  MipMap mip_map(const ImageNode& node) const { return {images_[node.image], coarser_[node.image]}; }
 
   std::vector<Node> nodes_;
   std::vector<bool> uses_footprint_;
   std::vector<TexelImage> images_;
+  std::vector<std::vector<TexelImage>> coarser_;  ///< of each image; none unless a texture's filter asks for them
 };
 
 /// Loads every image once (textures of the same path and encoding share it) and folds what is constant.

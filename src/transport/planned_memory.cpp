@@ -1,10 +1,12 @@
 #include "transport/planned_memory.h"
+#include "texture/mip_map.h"
 
 #include <set>
 #include <string>
 #include <utility>
 
 #include "light/instance_runs.h"
+#include "texture/mip_map.h"
 #include "transport/film_emitters.h"
 #include "tyndall/error.h"
 #include "tyndall/io.h"
@@ -18,7 +20,7 @@ constexpr std::size_t kBoundaryTriangle = 300;  // kept in a tree of its own as 
 constexpr std::size_t kInstance = 300;
 constexpr std::size_t kLight = 200;           // with its share of the light tree while it is built
 constexpr std::size_t kLightInstance = 1000;  // all lights of an instance that shares them
-constexpr std::size_t kTexel = 16, kTexelWhileRead = 20, kTexelOfSky = 62;
+constexpr std::size_t kTexel = 16, kTexelOfMipMap = 22, kTexelWhileRead = 20, kTexelOfSky = 62;
 constexpr std::size_t kDenseVoxel = 12;  // values, and the bricks made of them
 
 struct Primitives {
@@ -122,8 +124,12 @@ void add_pictures(const std::vector<Shape>& shapes, Pictures& pictures) {
 
 std::size_t plan_pictures(const Scene& scene) {
   Pictures pictures;
-  for (const Texture& texture : scene.textures)
-    if (const auto* image = std::get_if<ImageTexture>(&texture.kind)) pictures.add(image->path, kTexel);
+  for (const bool mip_mapped : {true, false}) {
+    for (const Texture& texture : scene.textures) {
+      const auto* image = std::get_if<ImageTexture>(&texture.kind);
+      if (image && is_mip_mapped(*image) == mip_mapped) pictures.add(image->path, mip_mapped ? kTexelOfMipMap : kTexel);
+    }
+  }
   for (const Light& light : scene.lights) {
     if (const auto* sky = std::get_if<InfiniteLight>(&light.kind)) pictures.add(sky->path, kTexelOfSky);
     if (const auto* projection = std::get_if<ProjectionLight>(&light.kind)) pictures.add(projection->path, kTexel);

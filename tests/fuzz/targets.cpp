@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "io/exr.h"
+#include "io/lens_file.h"
 #include "io/ply.h"
 #include "math/stream_hash.h"
 #include "session/checkpoint.h"
@@ -77,6 +78,10 @@ void pfm(std::string_view bytes) {
 
 void ies(std::string_view bytes) {
   attempt([&] { read_ies_text(bytes, "fuzz.ies"); });
+}
+
+void lens(std::string_view bytes) {
+  attempt([&] { read_lens_text(bytes, "fuzz.dat"); });
 }
 
 void checkpoint(std::string_view bytes) {

@@ -14,6 +14,7 @@ void nvdb(std::string_view bytes);            ///< a .nvdb file, imported as a m
 void exr(std::string_view bytes);             ///< an OpenEXR image
 void pfm(std::string_view bytes);             ///< a portable float map
 void ies(std::string_view bytes);             ///< a photometric file
+void lens(std::string_view bytes);            ///< a table of lenses
 void checkpoint(std::string_view bytes);      ///< a checkpoint but for its checksum, which is made to fit
 void volume_message(std::string_view bytes);  ///< what the process that reads .vdb files answers, should one take it over
 
@@ -23,8 +24,15 @@ struct Target {
   bool slow = false;  ///< with sanitizers: reads in a process of its own, or a corpus has what asks for hundreds of MB
 };
 /// What forks comes first: the more memory a process has used, the longer that takes.
-inline constexpr Target kTargets[] = {{"vdb", vdb, true}, {"scene", scene},           {"ply", ply},
-                                      {"nvdb", nvdb},     {"exr", exr, true},         {"pfm", pfm},
-                                      {"ies", ies},       {"checkpoint", checkpoint}, {"volume_message", volume_message}};
+inline constexpr Target kTargets[] = {{"vdb", vdb, true},
+                                      {"scene", scene},
+                                      {"ply", ply},
+                                      {"nvdb", nvdb},
+                                      {"exr", exr, true},
+                                      {"pfm", pfm},
+                                      {"ies", ies},
+                                      {"lens", lens},
+                                      {"checkpoint", checkpoint},
+                                      {"volume_message", volume_message}};
 
 }  // namespace tyndall::fuzz

@@ -61,16 +61,26 @@ TEST_CASE("imagemap") {
   folder.write("tex/a.png", "not read here");
   const SceneFile file =
       read_scene_text(R"(WorldBegin Texture "i" "spectrum" "imagemap" "string filename" "tex/a.png" "string wrap" "clamp"
-    "string filter" "trilinear" "float scale" 2 "bool invert" true "string encoding" "gamma 2.2" "float maxanisotropy" 8)",
+    "string filter" "trilinear" "float scale" 2 "bool invert" true "string encoding" "gamma 2.2" "float maxanisotropy" 4)",
                       "test.pbrt", folder.path());
   const auto t = last_texture<ImageTexture>(file.scene);
   CHECK(t.path == folder.path() + "/tex/a.png");
   CHECK(t.wrap == ImageTexture::Wrap::clamp);
-  CHECK(t.filter == ImageTexture::Filter::bilinear);
+  CHECK(t.filter == ImageTexture::Filter::trilinear);
+  CHECK(t.max_anisotropy == 4);
   CHECK(t.scale == 2);
   CHECK(t.invert);
   CHECK(t.encoding == "gamma 2.2");
-  CHECK(file.warnings.size() == 3);  // the filter, its anisotropy, and that nothing uses the texture
+  CHECK(file.warnings.size() == 1);  // nothing uses the texture
+  const auto filter = [&](const std::string& parameters) {
+    const std::string text = "WorldBegin Texture \"i\" \"spectrum\" \"imagemap\" \"string filename\" \"tex/a.png\" ";
+    return last_texture<ImageTexture>(read_scene_text(text + parameters, "test.pbrt", folder.path()).scene).filter;
+  };
+  CHECK(filter("") == ImageTexture::Filter::bilinear);
+  CHECK(filter("\"string filter\" \"point\"") == ImageTexture::Filter::point);
+  CHECK(filter("\"string filter\" \"EWA\"") == ImageTexture::Filter::elliptical);
+  CHECK(filter("\"string filter\" \"ewa\"") == ImageTexture::Filter::elliptical);
+  CHECK_THROWS_WITH_AS(filter("\"float maxanisotropy\" 0"), doctest::Contains("maxanisotropy must be from 1"), Error);
   CHECK_CONTAINS(world_error("Texture \"i\" \"float\" \"imagemap\" \"string filename\" \"absent.png\""),
                  "test.pbrt:1:43: file \"absent.png\" does not exist");
   CHECK_CONTAINS(world_error("Texture \"i\" \"float\" \"imagemap\""), "file name is empty");

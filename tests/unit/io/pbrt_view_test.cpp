@@ -1,3 +1,5 @@
+#include "io/color.h"
+#include "support/scratch.h"
 #include "unit/io/reader_checks.h"
 
 using namespace tyndall;
@@ -35,8 +37,51 @@ TEST_CASE("Camera") {
   CHECK_CONTAINS(error_of("Camera \"perspective\" \"float fov\" 180"), "fov must lie between");
   CHECK_CONTAINS(error_of("Camera \"perspective\" \"float screenwindow\" [1 2]"), "takes four numbers");
   CHECK_CONTAINS(error_of("Camera \"perspective\" \"float shutteropen\" 2"), "shutter does not open");
-  CHECK_CONTAINS(error_of("Camera \"spherical\""), "not supported by Tyndall");
   CHECK_CONTAINS(error_of("Camera \"perspectiv\""), "did you mean \"perspective\"?");
+}
+
+TEST_CASE("spherical cameras: both mappings, and what pbrt passes over") {
+  CHECK(read("Camera \"spherical\" WorldBegin").camera.kind == Camera::Kind::spherical_equal_area);
+  CHECK(read("Camera \"spherical\" \"string mapping\" \"equalarea\" WorldBegin").camera.kind ==
+        Camera::Kind::spherical_equal_area);
+  const Camera camera = read(R"(Translate 0 0 5 Camera "spherical" "string mapping" "equirectangular" "float shutterclose" .5
+    "float lensradius" .1 "float focaldistance" 5 "float screenwindow" [-2 2 -1 1] WorldBegin)")
+                            .camera;
+  CHECK(camera.kind == Camera::Kind::spherical_equirectangular);
+  CHECK(camera.to_world.point({0, 0, 0}).z == -5);
+  CHECK(camera.lens_radius == 0);
+  CHECK_FALSE(camera.screen_window);
+  CHECK_CONTAINS(error_of("Camera \"spherical\" \"string mapping\" \"mercator\""), "equirectangular");
+  CHECK_CONTAINS(error_of("Camera \"spherical\" \"float fov\" 90"), "has no parameter \"fov\"");
+}
+
+TEST_CASE("realistic cameras: lenses, stop, focus, film") {
+  test::Scratch folder;
+  test::write_bytes(folder / "a.dat", "50 5 1.5 20\n0 1 0 12\n-50 40 1 20\n");
+  const auto camera = [&](const std::string& parameters) {
+    return "Camera \"realistic\" \"string lensfile\" \"" + (folder / "a.dat") + "\" " + parameters + " WorldBegin";
+  };
+  const Camera plain = read(camera("")).camera;
+  CHECK(plain.kind == Camera::Kind::realistic);
+  REQUIRE(plain.lenses);
+  CHECK(plain.lenses->elements.size() == 3);
+  CHECK(plain.lenses->elements[1].aperture_radius == 0.0005f);
+  CHECK(plain.lenses->focus_distance == 10);
+  CHECK(plain.lenses->stop == Lenses::Stop::circle);
+  CHECK(plain.lenses->film_diagonal == doctest::Approx(0.035));
+  const Camera set = read("Film \"rgb\" \"float diagonal\" 20 " +
+                          camera("\"float aperturediameter\" 8 \"float focusdistance\" 2 \"string aperture\" \"star\""))
+                         .camera;
+  CHECK(set.lenses->elements[1].aperture_radius == 0.004f);
+  CHECK(set.lenses->focus_distance == 2);
+  CHECK(set.lenses->stop == Lenses::Stop::star);
+  CHECK(set.lenses->film_diagonal == doctest::Approx(0.02));
+  const SceneFile wide = read_scene_text(camera("\"float aperturediameter\" 13"), "test.pbrt");
+  CHECK(wide.warnings.size() == 1);
+  CHECK(wide.scene.camera.lenses->elements[1].aperture_radius == 0.006f);
+  CHECK_CONTAINS(error_of("Camera \"realistic\""), "needs \"string lensfile\"");
+  CHECK_CONTAINS(error_of(camera("\"string aperture\" \"leaf.png\"")), "images of an aperture are not supported");
+  CHECK_CONTAINS(error_of(camera("\"float lensradius\" 1")), "has no parameter \"lensradius\"");
 }
 
 TEST_CASE("the camera's medium is the outside of the MediumInterface before it") {
@@ -73,10 +118,19 @@ TEST_CASE("Film: size, crop, exposure") {
   CHECK_CONTAINS(error_of("Film \"rgb\" \"float gain\" 1"), "film \"rgb\" has no parameter \"gain\"");
 }
 
-TEST_CASE("sensors are not simulated, and that is said once") {
-  const SceneFile file =
-      read_scene_text("Film \"rgb\" \"string sensor\" \"canon_eos_100d\" \"float whitebalance\" 5000 WorldBegin", "test.pbrt");
-  CHECK(file.warnings.size() == 2);
+TEST_CASE("sensor and white balance are part of the film's colours") {
+  const auto film = [](const std::string& parameters) { return read("Film \"rgb\" " + parameters + " WorldBegin").film; };
+  CHECK(film("\"string sensor\" \"cie1931\"").from_rec709 == Film().from_rec709);
+  const auto warm = film("\"float whitebalance\" 4000").from_rec709,
+             canon = film("\"string sensor\" \"canon_eos_5d\"").from_rec709;
+  CHECK(mul(warm, Rgb(1.0f)).b > 1.5f);
+  CHECK(mul(canon, Rgb(1.0f)).g == doctest::Approx(1).epsilon(0.02));
+  CHECK(canon != film("\"string sensor\" \"canon_eos_5d\" \"float whitebalance\" 4000").from_rec709);
+  CHECK_CONTAINS(error_of("Film \"rgb\" \"string sensor\" \"canon_eos_5\""), "did you mean \"canon_eos_5d");
+  CHECK_CONTAINS(error_of("Film \"rgb\" \"float whitebalance\" -1"), "whitebalance must be 0");
+  const auto warnings = [](const char* text) { return read_scene_text(text, "test.pbrt").warnings.size(); };
+  CHECK(warnings("Film \"rgb\" \"string sensor\" \"nikon_d850\" WorldBegin") == 0);
+  CHECK(warnings("Film \"rgb\" \"string sensor\" \"nikon_d850\" \"float maxcomponentvalue\" 2 WorldBegin") == 1);
 }
 
 TEST_CASE("the film is written in the colour space in force at Film") {

@@ -3,6 +3,10 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <string>
+
+#include "tyndall/io.h"
+#include "tyndall/render.h"
 
 namespace tyndall {
 namespace {
@@ -18,6 +22,17 @@ TEST_CASE("the text of the options is as typed, and tells the nearest of setting
     a.splitting = splitting;
     b.splitting = std::nextafter(splitting, 1.0f);
     CHECK(options_text(a) != options_text(b));
+  }
+}
+
+TEST_CASE("no matrix takes the world to the frame of a spherical or a realistic camera") {
+  const std::string lenses = "\"realistic\" \"string lensfile\" \"" TYNDALL_SOURCE_DIR "/tests/fuzz/corpus/lens/double.dat\"";
+  for (const std::string& camera : {std::string("\"perspective\""), std::string("\"spherical\""), lenses}) {
+    const std::string text =
+        "Film \"rgb\" \"integer xresolution\" 2 \"integer yresolution\" 2 Camera " + camera + " WorldBegin Shape \"sphere\"";
+    const Image image = render(build(read_scene_text(text, "a.pbrt", ".").scene), {.spp = 1}).image;
+    CHECK(image.attributes.contains("worldToCamera"));
+    CHECK(image.attributes.contains("worldToNDC") == (camera == "\"perspective\""));
   }
 }
 

@@ -21,8 +21,10 @@ Scene everything(const std::string& path) {
   s.camera.screen_window = {-1, 1, -1, 1};
   s.camera.frame_aspect_ratio = 1.5f;
   s.camera.medium = 0;
+  s.camera.lenses.emplace().elements.emplace_back();
   s.textures = {{ConstantTexture{}, {}}, {ScaleTexture{}, {}}, {MixTexture{}, {}}, {CheckerboardTexture{}, {}}};
-  s.textures.push_back({ImageTexture{.path = path, .mapping = {}, .encoding = {}}, {}});
+  using Filter = ImageTexture::Filter;
+  s.textures.push_back({ImageTexture{.filter = Filter::elliptical, .path = path, .mapping = {}, .encoding = {}}, {}});
   const ConductorOptics optics{.reflectance = 0};
   s.materials = {{DiffuseMaterial{}, {}, {}},
                  {ConductorMaterial{optics, {}}, {}, {}},
@@ -139,6 +141,7 @@ std::set<const void*> without_effect(Scene& s) {
   std::set<const void*> addresses{&s.source, &s.film.filename, &s.film.gbuffer};
   Walk collect([&](const void* address) { addresses.insert(address); });
   collect.visit(s.film.crop);
+  if (s.camera.lenses) collect.visit(s.camera.lenses->where);
   for (Texture& t : s.textures) collect.visit(t.where);
   for (Material& m : s.materials) collect.visit(m.where), collect.visit(m.name);
   for (Medium& m : s.media) collect.visit(m.where), collect.visit(m.name);
@@ -195,6 +198,25 @@ TEST_CASE("another kind of the same thing is another scene") {
     seen.insert(hash_scene(scene));
   }
   CHECK(seen.size() == 3);
+}
+
+TEST_CASE("each kind of camera is another scene, and the first has the hash that it always had") {
+  std::set<std::uint64_t> seen;
+  using Kind = Camera::Kind;
+  for (const Kind kind : {Kind::perspective, Kind::orthographic, Kind::spherical_equal_area, Kind::spherical_equirectangular}) {
+    Scene scene;
+    scene.camera.kind = kind;
+    seen.insert(hash_scene(scene));
+  }
+  Scene scene;
+  scene.camera.kind = Kind::realistic;
+  for (const float radius : {0.1f, 0.2f}) {
+    scene.camera.lenses = Lenses{};
+    scene.camera.lenses->elements = {{radius, 1, 1.5f, 1}};
+    seen.insert(hash_scene(scene));
+  }
+  CHECK(seen.size() == 6);
+  CHECK(hash_scene(Scene{}) == 5435084645036978678u);
 }
 
 TEST_CASE("a file that is gone is named") {

@@ -53,6 +53,85 @@ TEST_CASE("rays through any point of the lens meet in the plane of focus") {
   CHECK(length(a.at(4 / a.d.z) + Vec3{0, 0, -a.o.z} - b.at(4 / b.d.z)) < 1e-5f);
 }
 
+namespace {
+
+CameraRays spherical(Camera::Kind kind, const Transform& to_world = {}) {
+  Camera camera;
+  camera.kind = kind;
+  camera.to_world = to_world;
+  camera.lens_radius = 0.5f;  // of no effect
+  return {camera, film(64, 32)};
+}
+
+bool close(Vec3 a, Vec3 b) { return length(a - b) < 1e-6f; }
+
+}  // namespace
+
+TEST_CASE("an equirectangular camera sees +y on top and turns from +x over +z") {
+  const CameraRays rays = spherical(Camera::Kind::spherical_equirectangular);
+  const auto direction = [&](float x, float y) { return rays.ray({x, y}, {0.1f, 0.9f}).d; };
+  CHECK(close(direction(7, 0), {0, 1, 0}));
+  CHECK(close(direction(7, 32), {0, -1, 0}));
+  CHECK(close(direction(0, 16), {1, 0, 0}));
+  CHECK(close(direction(16, 16), {0, 0, 1}));
+  CHECK(close(direction(32, 16), {-1, 0, 0}));
+  CHECK(close(direction(48, 8), {0, std::sqrt(0.5f), -std::sqrt(0.5f)}));
+  CHECK(close(direction(8, -2), direction(40, 2)));  // filters reach over the pole
+}
+
+TEST_CASE("an equal-area camera sees +y in the middle, and pixels of one solid angle all around") {
+  const CameraRays rays = spherical(Camera::Kind::spherical_equal_area);
+  const auto direction = [&](float x, float y) { return rays.ray({x, y}, {0.1f, 0.9f}).d; };
+  CHECK(close(direction(32, 16), {0, 1, 0}));
+  CHECK(close(direction(64, 16), {1, 0, 0}));
+  CHECK(close(direction(32, 32), {0, 0, 1}));
+  CHECK(close(direction(0, 0), {0, -1, 0}));
+  for (int y = 0; y < 32; ++y) {
+    for (int x = 0; x < 64; ++x) {
+      if (y == 15 || y == 16 || x == 31 || x == 32 || x % 63 == 0 || y % 31 == 0) continue;  // folds, and the poles
+      const float u = static_cast<float>(x) + 0.5f, v = static_cast<float>(y) + 0.5f, e = 0.05f;
+      const double between =
+          length(cross(direction(u + e, v) - direction(u - e, v), direction(u, v + e) - direction(u, v - e)));
+      REQUIRE(between / (4 * e * e) == doctest::Approx(4 * kPi / (64 * 32)).epsilon(0.02));
+    }
+  }
+  // Filters reach over the edges, on the smallest of films far over.
+  const float e = 4;
+  for (const float t : {3.0f, 20.0f, 31.5f}) {
+    CHECK(length(direction(-e, t) - direction(e, t)) > 0.1f);
+    CHECK(length(direction(-e, t) - direction(e, 32 - t)) < 1e-5f);
+    CHECK(length(direction(64 + e, t) - direction(64 - e, 32 - t)) < 1e-5f);
+    CHECK(length(direction(t, -e) - direction(64 - t, e)) < 1e-5f);
+    CHECK(length(direction(t + 128, 64 * 5 + t) - direction(t, t)) < 1e-4f);
+  }
+}
+
+TEST_CASE("a spherical camera has a center, radial depth, and no place for techniques that need a plane") {
+  const Transform to_world = Transform::translate(1, 2, 3) * Transform::rotate(90, 0, 0, 1) * Transform::scale(3, 3, 3);
+  for (const Camera::Kind kind : {Camera::Kind::spherical_equal_area, Camera::Kind::spherical_equirectangular}) {
+    const CameraRays rays = spherical(kind, to_world);
+    CHECK(rays.is_spherical());
+    CHECK_FALSE(rays.is_pinhole());
+    const Ray ray = rays.ray({50, 11}, {0.1f, 0.9f});
+    CHECK(ray.o == Vec3{1, 2, 3});
+    CHECK(length(ray.d) == doctest::Approx(1));
+    CHECK(rays.depth(ray.at(2.5f)) == doctest::Approx(2.5));
+  }
+  CHECK(close(spherical(Camera::Kind::spherical_equirectangular, to_world).ray({7, 0}, {}).d, {-1, 0, 0}));
+  CHECK_FALSE(CameraRays(Camera{}, film(4, 2)).is_spherical());
+}
+
+TEST_CASE("steps of a spherical camera's pixels cover the sphere, each its share") {
+  const CameraRays rays = spherical(Camera::Kind::spherical_equal_area, Transform::translate(1, 2, 3));
+  for (const Vec3 to_p : {Vec3{0, 0, 5}, Vec3{-3, 4, -12}}) {
+    const auto [dx, dy] = rays.pixel_steps(rays.center() + to_p, normalize(to_p));
+    const double distance = length(to_p);
+    CHECK(length(cross(dx, dy)) == doctest::Approx(4 * kPi * distance * distance / (64 * 32)));
+    CHECK(dot(dx, dy) == doctest::Approx(0));
+    CHECK(dot(dx, to_p) == doctest::Approx(0));
+  }
+}
+
 TEST_CASE("worldToNDC takes a point to its place on the film") {
   Camera camera;
   camera.fov_degrees = 50;

@@ -1,0 +1,29 @@
+/// Whether scenes read and build, one of them or all below a folder.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tyndall/io.h"
+#include "tyndall/render.h"
+
+namespace tyndall::cli {
+
+struct Verdict {
+  std::string path;
+  std::vector<std::string> errors;  ///< with their places, best first
+  std::vector<Warning> warnings;    ///< of each kind the first
+  BuildSummary build;
+  bool ok() const { return errors.empty(); }
+};
+Verdict verdict_on(const std::string& path);
+
+/// Paths of the .pbrt and .pbrt.gz below `folder` that have a WorldBegin, sorted: others are there to be included. Throws
+/// Error (scene) when there is none.
+std::vector<std::string> scenes_below(const std::string& folder);
+
+/// One after the other; `show`: as a table with a row when each is done, then counts of scenes and of kinds of warnings.
+std::vector<Verdict> check_all(const std::vector<std::string>& scenes, bool show);
+void print_json(const std::vector<Verdict>& verdicts);
+
+}  // namespace tyndall::cli
