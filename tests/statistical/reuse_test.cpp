@@ -17,7 +17,8 @@ using namespace tyndall::test;
 
 namespace {
 
-constexpr int kRenders = fewer(24), kSpp = 32, kResolution = 32, kBlock = 8;
+constexpr int kRenders = fewer(24), kSpp = 32, kResolution = 32;
+constexpr int kBlock = 2;  // smaller than what shares, within which light may only have moved
 constexpr double kLevel = 1e-3;
 constexpr Bounds3 kRoom{{-2, -1.8f, -4}, {2, 1.8f, 2}};
 
@@ -132,6 +133,16 @@ TEST_CASE("sharing changes the noise alone: folds under an open sky") {
   const std::string scene = camera(4) + block("Material \"diffuse\" \"rgb reflectance\" [0.8 0.7 0.6]\n" + folds) +
                             point_light({-1.7f, 1.2f, 0.7f}, 3);
   check_agree("folds", scene, {}, 1.1);
+}
+
+// The camera is in the plane of a sheet: neighbours look at the floor on its lit and on its dark side.
+TEST_CASE("sharing changes the noise alone: two sides of a sheet") {
+  const std::string sheet =
+      "Shape \"bilinearmesh\" \"point3 P\" [0.2 -1.8 -1.9  0 -1.8 1.9  0.2 -0.5 -1.9  0 -0.5 1.9]\n"
+      "Shape \"bilinearmesh\" \"point3 P\" [-2 -1.8 -4  2 -1.8 -4  -2 -1.8 2  2 -1.8 2]\n";
+  const std::string scene =
+      camera(4) + block("Material \"diffuse\" \"rgb reflectance\" [0.8 0.7 0.6]\n" + sheet) + point_light({-1.7f, 0.2f, 0}, 3);
+  check_agree("sheet", scene, {}, 1.1);
 }
 
 // Of a fog of three colours every path passes another part; some start or end outside, or pass its boundary twice.
