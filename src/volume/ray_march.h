@@ -18,12 +18,16 @@ namespace tyndall::kernel {
 /// control has attenuated what is left to estimate; and N has a geometric tail, whose weights keep the variance finite however
 /// far the X_i lie apart.
 ///
-/// Of 1/T the same with all signs turned: exp(x) = exp(X_i) exp(x - X_i). Then nothing is given up, as nothing is negligible.
+/// Of 1/T the same with all signs turned: exp(x) = exp(X_i) exp(x - X_i). Then nothing is given up, as nothing is negligible,
+/// and N is never 0: a correction that is rare weighs much, and where T is small there is nothing that hides it.
 class RayMarch {
  public:
   enum class Of { transmittance, inverse };
   RayMarch(Of of, float spacing, Rng& rng, TrackingStats& stats)
-      : sign_(of == Of::inverse ? 1.0f : -1.0f), base_spacing_(spacing), orders_(draw_orders(rng, stats)) {
+      : sign_(of == Of::inverse ? 1.0f : -1.0f),
+        more_(of == Of::inverse ? 1.0f : kMore),
+        base_spacing_(spacing),
+        orders_(draw_orders(rng, stats)) {
     for (int i = 0; i <= orders_; ++i) combs_.push_back({double{rng.uniform()}, {}});
   }
 
@@ -49,7 +53,7 @@ class RayMarch {
   Rgb estimate() const { return {estimate(0), estimate(1), estimate(2)}; }
 
  private:
-  static constexpr float kMore = 0.05f;     // P(N >= 1)
+  static constexpr float kMore = 0.05f;     // P(N >= 1), of transmittances
   static constexpr float kEvenMore = 0.5f;  // P(N >= k + 1 | N >= k)
   static constexpr int kMostOrders = 63;    // 2^-62 of the corrections would need more
 
@@ -59,8 +63,8 @@ class RayMarch {
   };
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
-  static int draw_orders(Rng& rng, TrackingStats& stats) {
-    if (rng.uniform() >= kMore) return 0;
+  int draw_orders(Rng& rng, TrackingStats& stats) const {
+    if (rng.uniform() >= more_) return 0;
     int orders = 1;
     while (orders < kMostOrders && rng.uniform() < kEvenMore) ++orders;
     if (orders == kMostOrders) ++stats.caps_hit;
@@ -119,7 +123,7 @@ class RayMarch {
       ++count;
       for (int k = count; k > 0; --k) e[index(k)] += difference * e[index(k - 1)];
     }
-    double sum = 1, factor = 1 / double{kMore};
+    double sum = 1, factor = 1 / double{more_};
     for (int k = 1; k <= orders_; ++k) {
       factor /= orders_ - k + 1;  // w_k / k! / (N over k) = w_k (N - k)! / N!
       sum += factor * e[index(k)];
@@ -129,6 +133,7 @@ class RayMarch {
   }
 
   float sign_;          // of the optical depth in the exponent
+  float more_;          // P(N >= 1)
   float base_spacing_;  // of the teeth where nothing is attenuated yet
   LoopGuard guard_;     // of all combs together
   int orders_;

@@ -125,11 +125,11 @@ TEST_CASE("the inverse of the transmittance agrees with the integral, however mu
     }
     CHECK(stats.majorant_violations == 0);
   }
-  for (const double length : {0.25, 0.5, 1.0}) {
+  for (const double length : {0.25, 1.0, 2.0}) {
     TrackingStats stats;
     const Moments moments = marched({length}, 1'000'000, 3, stats, Of::inverse);
     CHECK(moments.deviation(std::exp(length)) < 4);
-    CHECK(moments.standard_error() < 0.01 * std::exp(length));
+    CHECK(moments.standard_error() < 0.02 * std::exp(length));  // 0.0102 at 2; 0.06 where corrections are rare
   }
 }
 
