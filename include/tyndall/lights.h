@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 
 #include "tyndall/error.h"
@@ -55,6 +56,7 @@ struct ProjectionLight {
 struct Light {
   std::variant<PointLight, SpotLight, DistantLight, InfiniteLight, GoniometricLight, ProjectionLight> kind;
   Location where;
+  std::string group{};  ///< light group (is_light_group_name); empty: none
 };
 /// Diffuse emission of a shape.
 struct AreaLight {
@@ -63,6 +65,14 @@ struct AreaLight {
   std::array<float, 9> to_rec709{1, 0, 0, 0, 1, 0, 0, 0, 1};
   std::optional<float> power;  ///< when set, L is scaled so that each triangle, patch or quadric emits this much (pbrt)
   bool two_sided = false;
+  std::string group{};  ///< light group, as of a Light
 };
+
+/// Light without a group is kept under this name where some has one.
+inline constexpr std::string_view kUngrouped = "default";
+/// What the channels of a group begin with: "LightGroup.key.", before "R", "G" and "B".
+std::string light_group_channel(std::string_view name);
+/// Whether channels of an image can be named by it: 1 to 64 letters, digits, - and _.
+bool is_light_group_name(std::string_view name);
 
 }  // namespace tyndall

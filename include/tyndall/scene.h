@@ -214,6 +214,7 @@ struct Medium {
   Transform to_world;
   std::string name;
   Location where;
+  std::string group{};  ///< light group of its emission, as of a Light
 };
 /// All shapes with the same (inside, outside) media within one attribute block or object: one closed boundary.
 /// The geometric normal points outside.

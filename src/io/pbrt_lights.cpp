@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "io/pbrt_colors.h"
+#include "io/pbrt_light_group.h"
 #include "io/pbrt_suggest.h"
 
 namespace tyndall::pbrt {
@@ -156,14 +157,16 @@ void read_light_source(State& state, Tokenizer& in, const Location& where) {
   ParamList params = read_param_list(state, in, "light \"" + printable(type) + "\"", where, &AttributeDefaults::light);
   usable_ctm(state, where);
   auto kind = read_light_kind(state, params, type);
+  std::string group = read_light_group(params);
   params.finish();
-  state.scene.lights.push_back({std::move(kind), where});
+  state.scene.lights.push_back({std::move(kind), where, std::move(group)});
 }
 
 void read_area_light_source(State& state, Tokenizer& in, const Location& where) {
   const std::string type(in.expect_string("a kind of area light, \"diffuse\"").text);
   ParamList params = read_param_list(state, in, "area light \"" + printable(type) + "\"", where, &AttributeDefaults::light);
   AreaLight light = read_area_light(state, params, type);
+  light.group = read_light_group(params);
   params.finish();
   state.graphics.area_light = std::move(light);
 }

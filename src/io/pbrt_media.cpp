@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "io/pbrt_colors.h"
+#include "io/pbrt_light_group.h"
 #include "io/pbrt_medium_presets.h"
 #include "io/pbrt_phase.h"
 #include "io/pbrt_suggest.h"
@@ -206,6 +207,7 @@ void read_make_named_medium(State& state, Tokenizer& in, const Location& where) 
   };
   try {
     Medium medium = read_medium(state, params);
+    medium.group = read_light_group(params);
     params.finish();
     if (!std::holds_alternative<HomogeneousMedium>(medium.kind) && !state.coordinate_systems.contains("camera") &&
         !state.in_world && !state.render_in_world_space)

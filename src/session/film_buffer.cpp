@@ -2,18 +2,22 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "tyndall/error.h"
+#include "tyndall/lights.h"
 #include "tyndall/settings.h"
 
 namespace tyndall {
 namespace {
 
 // A pixel's sums: even samples' RGB, odd samples' RGB, alpha, then each AOV's over all samples and, with Aov::replicate, over
-// the even ones.
+// the even ones, then each light group's RGB as those of all light.
 constexpr double kRelativeEpsilon = 0.01;  ///< of relMSE, as everywhere
 
-constexpr std::size_t kEven = 0, kOdd = 3, kAlpha = 6, kFirstAov = 7;
+constexpr std::size_t kEven = 0, kOdd = 3, kAlpha = 6, kFirstAov = 7, kSumsOfGroup = 6;
+/// Relative to the light of a sample. More that groups differ from it by is no rounding, and must show.
+constexpr double kMostRounding = 1e-3;
 
 std::size_t sums_of(Aov aov) {
   switch (aov) {
@@ -67,12 +71,19 @@ std::string aov_list(const std::vector<std::string>& names) {
   return list;
 }
 
-FilmBuffer::FilmBuffer(const Film& film, PixelBounds crop, std::vector<Aov> aovs)
-    : film_(film), crop_(crop), aovs_(std::move(aovs)), replicate_(wants(Aov::replicate)), stride_(kFirstAov) {
+FilmBuffer::FilmBuffer(const Film& film, PixelBounds crop, Extras extras)
+    : film_(film),
+      crop_(crop),
+      aovs_(std::move(extras.aovs)),
+      groups_(std::move(extras.groups)),
+      replicate_(wants(Aov::replicate)),
+      stride_(kFirstAov) {
   for (const Aov aov : aovs_) {
     offsets_.push_back(stride_);
     stride_ += (replicate_ ? 2 : 1) * sums_of(aov);
   }
+  first_group_ = stride_;
+  stride_ += kSumsOfGroup * groups_.size();
   sums_ = FilmSums(crop.size() * stride_);
 }
 
@@ -102,6 +113,23 @@ void FilmBuffer::add(int x, int y, int sample, const PathRecord& record, float w
   for (std::size_t i = 0; i < aovs_.size(); ++i) {
     add_aov(aovs_[i], first + offsets_[i], record, weight);
     if (twice) add_aov(aovs_[i], first + offsets_[i] + sums_of(aovs_[i]), record, weight);
+  }
+}
+
+void FilmBuffer::add_groups(const SamplePlace& at, Rgb radiance, std::span<const Rgb> by_group, float weight) {
+  const std::size_t first = first_of(at.x, at.y) + first_group_ + ((at.sample & 1) ? kOdd : kEven);
+  for (int k = 0; k < 3; ++k) {
+    double rest = radiance[k] * weight, light = 0;
+    std::size_t brightest = 0;
+    for (std::size_t g = 0; g < by_group.size(); ++g) {
+      const float term = by_group[g][k] * weight;
+      sums_.add(first + kSumsOfGroup * g + static_cast<std::size_t>(k), term);
+      rest -= term;
+      light += std::abs(term);
+      if (std::abs(by_group[g][k]) > std::abs(by_group[brightest][k])) brightest = g;
+    }
+    if (std::abs(rest) <= kMostRounding * light)
+      sums_.add(first + kSumsOfGroup * brightest + static_cast<std::size_t>(k), rest, 0.0f);
   }
 }
 
@@ -151,13 +179,14 @@ Rgb FilmBuffer::to_film_space(Rgb c) const {
   return {m[0] * c.r + m[1] * c.g + m[2] * c.b, m[3] * c.r + m[4] * c.g + m[5] * c.b, m[6] * c.r + m[7] * c.g + m[8] * c.b};
 }
 
-void FilmBuffer::store_color(Image& image, const std::string& name, std::size_t offset, const Means& means) const {
+void FilmBuffer::store_color(Image& image, const std::string& name, std::size_t offset, const Means& means,
+                             Halves halves) const {
   const std::size_t first = image.channels.size();
   for (const char* suffix : {"R", "G", "B"}) image.add_channel(means.prefix + name + suffix);
   const std::size_t pixels = image.channels[first].values.size();
   for (std::size_t i = 0; i < pixels; ++i) {
     const auto mean = [&](std::size_t k) {
-      const double odd = offset == kEven && !means.even_only ? sum(i, kOdd + k) : 0;  // the beauty's sums come in halves
+      const double odd = halves == Halves::apart && !means.even_only ? sum(i, offset + kOdd + k) : 0;
       return static_cast<float>((sum(i, offset + k) + odd) / means.samples);
     };
     const Rgb c = to_film_space({mean(0), mean(1), mean(2)});
@@ -168,23 +197,24 @@ void FilmBuffer::store_color(Image& image, const std::string& name, std::size_t 
 /// Albedo and transmittance: in the film's space, but white stays 1 whatever the space's white is.
 void FilmBuffer::store_ratio(Image& image, const std::string& name, std::size_t offset, const Means& means) const {
   const std::size_t first = image.channels.size();
-  store_color(image, name, offset, means);
+  store_color(image, name, offset, means, Halves::joined);
   const Rgb white = to_film_space(Rgb(1.0f));
   for (int k = 0; k < 3; ++k) {
     for (float& v : image.channels[first + k].values) v /= white[k];
   }
 }
 
-void FilmBuffer::store_variance(Image& image, int samples) const {
+/// `offset`: of sums by halves.
+void FilmBuffer::store_variance(Image& image, const std::string& name, std::size_t offset, int samples) const {
   const std::size_t first = image.channels.size();
-  for (const char* suffix : {"R", "G", "B"}) image.add_channel(std::string("Variance.") + suffix);
+  for (const char* suffix : {"R", "G", "B"}) image.add_channel("Variance." + name + suffix);
   const int even = even_of(samples), odd = samples - even;
   const std::size_t pixels = image.channels[first].values.size();
   for (std::size_t i = 0; i < pixels; ++i) {
     Rgb difference;  // in double first: the halves are nearly equal
     for (int k = 0; k < 3; ++k) {
-      difference[k] = static_cast<float>(sum(i, kEven + static_cast<std::size_t>(k)) / even -
-                                         (odd > 0 ? sum(i, kOdd + static_cast<std::size_t>(k)) / odd : 0.0));
+      difference[k] = static_cast<float>(sum(i, offset + kEven + static_cast<std::size_t>(k)) / even -
+                                         (odd > 0 ? sum(i, offset + kOdd + static_cast<std::size_t>(k)) / odd : 0.0));
     }
     // E[(a-b)^2] = v/even + v/odd for a variance of v a sample, so the mean of all has (a-b)^2 even odd / samples^2.
     // A single sample has no variance estimate; its square stands in as a pessimistic value.
@@ -197,9 +227,9 @@ void FilmBuffer::store_variance(Image& image, int samples) const {
 void FilmBuffer::store_aov(Image& image, Aov aov, std::size_t offset, const Means& means) const {
   const std::string name = name_of_aov(aov), prefixed = means.prefix + name;
   if (aov == Aov::replicate || (aov == Aov::variance && means.even_only)) return;
-  if (aov == Aov::variance) return store_variance(image, means.samples);
+  if (aov == Aov::variance) return store_variance(image, "", kEven, means.samples);
   if (aov == Aov::albedo || aov == Aov::transmittance) return store_ratio(image, name + ".", offset, means);
-  if (is_light(aov)) return store_color(image, name + ".", offset, means);
+  if (is_light(aov)) return store_color(image, name + ".", offset, means, Halves::joined);
   const std::size_t first = image.channels.size();
   const bool vector = aov == Aov::n || aov == Aov::p;
   if (vector) {
@@ -261,8 +291,8 @@ double FilmBuffer::estimated_relmse(int samples) const {
   if (samples < 2) return kInfinity;
   Image halves;
   halves.data = crop_;
-  store_color(halves, "", kEven, {"", samples});
-  store_variance(halves, samples);
+  store_color(halves, "", kEven, {"", samples}, Halves::apart);
+  store_variance(halves, "", kEven, samples);
   double total = 0;
   const std::size_t pixels = halves.channels[0].values.size();
   for (std::size_t i = 0; i < pixels; ++i) {
@@ -295,6 +325,16 @@ void FilmBuffer::store_means(Image& image, const Means& means) const {
   for (std::size_t i = 0; i < aovs_.size(); ++i)
     store_aov(image, aovs_[i], offsets_[i] + (means.even_only ? sums_of(aovs_[i]) : 0), means);
   store_counts(image, means);
+  store_groups(image, means);
+}
+
+void FilmBuffer::store_groups(Image& image, const Means& means) const {
+  for (std::size_t g = 0; g < groups_.size(); ++g) {
+    const std::string name = light_group_channel(groups_[g]);
+    const std::size_t offset = first_group_ + kSumsOfGroup * g;
+    store_color(image, name, offset, means, Halves::apart);
+    if (wants(Aov::variance) && !means.even_only) store_variance(image, name, offset, means.samples);
+  }
 }
 
 Image FilmBuffer::image(int samples) const {
@@ -302,7 +342,7 @@ Image FilmBuffer::image(int samples) const {
   image.data = crop_;
   image.display = {0, 0, film_.width, film_.height};
   image.chromaticities = film_.chromaticities;
-  store_color(image, "", kEven, {"", samples});
+  store_color(image, "", kEven, {"", samples}, Halves::apart);
   Channel& alpha = image.add_channel("A");
   for (std::size_t i = 0; i < alpha.values.size(); ++i) {
     alpha.values[i] = static_cast<float>(sum(i, kAlpha) / samples);
@@ -310,7 +350,7 @@ Image FilmBuffer::image(int samples) const {
   store_means(image, {"", samples});
   if (!replicate_) return image;
   const Means even{"Replicate.", even_of(samples), true};
-  store_color(image, "", kEven, even);
+  store_color(image, "", kEven, even, Halves::apart);
   store_means(image, even);
   std::vector<float>& count = image.add_channel("Replicate.SampleCount").values;
   std::fill(count.begin(), count.end(), static_cast<float>(even.samples));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -38,8 +39,13 @@ std::string aov_list(const std::vector<std::string>& names);
 /// passes, or into jobs, change a sum.
 class FilmBuffer {
  public:
-  /// The film rectangle `crop` and the AOVs to gather.
-  FilmBuffer(const Film& film, PixelBounds crop, std::vector<Aov> aovs);
+  /// What is gathered beside R G B A.
+  struct Extras {
+    std::vector<Aov> aovs{};
+    std::vector<std::string> groups{};  ///< names of light groups
+  };
+  /// The film rectangle `crop` and what to gather.
+  FilmBuffer(const Film& film, PixelBounds crop, Extras extras);
 
   bool wants(Aov aov) const;
   const PixelBounds& crop() const { return crop_; }
@@ -47,6 +53,14 @@ class FilmBuffer {
 
   /// Add sample number `sample` of pixel (x, y) of the full frame, weighted by the pixel filter.
   void add(int x, int y, int sample, const PathRecord& record, float weight);
+
+  struct SamplePlace {
+    int x, y, sample;
+  };
+  /// The same sample by light groups, one for each. What rounding makes their sum differ from `radiance` by goes to the
+  /// brightest of them, so that the sums of the groups are those of R G B.
+  void add_groups(const SamplePlace& at, Rgb radiance, std::span<const Rgb> by_group, float weight);
+  const std::vector<std::string>& groups() const { return groups_; }
 
   /// All sums, pixel by pixel: what a checkpoint keeps.
   const FilmSums& sums() const { return sums_; }
@@ -58,7 +72,8 @@ class FilmBuffer {
 
   /// Means of the `samples` samples that every pixel has received, in the film's colour space. Beside P and Z stands
   /// SurfaceCount, beside Zvol VolumeCount: over how many samples their means are, so that renders can be merged. With
-  /// Aov::replicate each channel that is a mean comes a second time, as "Replicate.R" and so on: over the even samples.
+  /// Aov::replicate each channel that is a mean comes a second time, as "Replicate.R" and so on: over the even samples. Light
+  /// groups are "LightGroup.key.R" and so on, with Aov::variance "Variance.LightGroup.key.R".
   Image image(int samples) const;
 
   /// The exact sums as channels "Sum.N.high", ".mid" and ".low", floats that add up to sum number N; and back, added to those
@@ -83,10 +98,13 @@ class FilmBuffer {
     bool even_only = false;
   };
   void store_means(Image& image, const Means& means) const;
-  void store_color(Image& image, const std::string& name, std::size_t offset, const Means& means) const;
+  /// Sums at `offset`; light that is summed by halves has those of the odd samples after those of the even ones.
+  enum class Halves : bool { joined, apart };
+  void store_color(Image& image, const std::string& name, std::size_t offset, const Means& means, Halves halves) const;
   void store_ratio(Image& image, const std::string& name, std::size_t offset, const Means& means) const;
   void store_aov(Image& image, Aov aov, std::size_t offset, const Means& means) const;
-  void store_variance(Image& image, int samples) const;
+  void store_variance(Image& image, const std::string& name, std::size_t offset, int samples) const;
+  void store_groups(Image& image, const Means& means) const;
   void store_count(Image& image, const std::string& name, std::size_t offset) const;
   void store_counts(Image& image, const Means& means) const;
   Rgb to_film_space(Rgb c) const;
@@ -94,7 +112,9 @@ class FilmBuffer {
   Film film_;
   PixelBounds crop_;
   std::vector<Aov> aovs_;
+  std::vector<std::string> groups_;
   std::vector<std::size_t> offsets_;  ///< of each AOV within a pixel's sums; those of its even samples follow when wanted
+  std::size_t first_group_;           ///< its sums, those of the others follow
   bool replicate_;
   std::size_t stride_;
   FilmSums sums_;

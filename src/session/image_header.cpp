@@ -41,6 +41,12 @@ std::string utc_now() {
   return text;
 }
 
+std::string joined(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) list += (list.empty() ? "" : ",") + name;
+  return list;
+}
+
 }  // namespace
 
 std::string_view version() { return kVersion; }
@@ -55,6 +61,7 @@ void write_header(Image& image, const World::Parts& world, const RenderSettings&
   a["tyndall/samples"] = report.samples;
   a["tyndall/seed"] = std::to_string(settings.seed);  // 64 bits do not fit an EXR integer
   a["tyndall/options"] = options_text(settings);
+  if (!world.built.light_groups.empty()) a[kLightGroups] = joined(world.built.light_groups.names());
   if (settings.reuse == ReuseStrategy::pixels) a["tyndall/sharing"] = static_cast<int>(kMostSharing);
   if (settings.reproducible) return;
   a["tyndall/renderTime"] = report.seconds;

@@ -5,6 +5,9 @@
 
 namespace tyndall {
 
+/// Attribute: names of light groups, "key,sky,default", in the order of their sums in slices.
+inline constexpr const char* kLightGroups = "tyndall/lightGroups";
+
 /// Every option of the command line that chooses a method, with its value: "--max-depth 5 --lights tree ...". Settings that
 /// differ give texts that differ.
 std::string options_text(const RenderSettings& settings);

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "math/process_memory.h"
+#include "transport/light_groups.h"
 #include "transport/planned_memory.h"
 #include "tyndall/error.h"
 
@@ -14,7 +15,9 @@ std::size_t plan_film(const Scene& scene) {
   const double pixels = pixels_of(scene);
   const auto& aovs = scene.settings.aovs;
   const bool twice = std::find(aovs.begin(), aovs.end(), "Replicate") != aovs.end();
-  const double channels = (twice ? 2 : 1) * (4 + 4 * static_cast<double>(aovs.size()));
+  const auto named = static_cast<double>(named_light_groups(scene).size());
+  const double by_group = named > 0 ? 6 * (named + 1) : 0;  // and those of what has none
+  const double channels = (twice ? 2 : 1) * (4 + 4 * static_cast<double>(aovs.size()) + by_group);
   ByteCount sum;
   sum.add(pixels, 2 * (sizeof(double) + sizeof(float)) * (3 + channels));         // twice: a long pass keeps a copy to undo it
   sum.add(pixels, 2 * sizeof(float) * channels);                                  // the image, and its encoding

@@ -21,6 +21,7 @@ PixelSample::PixelSample(const SampleContext& sample, const SampleKey& key, Pixe
       emitter_ray_(film_.emitters, offset_.pdf) {
   const Vec2 lens = sampler_.next_2d();
   LightContext context{world_.built, sample.selector, sample.settings, sampler_, counters};
+  if (!world_.built.light_groups.empty()) context.groups = &groups_.emplace(world_.built.light_groups);
   if (!film_.points.empty()) {
     context.joint = &film_ray_;
     of_points_ = film_light(context, film_.points, center_of(key), sampler_.fork());
@@ -29,6 +30,7 @@ PixelSample::PixelSample(const SampleContext& sample, const SampleKey& key, Pixe
     context.emitters = &emitter_ray_;
     of_emitters_ = visible_emitters(context, film_.emitters, center_of(key), sampler_.fork());
   }
+  if (groups_) groups_->settle(Rgb(1 / offset_.weight), groups_->found);
   const auto seen = world_.built.camera.sample(on_film_, lens);
   if (!seen) return;
   weight_of_ray_ = seen->weight;
@@ -52,12 +54,17 @@ void PixelSample::place(PathRecord& record) const {
   record.z_volume *= world_.unit;
 }
 
-void PixelSample::expose(PathRecord& record) const {
+void PixelSample::scale(PathRecord& record, float s) {
+  record.scale_radiance(s);
+  if (groups_) groups_->scale(s);
+}
+
+void PixelSample::expose(PathRecord& record) {
   const Film& film = world_.built.scene.film;
-  record.scale_radiance(film.imaging_ratio * weight_of_ray_);
+  scale(record, film.imaging_ratio * weight_of_ray_);
   const Rgb radiance = record.radiance();  // may be negative, where the filter is
   const float brightest = std::max(max_component(radiance), max_component(radiance * -1.0f));
-  if (brightest > film.max_component) record.scale_radiance(film.max_component / brightest);
+  if (brightest > film.max_component) scale(record, film.max_component / brightest);
 }
 
 void PixelGroup::run(const SampleContext& context, Counters& counters) {

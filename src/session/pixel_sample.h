@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <span>
 
 #include "session/world_parts.h"
 #include "transport/film_light.h"
@@ -37,10 +38,13 @@ class PixelSample {
   Path* path() { return path_ ? &*path_ : nullptr; }
   /// Of the ended path, in the user's units; `weight` is that of the sample in its pixel.
   PathRecord record();
+  /// The radiance of that record by light groups, up to rounding; empty where the scene has none.
+  std::span<const Rgb> by_group() const { return groups_ ? std::span<const Rgb>(groups_->found) : std::span<const Rgb>(); }
   float weight() const { return offset_.weight; }
 
  private:
-  void expose(PathRecord& record) const;
+  void expose(PathRecord& record);
+  void scale(PathRecord& record, float s);
   void place(PathRecord& record) const;
 
   const World::Parts& world_;
@@ -53,6 +57,7 @@ class PixelSample {
   EmitterRay emitter_ray_;
   Rgb of_points_, of_emitters_;
   float weight_of_ray_ = 1;
+  std::optional<GroupedLight> groups_;
   std::optional<Path> path_;
 };
 

@@ -56,7 +56,8 @@ class RenderJob::Impl {
         settings_(resolved(settings, world)),
         selector_(world.built.lights.selector(settings.lights, settings.emission == EmissionStrategy::lights)),
         first_sample_(sample_range(settings).first),
-        film_(world.built.scene.film, full_crop(world.built.scene, settings), film_aovs(settings)),
+        film_(world.built.scene.film, full_crop(world.built.scene, settings),
+              {film_aovs(settings), world.built.light_groups.names()}),
         sample_context_{world,
                         selector_,
                         settings_,
@@ -205,14 +206,17 @@ class RenderJob::Impl {
       const SampleKey& key = sample.key();
       if (!film_.crop().contains(key.x, key.y)) continue;
       PathRecord record = sample.record();
+      std::span<const Rgb> groups = sample.by_group();
       if (!record.is_finite()) {
         ++counters.non_finite;
         counters.bad_samples.push_back({key.x, key.y, key.sample});
         if (counters.bad_samples.size() > 4 * kBadSamplesKept) counters.trim_bad_samples();
         record = PathRecord();
         record.alpha = 0;
+        groups = {};
       }
       film_.add(key.x, key.y, key.sample, record, sample.weight());
+      if (!groups.empty()) film_.add_groups({key.x, key.y, key.sample}, record.radiance(), groups, sample.weight());
     }
   }
 

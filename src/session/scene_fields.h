@@ -18,14 +18,14 @@ constexpr int field_count() {
   if (kOneOf<T, InterfaceMaterial>) return 0;
   if (kOneOf<T, ConstantTexture, DiffuseMaterial, ThinDielectricMaterial, HomogeneousMedium>) return 1;
   if (kOneOf<T, Vec2, Bounds3, ScaleTexture, Texture, ConductorMaterial, CoatedDiffuseMaterial>) return 2;
-  if (kOneOf<T, Boundary, PointLight, DistantLight, Light, Object, Instance>) return 2;
-  if (kOneOf<T, Vec3, Rgb, MixTexture, Roughness, ConductorOptics, DiffuseTransmissionMaterial, MixMaterial>) return 3;
+  if (kOneOf<T, Boundary, PointLight, DistantLight, Object, Instance>) return 2;
+  if (kOneOf<T, Vec3, Rgb, MixTexture, Roughness, ConductorOptics, DiffuseTransmissionMaterial, MixMaterial, Light>) return 3;
   if (kOneOf<T, CoatedConductorMaterial, DielectricMaterial, DotsTexture, DirectionMixTexture, MediumOptics>) return 3;
   if (kOneOf<T, PixelBounds, Chromaticities, CheckerboardTexture, LensElement, CloudMedium, SpotLight, GoniometricLight>)
     return 4;
   if (kOneOf<T, TriangleMesh, BilinearMesh, Sphere, Disk, Cylinder>) return 4;
-  if (kOneOf<T, Medium, AreaLight, ProjectionLight, BilerpTexture, Lenses>) return 5;
-  if (kOneOf<T, TextureMapping, PixelFilter, InfiniteLight, NoiseTexture, Material>) return 6;
+  if (kOneOf<T, ProjectionLight, BilerpTexture, Lenses>) return 5;
+  if (kOneOf<T, TextureMapping, PixelFilter, InfiniteLight, NoiseTexture, Material, Medium, AreaLight>) return 6;
   if (kOneOf<T, Coating>) return 7;
   if (kOneOf<T, RgbGridMedium, Shape>) return 8;
   if (kOneOf<T, Film, Camera>) return 9;

@@ -114,8 +114,14 @@ class SceneHasher {
     add_all(FileContent{path}, density, temperature, flame, density_given, temperature_given, scale, offset, Le_scale, Le);
   }
   void add(const Medium& medium) {
-    const auto& [kind, optics, to_world, name, where] = medium;
+    const auto& [kind, optics, to_world, name, where, group] = medium;
     add_all(kind, optics, to_world);
+    add_group(group);
+  }
+  void add(const Light& light) {
+    const auto& [kind, where, group] = light;
+    add(kind);
+    add_group(group);
   }
   void add(const InfiniteLight& light) {
     const auto& [to_world, L, path, to_rec709, illuminance, portal] = light;
@@ -131,8 +137,9 @@ class SceneHasher {
     add_all(to_world, I, FileContent{path}, fov, power);
   }
   void add(const AreaLight& light) {
-    const auto& [L, path, to_rec709, power, two_sided] = light;
+    const auto& [L, path, to_rec709, power, two_sided, group] = light;
     add_all(L, FileContent{path}, to_rec709, power, two_sided);
+    add_group(group);
   }
   void add(const Object& object) {
     const auto& [name, shapes] = object;
@@ -164,6 +171,10 @@ class SceneHasher {
     const auto [entry, is_new] = files_.try_emplace(file.path, 0);
     if (is_new) entry->second = hash_file(file.path);
     add(entry->second);
+  }
+  /// Images whose channels are not the same do not go together.
+  void add_group(const std::string& group) {
+    if (!group.empty()) add(group);
   }
   template <typename... T>
   void add_all(const T&... values) {

@@ -2,6 +2,7 @@
 #include <sstream>
 
 #include "session/film_buffer.h"
+#include "session/image_header.h"
 #include "session/slice_header.h"
 #include "tyndall/error.h"
 #include "tyndall/slice.h"
@@ -27,6 +28,11 @@ std::vector<std::string> split(const std::string& list) {
   return names;
 }
 
+std::vector<std::string> groups_of(const Image& header) {
+  const auto* names = header.attribute<std::string>(kLightGroups);
+  return names ? split(*names) : std::vector<std::string>();
+}
+
 /// Those that `asked` names, and what merging tells besides.
 std::vector<Aov> aovs_of(std::vector<std::string> asked, const std::string& path) {
   asked.insert(asked.end(), {"Variance", "SampleCount"});
@@ -42,7 +48,8 @@ std::vector<Aov> aovs_of(std::vector<std::string> asked, const std::string& path
 class SliceSum::Impl {
  public:
   Impl(const Image& header, const std::string& path)
-      : asked_(split(text_attribute(header, path, kAovs))), film_(film_of(header, path), header.data, aovs_of(asked_, path)) {}
+      : asked_(split(text_attribute(header, path, kAovs))),
+        film_(film_of(header, path), header.data, {aovs_of(asked_, path), groups_of(header)}) {}
 
   void add(const Image& slice, const std::string& path) {
     const auto info = slice_info(slice, path);

@@ -60,6 +60,35 @@ Emitters find_emitters(const Scene& scene, const Geometry& geometry, BuildSummar
   return emitters;
 }
 
+std::size_t primitives_of(const Shape& shape) {
+  if (const auto* mesh = std::get_if<TriangleMesh>(&shape.kind)) return mesh->indices.size() / 3;
+  if (const auto* mesh = std::get_if<BilinearMesh>(&shape.kind)) return mesh->indices.size() / 4;
+  return 1;
+}
+
+/// Lights by id: of the scene, of shapes, of media, of shapes that instances share.
+LightGroups light_groups_of(const BuiltWorld& world, const std::vector<EmitterShape>& emitters) {
+  LightGroupsBuilder builder(world.scene);
+  if (!builder.needed()) return {};
+  LightId id = 0;
+  for (const Light& light : world.scene.lights) builder.add(id++, light.group);
+  const LightId first_volume = world.lights.first_volume();
+  const auto add_shapes = [&](bool shared) {
+    for (std::size_t i = 0; i < emitters.size(); ++i) {
+      const LightId first = world.lights.first_light(i);
+      const bool is_shared = first >= first_volume && primitives_of(*emitters[i].shape) > 0;
+      if (is_shared == shared) builder.add(first, emitters[i].shape->emission->group);
+    }
+  };
+  add_shapes(false);
+  for (id = first_volume; world.volume_lights.holds(id); ++id) {
+    const auto medium = static_cast<std::size_t>(&world.volume_lights.medium(id) - world.media.data());
+    builder.add(id, world.scene.media[medium].group);
+  }
+  add_shapes(true);
+  return builder.finish(world.media, world.scene.media);
+}
+
 /// Boxes of everything a light can illuminate: shapes, and media beyond them.
 Bounds3 scene_bounds(const Geometry& geometry, const std::vector<ParticipatingMedium>& media) {
   Bounds3 bounds = geometry.bounds();
@@ -98,6 +127,7 @@ BuiltWorld::BuiltWorld(Scene unit_scene, const BuildSettings& settings, std::siz
   bright_media =
       BrightMedia(media, {geometry.groups(), scene.camera.medium, lights, volume_lights, scene_bounds(geometry, media)});
   for (std::string& note : volume_lights.notes(scene.media)) summary.notes.push_back(std::move(note));
+  light_groups = light_groups_of(*this, emitters.shapes);
   first_light.assign(geometry.placed().size(), kNone);
   for (std::size_t i = 0; i < emitters.placed.size(); ++i) first_light[emitters.placed[i]] = lights.first_light(i);
   summary.lights = lights.size();

@@ -10,6 +10,7 @@
 #include "transport/bright_media.h"
 #include "transport/camera_ray.h"
 #include "transport/light_distances.h"
+#include "transport/light_groups.h"
 #include "transport/media/media_state.h"
 #include "transport/media/span_walk.h"
 #include "transport/pixel_filter.h"
@@ -36,6 +37,7 @@ struct BuiltWorld {
   Lights lights;
   LightDistances light_distances;    ///< empty where all media are unbounded, or all lights are far
   BrightMedia bright_media;          ///< empty where all media are homogeneous
+  LightGroups light_groups;          ///< empty where the scene names none
   std::vector<LightId> first_light;  ///< by placed shape; kNone where it does not emit
   CameraRays camera;
   FilterSampler filter;

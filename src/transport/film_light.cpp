@@ -5,6 +5,7 @@
 
 #include "transport/direct_light.h"
 #include "transport/gather_lights.h"
+#include "transport/grouped_light.h"
 #include "transport/media/scattering.h"
 #include "transport/point_aim.h"
 #include "transport/way.h"
@@ -96,8 +97,10 @@ Rgb film_light(const LightContext& context, const PixelPoints& points, Vec2 cent
   const PassingPlace place = pass_point(dot(to_point, ray.d), length(cross(to_point, ray.d)), drawn.g, along);
   if (!(place.t > 0 && place.t < kInfinity && place.spread < kInfinity)) return {};
   const float share = mis_weight(drawn.pdf, filter.pdf);
-  return in_scattered(context, {world.camera_media, ray, place.t}, drawn.light, sampler) *
-         (filter.weight * filter.pdf / drawn.pdf * place.spread * share);
+  const Rgb light = in_scattered(context, {world.camera_media, ray, place.t}, drawn.light, sampler) *
+                    (filter.weight * filter.pdf / drawn.pdf * place.spread * share);
+  if (context.groups) context.groups->estimate(drawn.light, light);
+  return light;
 }
 
 float FilmRay::path_mis_weight(const LightContext&, LightId light) const { return mis_weight(pdf_, points_.pdf(light, x_)); }

@@ -1,6 +1,7 @@
 #include "transport/joint_light.h"
 
 #include "transport/direct_light.h"
+#include "transport/grouped_light.h"
 #include "transport/point_aim.h"
 #include "transport/way.h"
 #include "volume/coarse.h"
@@ -57,7 +58,9 @@ Rgb joint_light(const LightContext& context, const Vertex& vertex, const JointSe
   Sampler sampler = context.sampler.fork();
   Rgb sum;
   for (const LightCandidate& candidate : context.selector.draw(search.cut, search.query, sampler.next_wide())) {
-    sum += by_way_of(context, vertex, search, candidate, sampler);
+    const Rgb light = by_way_of(context, vertex, search, candidate, sampler);
+    if (context.groups) context.groups->estimate(candidate.light, light);
+    sum += light;
   }
   return sum;
 }

@@ -9,6 +9,7 @@ namespace tyndall {
 
 class JointRay;
 class EmitterRay;
+class GroupedLight;
 
 /// What light estimation needs of the render at large.
 struct LightContext {
@@ -22,6 +23,8 @@ struct LightContext {
   const JointRay* joint = nullptr;
   /// The camera's ray, where emissive surfaces were also sampled otherwise (visible_emitters.h).
   const EmitterRay* emitters = nullptr;
+  /// Where the scene has light groups (grouped_light.h).
+  GroupedLight* groups = nullptr;
 };
 
 /// The ray after it gathers light only where lights are directly visible to it.

@@ -66,15 +66,26 @@ PathOffer* Path::run_until_offer() {
 
 void Path::complete_offer() {
   const PathRecord before = std::exchange(record_, {});
+  GroupedLight* const groups = context_.groups;
+  const GroupedLight::Sums found_before = groups ? groups->begin_find() : GroupedLight::Sums();
   before_ = max_component(beta_);
   beta_ = Rgb(1.0f);
   sharing_ = Sharing::completing;
   follow(offer_->at);
   sharing_ = Sharing::none;
-  offer_->radiance = record_.radiance();
-  if (!offer_->at->on_surface()) offer_->radiance = divided(offer_->radiance, offer_->scattered);
+  const Rgb scattered = offer_->at->on_surface() ? Rgb(1.0f) : offer_->scattered;
+  offer_->radiance = divided(record_.radiance(), scattered);
   record_ = before;
-  take(offer_->arrived * offer_->own);
+  add(offer_->arrived * offer_->own, 2);
+  if (!groups) return;
+  groups->end_find(found_before);
+  for (Rgb& light : groups->find) light = divided(light, scattered);
+  GroupedLight::add(offer_->arrived, groups->own, groups->found);
+}
+
+void Path::take(Rgb light, Rgb factor, const Path& finder) {
+  add(light, 2);
+  if (context_.groups) GroupedLight::add(factor, finder.context_.groups->find, context_.groups->found);
 }
 
 bool Path::completes_collision() const { return sharing_ == Sharing::completing && !offer_->at->on_surface(); }
@@ -140,13 +151,13 @@ bool Path::scatter(const Vertex& vertex) {
   std::optional<Directions> own;
   const Directions& directions =
       may_offer(vertex) ? offer_.emplace(context_, vertex, beta_).directions : own.emplace(context_, vertex);
-  add(seen * light_at(directions, seen), depth_);
+  add_estimate(seen, light_at(directions, seen), depth_);
   if (is_black(beta_) || (is_last_bounce(context_) && !context_.world.rays_find_lights())) return false;
 
   // What is aimed at lights weighs against the directions of this path alone.
   const bool offered = depth_ == 2 && completes_collision();
   const auto joint = offered ? std::nullopt : joint_search(context_, vertex);
-  if (joint) add(beta_ * joint_light(context_, vertex, *joint), depth_ + 1);
+  if (joint) add_estimate(beta_, joint_light(context_, vertex, *joint), depth_ + 1);
 
   begin(Step::scatter);
   const float uc = context_.sampler.next_1d();
@@ -258,6 +269,17 @@ void Path::add(Rgb contribution, int events) {
   } else {
     (events == 1 ? record_.surface_direct : record_.surface_indirect) += contribution;
   }
+}
+
+/// The same by light groups: where that light goes.
+GroupedLight::Sums& Path::sums_by_group(int events) {
+  return events == 2 && completes_collision() ? context_.groups->own : context_.groups->found;
+}
+
+/// Of several lights, times `factor`.
+void Path::add_estimate(Rgb factor, Rgb estimate, int events) {
+  add(factor * estimate, events);
+  if (context_.groups) context_.groups->settle(factor, sums_by_group(events));
 }
 
 void Path::record_camera_ray(const Trace& trace) {

@@ -1,6 +1,7 @@
 /// One path from the camera: the transport that makes the picture.
 #pragma once
 
+#include "transport/grouped_light.h"
 #include "transport/joint_light.h"
 #include "transport/path_offer.h"
 #include "transport/path_record.h"
@@ -33,8 +34,8 @@ class Path {
   /// The rest of a path whose offer has a find: the light that is scattered there. What others may count too counts only as it
   /// is handed out, by take().
   void complete_offer();
-  /// Light of two bounces or more.
-  void take(Rgb light) { add(light, 2); }
+  /// What of a find, its own or another's, the path counts: `light`, which is `factor` times the find's radiance.
+  void take(Rgb light, Rgb factor, const Path& finder);
   /// What the ended path has found.
   PathRecord result();
 
@@ -80,6 +81,9 @@ class Path {
   void add_environment();
   void add_surface_emission(const SurfaceHit& hit);
   void add(Rgb contribution, int events);
+  void add_estimate(Rgb factor, Rgb estimate, int events);
+  void add_light(LightId light, Rgb contribution, int events);
+  GroupedLight::Sums& sums_by_group(int events);
   void record_camera_ray(const Trace& trace);
   void record_collision(float t);
   void record_transmittance(const Span& span);

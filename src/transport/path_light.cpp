@@ -1,6 +1,7 @@
 /// The light that a path gathers: at its bounces, and where its rays end.
 #include <algorithm>
 
+#include "transport/emission_by_group.h"
 #include "transport/path.h"
 #include "transport/visible_emitters.h"
 
@@ -11,6 +12,12 @@ namespace {
 constexpr float kSeenDensity = 2;
 
 }  // namespace
+
+/// Of one light.
+void Path::add_light(LightId light, Rgb contribution, int events) {
+  add(contribution, events);
+  if (context_.groups) sums_by_group(events)[context_.groups->groups().of(light)] += contribution;
+}
 
 /// Light from emitters that is scattered at the vertex, by a path of throughput `beta`, without what the span's pairs estimate.
 Rgb Path::light_at(const Directions& directions, Rgb beta) {
@@ -74,8 +81,11 @@ void Path::add_volume_emission(const Span& span) {
   for (auto part = span.parts.begin(); part != last && !is_black(T); ++part) {
     TrackingStats& stats = context_.counters.tracking;
     if (emits(*part)) {
+      const Rng before = rng;
       const auto passed = emission_and_transmittance(part->view(), ray_, part->t0, part->t1, look, rng, stats);
       add(T * passed.emitted, depth_);
+      if (context_.groups)
+        add_by_medium({*part, ray_, look, before}, passed.emitted, T, context_.groups->groups(), sums_by_group(depth_));
       T *= passed.transmittance;
     } else {
       T *= transmittance(span_method(context_), part->view(), ray_, part->t0, part->t1, rng, stats);
@@ -90,7 +100,7 @@ void Path::add_environment() {
     const Rgb L = lights.environment(id, ray);
     if (is_black(L)) continue;
     const float pdf = light_sampled_ ? lights.environment_pdf(id, ray, true) : 0.0f;
-    add(seen_.value_or(beta_) * L * scattering_mis_weight(id, pdf), depth_);
+    add_light(id, seen_.value_or(beta_) * L * scattering_mis_weight(id, pdf), depth_);
   }
 }
 
@@ -105,7 +115,7 @@ void Path::add_surface_emission(const SurfaceHit& hit) {
   const bool seen_otherwise = depth_ == 0 && context_.emitters;
   const float share =
       seen_otherwise ? context_.emitters->path_mis_weight(context_.world, *id, emitter) : scattering_mis_weight(*id, pdf);
-  add(seen_.value_or(beta_) * L * share, depth_);
+  add_light(*id, seen_.value_or(beta_) * L * share, depth_);
 }
 
 }  // namespace tyndall

@@ -107,7 +107,7 @@ void Path::gather(const Span& span) {
   span_search_ = span_search(context_, span);
   if (!span_search_ || !pairs_along_spans(context_.settings)) return;
   if (depth_ == 0) first_bounce_in_medium_ = true;  // of this light's path
-  add(beta_ * span_light(context_, span, *span_search_, beta_), depth_ + 1);
+  add_estimate(beta_, span_light(context_, span, *span_search_, beta_), depth_ + 1);
 }
 
 std::optional<Vertex> Path::fly(const Span& span, const Trace& trace) {

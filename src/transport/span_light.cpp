@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "math/small_vector.h"
+#include "transport/grouped_light.h"
 #include "transport/joint_ray.h"
 #include "transport/light_counts.h"
 #include "transport/media/scattering.h"
@@ -22,6 +23,7 @@ constexpr int kShadowReads = 4;
 struct Pair {
   float t;
   const SpanPart* part;
+  LightId id;
   LightSample light;
   Rgb contribution;  ///< were everything clear: scattering x radiance x MIS weight / density, of all pairs together
   float weight;      ///< in resampling: the contribution's size times the profile's transmittance
@@ -76,7 +78,7 @@ class PairFinder {
     const Rgb contribution = f * light->L * (share * mis_weight(density, tracked, by_phase) / density);
     const float weight = mean(beta_ * contribution) * attenuation(part, distance.t, p, *light);
     if (weight == 0) return std::nullopt;
-    return Pair{distance.t, &part, *light, contribution, weight};
+    return Pair{distance.t, &part, id, *light, contribution, weight};
   }
 
   float attenuation(const SpanPart& part, float t, Vec3 p, const LightSample& light) const {
@@ -142,7 +144,9 @@ Rgb evaluate(const LightContext& context, const Span& span, const Pairs& pairs, 
     const Rgb T = walk.to(pair.t);
     if (is_black(T)) continue;
     const Vec3 p = span.ray.at(pair.t);
-    sum += pair.contribution * T * s.scale * arriving(context, pair.part->state, p, pair.light, sampler);
+    const Rgb light = pair.contribution * T * s.scale * arriving(context, pair.part->state, p, pair.light, sampler);
+    if (context.groups) context.groups->estimate(pair.id, light);
+    sum += light;
   }
   return sum;
 }

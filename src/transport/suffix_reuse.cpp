@@ -177,20 +177,28 @@ void share_suffixes(const Between& between, std::span<Path* const> paths) {
   for (std::size_t j = 0; j < paths.size(); ++j) {
     const PathOffer& find = paths[j]->offer();
     if (!find.at || is_black(find.radiance)) continue;
-    const Rgb own = find.arrived * find.scattered * find.radiance;
+    const Rgb reached = find.arrived * find.scattered, own = reached * find.radiance;
     if (!is_finite(find.radiance)) {
-      paths[j]->take(own);  // what is not a number stays with its path, and is counted once
+      paths[j]->take(own, reached, *paths[j]);  // what is not a number stays with its path, and is counted once
       continue;
     }
     const Shares shares(between, paths, j);
     if (!shares.shared()) {
-      paths[j]->take(own);
+      paths[j]->take(own, reached, *paths[j]);
       continue;
     }
     const Rgb others = shares.flight() * find.radiance * (1 / shares.sum());
+    const Rgb by_flight = shares.flight() * (1 / shares.sum());
     for (std::size_t k = 0; k < paths.size(); ++k) {
       const Connection& to = shares[k];
-      if (to.pdf > 0) paths[k]->take(k == j ? own * (to.pdf / shares.sum()) : paths[k]->offer().beta * to.f * others);
+      if (!(to.pdf > 0)) continue;
+      const float part = to.pdf / shares.sum();
+      const Rgb connected = paths[k]->offer().beta * to.f;
+      if (k == j) {
+        paths[k]->take(own * part, reached * part, *paths[j]);
+      } else {
+        paths[k]->take(connected * others, connected * by_flight, *paths[j]);
+      }
     }
   }
 }

@@ -5,6 +5,7 @@
 
 #include "math/small_vector.h"
 #include "transport/direct_light.h"
+#include "transport/grouped_light.h"
 #include "transport/resampling.h"
 
 namespace tyndall {
@@ -23,6 +24,7 @@ class VertexLight {
  private:
   /// A candidate evaluated without visibility.
   struct Candidate {
+    LightId id;
     LightSample light;
     Rgb contribution;  ///< were it visible: scattering x radiance x MIS weight / density, of all candidates together
     float weight;      ///< in resampling: the contribution's size
@@ -39,20 +41,23 @@ class VertexLight {
     const Rgb contribution = f * light->L * (share_(*light, candidate.light, density) / density);
     const float weight = mean(beta_ * contribution);
     if (weight == 0) return std::nullopt;
-    return Candidate{*light, contribution, weight};
+    return Candidate{candidate.light, *light, contribution, weight};
   }
 
-  /// The candidate's contribution times the transmittance in between.
-  Rgb trace(const Candidate& c, Sampler& sampler) const {
+  /// The candidate's contribution times the transmittance in between and `scale`.
+  Rgb trace(const Candidate& c, float scale, Sampler& sampler) const {
     const Geometry& geometry = context_.world.geometry;
     const MediaState media = vertex_.media_toward(geometry, c.light.wi);
-    return c.contribution * arriving(context_, media, vertex_.origin(geometry, c.light.wi), c.light, sampler);
+    const Rgb light =
+        c.contribution * arriving(context_, media, vertex_.origin(geometry, c.light.wi), c.light, sampler) * scale;
+    if (context_.groups) context_.groups->estimate(c.id, light);
+    return light;
   }
 
   Rgb all(Sampler& sampler) const {
     Rgb sum;
     for (LightId id = 0; id < context_.world.lights.size(); ++id) {
-      if (const auto c = look_at({id, 1}, sampler.next_2d())) sum += trace(*c, sampler);
+      if (const auto c = look_at({id, 1}, sampler.next_2d())) sum += trace(*c, 1, sampler);
     }
     return sum;
   }
@@ -65,7 +70,7 @@ class VertexLight {
     }
     Rgb sum;
     for (const Survivor& s : resample(candidates, search_.shadow_rays, u)) {
-      sum += trace(candidates[s.index], sampler) * s.scale;
+      sum += trace(candidates[s.index], s.scale, sampler);
     }
     return sum;
   }

@@ -7,6 +7,7 @@
 #include "math/similarity.h"
 #include "transport/direct_light.h"
 #include "transport/gather_lights.h"
+#include "transport/grouped_light.h"
 #include "transport/seen_light.h"
 
 namespace tyndall {
@@ -79,7 +80,9 @@ class EmitterEstimate {
     const float pdf = aimed_pdf(world, view_.aims, light, seen->hit);
     if (!(filter.pdf > 0) || !(pdf > 0)) return {};
     const float share = mis_weight(pdf, static_cast<float>(positions_) * filter.pdf);
-    return seen->L * attenuated(context_, ray, *seen, sampler) * (filter.weight * filter.pdf / pdf * share);
+    const Rgb light_found = seen->L * attenuated(context_, ray, *seen, sampler) * (filter.weight * filter.pdf / pdf * share);
+    if (context_.groups) context_.groups->estimate(light, light_found);
+    return light_found;
   }
 
   /// By film positions that the filter draws.
@@ -110,8 +113,10 @@ class EmitterEstimate {
     const auto seen = look_along(ray);
     if (!seen) return {};
     const float aimed = aimed_pdf(world, view_.aims, seen->light, seen->hit);
-    return seen->L * attenuated(context_, ray, *seen, sampler) *
-           (offset.weight * mis_weight(static_cast<float>(positions_) * offset.pdf, aimed));
+    const Rgb light = seen->L * attenuated(context_, ray, *seen, sampler) *
+                      (offset.weight * mis_weight(static_cast<float>(positions_) * offset.pdf, aimed));
+    if (context_.groups) context_.groups->estimate(seen->light, light * (1 / static_cast<float>(positions_)));
+    return light;
   }
 
   std::optional<SeenLight> look_along(const Ray& ray) const {

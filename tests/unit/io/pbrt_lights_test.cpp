@@ -178,3 +178,26 @@ TEST_CASE("spectra come from files too") {
           .scene;
   check_near(s.media.at(0).optics.sigma_s, Rgb(2.0f));
 }
+
+TEST_CASE("light groups: at the light, and by the Attribute directive that pbrt takes too") {
+  const Scene scene = read_world(
+      "LightSource \"point\" \"string lightgroup\" \"key\"\n"
+      "AttributeBegin Attribute \"light\" \"string lightgroup\" \"set\" Attribute \"medium\" \"string lightgroup\" \"fire\"\n"
+      "LightSource \"infinite\" AreaLightSource \"diffuse\" Shape \"sphere\"\n"
+      "MakeNamedMedium \"m\" \"string type\" \"homogeneous\" AttributeEnd\n"
+      "LightSource \"distant\" AreaLightSource \"diffuse\" \"string lightgroup\" \"lamp-1_b\" Shape \"sphere\"\n"
+      "MakeNamedMedium \"n\" \"string type\" \"homogeneous\" \"string lightgroup\" \"n\"\n");
+  CHECK(scene.lights.at(0).group == "key");
+  CHECK(scene.lights.at(1).group == "set");
+  CHECK(scene.lights.at(2).group.empty());
+  CHECK(scene.shapes.at(0).emission->group == "set");
+  CHECK(scene.shapes.at(1).emission->group == "lamp-1_b");
+  CHECK(scene.media.at(0).group == "fire");
+  CHECK(scene.media.at(1).group == "n");
+  const std::vector<std::string> all_bad{"", "a.b", "a b", "k=1", "a,b", "\xc3\xa4", std::string(65, 'a')};
+  for (const std::string& bad : all_bad) {
+    CAPTURE(bad);
+    CHECK_CONTAINS(world_error("LightSource \"point\" \"string lightgroup\" \"" + bad + "\""), "use 1 to 64 letters");
+  }
+  CHECK_CONTAINS(world_error("LightSource \"point\" \"float lightgroup\" 1"), "lightgroup");
+}

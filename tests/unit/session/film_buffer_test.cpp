@@ -22,7 +22,7 @@ TEST_CASE("the mean of the samples, split into its parts, over a crop") {
   Film film;
   film.width = 4;
   film.height = 3;
-  FilmBuffer buffer(film, {1, 1, 3, 2}, parse_aovs({"SurfaceDirect", "Emission", "P", "Z", "SampleCount"}));
+  FilmBuffer buffer(film, {1, 1, 3, 2}, {parse_aovs({"SurfaceDirect", "Emission", "P", "Z", "SampleCount"})});
   PathRecord a = grey(2), b = grey(4);
   a.emission = {1, 0, 0};
   a.hit_surface = true;
@@ -52,7 +52,7 @@ TEST_CASE("replicates are the means over the even samples, of what was asked for
   Film film;
   film.width = 2;
   film.height = 1;
-  FilmBuffer buffer(film, {0, 0, 2, 1}, parse_aovs({"Replicate", "SurfaceDirect", "N", "Z", "Variance", "SampleCount"}));
+  FilmBuffer buffer(film, {0, 0, 2, 1}, {parse_aovs({"Replicate", "SurfaceDirect", "N", "Z", "Variance", "SampleCount"})});
   for (int s = 0; s < 5; ++s) {
     PathRecord record = grey(static_cast<float>(s * s));
     record.emission = Rgb(1);
@@ -76,7 +76,7 @@ TEST_CASE("replicates are the means over the even samples, of what was asked for
   CHECK(image.find("Replicate.Z")->values[1] == 0);
   CHECK(image.find("Replicate.Variance.R") == nullptr);
   CHECK(image.find("Replicate.A") == nullptr);
-  CHECK(FilmBuffer(film, {0, 0, 2, 1}, parse_aovs({"Z"})).image(2).find("Replicate.R") == nullptr);
+  CHECK(FilmBuffer(film, {0, 0, 2, 1}, {parse_aovs({"Z"})}).image(2).find("Replicate.R") == nullptr);
 }
 
 TEST_CASE("variance of the pixel mean from the two replicates is right on average") {
@@ -86,7 +86,7 @@ TEST_CASE("variance of the pixel mean from the two replicates is right on averag
   film.width = 80;
   film.height = 50;
   for (const int n : {2, 5, 16}) {
-    FilmBuffer buffer(film, {0, 0, 80, 50}, parse_aovs({"Variance"}));
+    FilmBuffer buffer(film, {0, 0, 80, 50}, {parse_aovs({"Variance"})});
     Rng rng(n);
     for (int y = 0; y < 50; ++y) {
       for (int x = 0; x < 80; ++x) {
@@ -102,4 +102,45 @@ TEST_CASE("variance of the pixel mean from the two replicates is right on averag
 
 TEST_CASE("an unknown AOV is named with the known ones") {
   CHECK_THROWS_WITH_AS(parse_aovs({"Depth"}), doctest::Contains("Albedo, N, P, Z"), Error);
+}
+
+TEST_CASE("light groups are means of halves like all light, and what rounding leaves goes to the brightest") {
+  Film film;
+  film.width = 2;
+  film.height = 1;
+  FilmBuffer buffer(film, {0, 0, 2, 1}, {parse_aovs({"Variance", "Replicate"}), {"key", "default"}});
+  const std::vector<Rgb> even{Rgb(1), Rgb(4)}, odd{Rgb(3), Rgb(0.25f)};
+  const float more = 5 * (1 + 1e-5f);  // than the groups
+  buffer.add(1, 0, 0, grey(more), 0.5f);
+  buffer.add_groups({1, 0, 0}, Rgb(more), even, 0.5f);
+  buffer.add(1, 0, 1, grey(3.25f), 1);
+  buffer.add_groups({1, 0, 1}, Rgb(3.25f), odd, 1);
+  const Image image = buffer.image(2);
+  const auto at = [&](const std::string& channel) { return image.find(channel)->values[1]; };
+  CHECK(at("LightGroup.key.R") == 1.75f);
+  CHECK(at("LightGroup.default.G") == doctest::Approx(1.125 + 0.25 * (double{more} - 5)).epsilon(1e-7));
+  CHECK(at("R") == doctest::Approx(double{at("LightGroup.key.R")} + at("LightGroup.default.R")).epsilon(1e-7));
+  CHECK(at("Replicate.LightGroup.key.B") == 0.5f);
+  CHECK(at("Variance.LightGroup.key.R") == doctest::Approx(2.5 * 2.5 / 4));
+  CHECK(image.find("LightGroup.key.R")->values[0] == 0);
+  CHECK_FALSE(image.find("Variance.LightGroup.key.A"));
+
+  // A defect is no rounding, and shows.
+  FilmBuffer other(film, {0, 0, 2, 1}, {{}, {"key", "default"}});
+  other.add_groups({0, 0, 0}, Rgb(6), even, 1);
+  CHECK(other.image(1).find("LightGroup.default.R")->values[0] == 4);
+}
+
+TEST_CASE("sums of light groups go through slices") {
+  Film film;
+  film.width = film.height = 1;
+  FilmBuffer buffer(film, {0, 0, 1, 1}, {{}, {"key", "sky"}}), again(film, {0, 0, 1, 1}, {{}, {"key", "sky"}});
+  const std::vector<Rgb> light{Rgb(1), Rgb(2)};
+  buffer.add_groups({0, 0, 0}, Rgb(3), light, 1);
+  Image image = buffer.image(1);
+  buffer.store_sums(image);
+  REQUIRE(again.has_sums(image));
+  again.add_sums(image);
+  CHECK(again.image(1).find("LightGroup.sky.B")->values[0] == 2);
+  CHECK_FALSE(FilmBuffer(film, {0, 0, 1, 1}, {{}, {"key"}}).has_sums(image));
 }

@@ -55,6 +55,20 @@ TEST_CASE("what pixels know of emitters is planned where there are emitters") {
   CHECK(film() == bare);
 }
 
+TEST_CASE("sums of light groups are planned where the scene names groups") {
+  Scene scene;
+  scene.film.crop = {0, 0, 1000, 500};
+  scene.lights.resize(3);
+  const auto film = [&] { return part(plan_memory(scene, kTree), "film"); };
+  const std::size_t bare = film();
+  scene.lights[0].group = scene.lights[1].group = "key";
+  const std::size_t one = film();
+  CHECK(one >= bare + 500'000 * 2 * 6 * 12);  // of the group and of the rest
+  CHECK(one <= bare + 500'000 * 2 * 6 * 2 * (12 + 4));
+  scene.lights[2].group = "sky";
+  CHECK(film() - one == (one - bare) / 2);
+}
+
 TEST_CASE("lights that instances share are planned once, for who shares them") {
   TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {}, {}, {}};
   for (std::uint32_t i = 0; i < 3000; ++i) mesh.indices.push_back(i % 3);
