@@ -36,8 +36,9 @@ std::size_t denoise_memory(std::size_t pixels);
 /// .G .B and SampleCount, or attribute tyndall/samples; better are all of denoise_aovs(). Any data window, any values.
 ///
 /// In the result R G B are filtered, noisy.R .G .B as they were, and Mse.R .G .B the squared error that is expected of R G B,
-/// bias included. Other channels stay. Attribute "tyndall/denoised" names what was filtered.
-/// Throws Error (scene), naming `name`, for an image without replicates, of one sample a pixel, or that was denoised before.
+/// bias included. Light groups are filtered too, to the same sum. Other channels stay. Attribute "tyndall/denoised" names what
+/// was filtered. Throws Error (scene), naming `name`, for an image without replicates, of one sample a pixel, or that was
+/// denoised before.
 Denoised denoise(const Image& image, const DenoiseSettings& settings = {}, const std::string& name = "the image");
 
 }  // namespace tyndall

@@ -27,9 +27,11 @@ bool is_kept(const std::string& channel, const std::vector<std::string>& asked) 
     return always.contains(name) || std::any_of(asked.begin(), asked.end(), [&](const auto& aov) { return is_of(name, aov); });
   };
   if (!channel.starts_with(kReplicate))
-    return channel.starts_with("noisy.") || channel.starts_with("Mse.") || asked_for(channel);
+    return channel.starts_with("noisy.") || channel.starts_with("Mse.") || channel.starts_with("LightGroup.") ||
+           asked_for(channel);
   const std::string name = channel.substr(kReplicate.size());
-  return std::find(asked.begin(), asked.end(), "Replicate") != asked.end() && (name == "SampleCount" || asked_for(name));
+  return std::find(asked.begin(), asked.end(), "Replicate") != asked.end() &&
+         (name == "SampleCount" || name.starts_with("LightGroup.") || asked_for(name));
 }
 
 }  // namespace

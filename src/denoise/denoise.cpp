@@ -4,6 +4,7 @@
 #include "denoise/energy.h"
 #include "denoise/inputs.h"
 #include "denoise/selection.h"
+#include "denoise/share_out.h"
 #include "denoise/variance.h"
 #include "tyndall/timer.h"
 
@@ -160,6 +161,10 @@ Denoised denoise(const Image& image, const DenoiseSettings& settings, const std:
     add(total.values, part.values);
     add(total.mse, part.mse);
   }
+  const std::vector<std::string> groups = groups_of(image);
+  for (const std::string& group : groups)
+    store(denoise_component(read_halves(image, group), {group, Explained::by_all}, known, pool).values, result.image, group);
+  share_out(total.values, groups, result.image);
   store(light, result.image, "noisy.");
   store(total.values, result.image, "");
   store(total.mse, result.image, "Mse.");

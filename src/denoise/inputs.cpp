@@ -143,7 +143,8 @@ std::vector<std::string> input_aovs() {
 }
 
 std::vector<Component> components_of(const Image& image, const std::string& name) {
-  if (image.find("noisy.R")) throw Error(Failure::scene, name + ": is denoised already; give the image that was rendered");
+  if (image.find("noisy.R") || image.attributes.contains("tyndall/denoised"))
+    throw Error(Failure::scene, name + ": is denoised already; give the image that was rendered");
   if (!has_halves(image, names("", kRgb))) {
     throw Error(Failure::scene, name + ": holds no replicates, from which noise can be told; render with --denoise, or with " +
                                     "--aov Denoise to denoise later");
@@ -155,6 +156,16 @@ std::vector<Component> components_of(const Image& image, const std::string& name
   const bool split =
       std::all_of(parts.begin(), parts.end(), [&](const Component& c) { return has_halves(image, names(c.prefix, kRgb)); });
   return split ? parts : std::vector<Component>{{"", Explained::by_all}};
+}
+
+std::vector<std::string> groups_of(const Image& image) {
+  std::vector<std::string> groups;
+  for (const Channel& c : image.channels) {
+    if (!c.name.starts_with("LightGroup.") || !c.name.ends_with(".R")) continue;
+    const std::string prefix = c.name.substr(0, c.name.size() - 1);
+    if (has_halves(image, names(prefix, kRgb))) groups.push_back(prefix);
+  }
+  return groups;
 }
 
 ColorPlanes read_light(const Image& image) {

@@ -31,6 +31,9 @@ std::vector<std::string> input_aovs();
 /// (scene), naming `name`, when there are no replicates.
 std::vector<Component> components_of(const Image& image, const std::string& name);
 
+/// Prefixes of the channels of light groups whose replicates are there too.
+std::vector<std::string> groups_of(const Image& image);
+
 ColorPlanes read_light(const Image& image);
 Halves read_halves(const Image& image, const std::string& prefix);
 

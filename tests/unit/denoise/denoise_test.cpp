@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "fake_render.h"
 #include "tyndall/error.h"
@@ -235,6 +236,33 @@ TEST_CASE("images without replicates are refused with what to do") {
   Image twice = render.image();
   render.add_rgb(twice, "", wave, always(1));
   CHECK(refusal(denoise(twice).image).find("denoised already") != std::string::npos);
+}
+
+TEST_CASE("light groups: each comes close to its own truth, and together they are the filtered picture") {
+  const FakeRender render{.width = 64, .height = 48};
+  Image image = render.image();
+  const OfPixel left = [](int x, int) { return x < 32 ? 1.5f : 0.25f; },
+                rest = [&](int x, int y) { return wave(x, y) - left(x, y); };
+  render.add_rgb(image, "", wave, always(1));
+  render.add_rgb(image, "LightGroup.left.", left, always(0.6f));
+  render.add_rgb(image, "LightGroup.default.", rest, always(0.6f));
+  render.add_rgb(image, "LightGroup.dark.", always(0), always(0));
+  const Image clean = denoise(image).image;
+  double before = 0, after = 0;
+  for (std::size_t i = 0; i < clean.find("R")->values.size(); ++i) {
+    const double truth = i % 64 < 32 ? 1.5 : 0.25;
+    before += std::pow(image.find("LightGroup.left.R")->values[i] - truth, 2);
+    after += std::pow(clean.find("LightGroup.left.R")->values[i] - truth, 2);
+    const double sum = double{clean.find("LightGroup.left.R")->values[i]} + clean.find("LightGroup.default.R")->values[i] +
+                       clean.find("LightGroup.dark.R")->values[i];
+    CHECK(sum == doctest::Approx(clean.find("R")->values[i]).epsilon(3e-7));
+    CHECK(clean.find("LightGroup.dark.R")->values[i] == 0);
+  }
+  CHECK(before / after > 2);
+  CHECK(clean.find("Replicate.LightGroup.left.R")->values == image.find("Replicate.LightGroup.left.R")->values);
+  // Without replicates they stay.
+  std::erase_if(image.channels, [](const Channel& c) { return c.name.starts_with("Replicate.LightGroup."); });
+  CHECK(denoise(image).image.find("LightGroup.left.R")->values == image.find("LightGroup.left.R")->values);
 }
 
 }  // namespace tyndall
