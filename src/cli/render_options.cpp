@@ -162,6 +162,14 @@ void declare_task(CLI::App& command, RenderOptions& o) {
   command.add_option("--aov", o.aovs,
                      "extra channels, comma-separated: " + join(aov_names(), ", ") +
                          "; Denoise: all that tyndall denoise takes [none]; --aov Albedo,N");
+  command
+      .add_option_function<std::string>("--light-group",
+                                        [](const std::string&) {
+                                          throw Error(Failure::usage,
+                                                      "--light-group cannot be: lights have no names in the scene format; "
+                                                      "give them \"string lightgroup\" in the scene");
+                                        })
+      ->group("");  // not listed: it is told to those who look for it
   command.add_flag("--reproducible", o.reproducible, "leave dates and times out of the image header");
   declare_progress(command, o.progress);
 }

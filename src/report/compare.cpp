@@ -158,10 +158,8 @@ std::vector<std::size_t> entrants(const std::vector<Runs>& runs, std::size_t eac
 /// One picture a variant is shown, without what only the filter takes.
 void add_run(RaceRun run, Runs& runs) {
   if (!runs.empty()) run.image = {};
-  static const std::set<std::string> kept{"R", "G", "B", "A"};
-  std::erase_if(run.image.channels, [](const Channel& c) {
-    return !kept.contains(c.name) && !c.name.starts_with("Variance.") && !c.name.starts_with("Mse.");
-  });
+  static const std::set<std::string> kept{"R", "G", "B", "A", "Variance.R", "Variance.G", "Variance.B"};
+  std::erase_if(run.image.channels, [](const Channel& c) { return !kept.contains(c.name) && !c.name.starts_with("Mse."); });
   runs.push_back(std::move(run));
 }
 

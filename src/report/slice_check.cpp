@@ -26,6 +26,15 @@ void require_same_scene(const Slice& first, const Slice& slice) {
   }
 }
 
+void require_same_mix(const Slice& first, const Slice& slice) {
+  const auto mix_of = [](const Slice& s) {
+    const auto* text = s.header.attribute<std::string>("tyndall/relight");
+    return text ? *text : std::string();
+  };
+  if (mix_of(slice) != mix_of(first))
+    fail(slice, "its light groups are mixed otherwise than in " + first.path + "; merge first, and relight what is merged");
+}
+
 std::set<std::string> shared_channels(const Slice& slice) {
   std::set<std::string> names;
   for (const Channel& c : slice.header.channels) {
@@ -133,6 +142,7 @@ void require_mergeable(const std::vector<Slice>& slices) {
   if (slices.empty()) throw Error(Failure::usage, "there is nothing to merge; name the images");
   for (const Slice& slice : slices) {
     require_same_scene(slices.front(), slice);
+    require_same_mix(slices.front(), slice);
     require_same_channels(slices.front(), slice);
     require_counts(slice);
     require_variance(slice);

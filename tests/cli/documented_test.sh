@@ -24,7 +24,7 @@ row() {
 # compare_with MANUAL: what it lacks.
 compare_with() {
   local command line option wanted found
-  for command in render compare diff regress merge denoise status farm example; do
+  for command in render compare diff regress merge denoise relight status farm example; do
     while read -r line; do
       option=$(sed -E 's/^ *([^ :=]*,)?(--[a-z-]+).*/\2/' <<<"$line")
       found=$(row "$command" "$option" "$1")
