@@ -52,6 +52,17 @@ render s.pbrt --crop 17,40,0,24 -o right.exr
 expect 0 "$T" merge left.exr right.exr -o crops.exr
 "$T" diff crops.exr all.exr --exact --channels LightGroup.sky.R,LightGroup.fire.G,LightGroup.default.B >diff.txt 2>&1 ||
   fail "two crops are not the whole: $(cat diff.txt)"
+for seed in 1 2; do render s.pbrt --seed $seed --aov Variance -o seed$seed.exr; done
+expect 0 "$T" merge seed1.exr seed2.exr -o seeds.exr
+[ "$(channels_of seeds.exr | wc -w)" = 18 ] || fail "merged: $(channels_of seeds.exr)"
+render s.pbrt --threads 1 -o one.exr
+cmp all.exr one.exr || fail "groups depend on the number of threads"
+expect 0 "$T" relight seeds.exr sky=0 fire=0 default=3 -o third.exr
+expect 0 "$T" relight seeds.exr sky=0 fire=0 default=1 -o first.exr
+# Of one group alone the variance is known: nine times as much.
+variance() { "$T" info "$1" | grep -A2 -E '^ +Variance\.R' | sed -nE 's/.*mean ([^ ,]+).*/\1/p'; }
+awk -v a="$(variance third.exr)" -v b="$(variance first.exr)" 'BEGIN { exit !(a > 0 && a / b > 8.99 && a / b < 9.01) }' ||
+  fail "the variance of a group is $(variance third.exr), of a third of it $(variance first.exr)"
 
 # Mixed anew: the same as a render whose light has another strength, to the noise that both share.
 expect 0 "$T" relight whole.exr sky=0 default=0 -o fire.exr
