@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,19 +12,39 @@
 
 namespace tyndall {
 
+class KeptFiles;  // frames.h
+
 /// Something worth saying that is no error: an option that is known and not honoured, say.
 struct Warning {
   Location where;
   std::string message;
 };
 
+/// A file's name in a scene that holds a frame's number (names_frame in frames.h).
+struct FrameName {
+  Location where;
+  std::string folder, name;  ///< the name alone holds the number
+  bool holds_scene = false;  ///< an included file: other frames may name other files in it
+};
+
 struct SceneFile {
   Scene scene;
   std::vector<Warning> warnings;
+  std::vector<FrameName> frame_names{};  ///< none: every frame has the same scene
+};
+
+/// How the scene of one frame is read.
+struct SceneReading {
+  std::optional<int> frame{};  ///< takes the place of %04d and $F4 in the names of files; without one they stay as they are
+  KeptFiles* kept = nullptr;   ///< meshes of files are taken from it
 };
 
 /// Read a pbrt-v4 scene (.pbrt, .pbrt.gz). Throws Error (Failure::scene) at the first problem.
-SceneFile read_scene(const std::string& path);
+SceneFile read_scene(const std::string& path, const SceneReading& how = {});
+
+/// Throws Error (scene), with the name of the file, for the first frame that lacks one. `file`: the scene at `path` as read for
+/// another frame.
+void require_frame(const SceneFile& file, const std::string& path, int frame);
 
 /// Read a scene from text; `name` stands for the file in messages, relative paths start at `folder`.
 SceneFile read_scene_text(const std::string& text, const std::string& name, const std::string& folder = ".");
@@ -33,8 +54,9 @@ struct SceneCheck {
   Scene scene;  ///< what could be read
   std::vector<std::string> errors;
   std::vector<Warning> warnings;
+  std::vector<FrameName> frame_names{};
 };
-SceneCheck check_scene(const std::string& path);
+SceneCheck check_scene(const std::string& path, const SceneReading& how = {});
 
 /// Read .exr (scanline or tiled, flat, single part), .png, .pfm, .hdr, .jpg, .tga, .bmp by content, not by name.
 /// 8-bit values are made linear by `encoding` ("": sRGB for 8-bit colour). Throws Error (scene).

@@ -16,6 +16,8 @@
 
 namespace tyndall {
 
+class KeptFiles;  // frames.h
+
 struct BuildSettings {
   std::vector<LightStrategy> lights{LightStrategy::tree};  ///< those that will be rendered with
   bool volume_lights = false;  ///< media that emit can be sampled as lights: what EmissionStrategy::lights needs
@@ -23,6 +25,8 @@ struct BuildSettings {
   int threads = 0;             ///< 0: all cores
   /// Bytes: a scene that is estimated to need more, film and volumes included, is refused before anything is built.
   std::size_t max_memory = std::numeric_limits<std::size_t>::max();
+  /// What an earlier build made of files is taken from it, and what this one makes is put there.
+  KeptFiles* kept = nullptr;
 };
 
 /// What one light strategy adds to a build.

@@ -3,8 +3,10 @@
 
 #include "cli/command.h"
 #include "cli/folder_check.h"
+#include "cli/frame_list.h"
 #include "cli/notes.h"
 #include "cli/print.h"
+#include "tyndall/frames.h"
 
 namespace tyndall::cli {
 namespace {
@@ -13,20 +15,37 @@ namespace {
 void print_verdict(const Verdict& verdict) {
   print_text(notes_text(verdict.path, verdict.warnings, verdict.build));
   for (const std::string& error : verdict.errors) print("{}\n", error);
-  if (verdict.ok()) print("{}: ok\n", verdict.path);
+  if (verdict.ok()) print("{}: ok\n", verdict.name());
 }
 
-int run_check(const std::vector<std::string>& paths, bool json) {
+/// The scene, or each of its frames; where these are all the same, the first.
+std::vector<Verdict> verdicts_on(const std::string& path, const std::vector<int>& frames) {
+  if (frames.empty()) return {verdict_on(path)};
+  KeptFiles kept;
+  std::vector<Verdict> verdicts;
+  for (const int frame : frames) {
+    kept.begin_scene();
+    verdicts.push_back(verdict_on(path, {.frame = frame, .kept = &kept}));
+    if (verdicts.front().ok() && !verdicts.front().by_frame) break;
+  }
+  return verdicts;
+}
+
+int run_check(const std::vector<std::string>& paths, const std::string& frame_list, bool json) {
+  const std::vector<int> frames = frame_list.empty() ? std::vector<int>() : frames_in(frame_list);
   std::vector<std::string> in_folders;
   std::vector<Verdict> verdicts;
   for (const std::string& path : paths) {
     std::error_code ignored;
     if (std::filesystem::is_directory(path, ignored)) {
+      if (!frames.empty()) throw Error(Failure::usage, "--frames are a scene's, and " + path + " is a folder; name the scene");
       const std::vector<std::string> scenes = scenes_below(path);
       in_folders.insert(in_folders.end(), scenes.begin(), scenes.end());
     } else {
-      verdicts.push_back(verdict_on(path));
-      if (!json) print_verdict(verdicts.back());
+      for (Verdict& verdict : verdicts_on(path, frames)) {
+        if (!json) print_verdict(verdict);
+        verdicts.push_back(std::move(verdict));
+      }
     }
   }
   const std::vector<Verdict> table = check_all(in_folders, !json);
@@ -46,9 +65,11 @@ void add_check(CLI::App& app, int& exit_code) {
       "Example: tyndall check scenes");
   auto paths = std::make_shared<std::vector<std::string>>();
   auto json = std::make_shared<bool>(false);
+  auto frames = std::make_shared<std::string>();
   command->add_option("scenes", *paths, "scene files, and folders of them")->required();
+  declare_frames(*command, *frames);
   command->add_flag("--json", *json, "as JSON on stdout");
-  command->callback([paths, json, &exit_code] { exit_code = run_check(*paths, *json); });
+  command->callback([paths, frames, json, &exit_code] { exit_code = run_check(*paths, *frames, *json); });
 }
 
 }  // namespace tyndall::cli

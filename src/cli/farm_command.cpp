@@ -9,6 +9,7 @@
 
 #include "cli/command.h"
 #include "cli/farm_trial.h"
+#include "cli/frame_list.h"
 #include "cli/log.h"
 #include "cli/output_paths.h"
 #include "cli/print.h"
@@ -16,6 +17,7 @@
 #include "cli/validators.h"
 #include "farm/farm_job.h"
 #include "session/memory_plan.h"
+#include "tyndall/frames.h"
 #include "tyndall/io.h"
 #include "tyndall/timer.h"
 
@@ -37,7 +39,7 @@ struct FarmOptions {
 /// What is the farm's own; everything else is passed on to render.
 constexpr const char* kOwn[] = {"engine",       "scene",      "--output",  "--slices",        "--folder",   "--program",
                                 "--checkpoint", "--error",    "--memory",  "--engine-option", "--no-trial", "--print",
-                                "--submit",     "--progress", "--threads", "--help"};
+                                "--submit",     "--progress", "--threads", "--frames",        "--help"};
 
 bool is_own(const std::string& name) {
   return std::any_of(std::begin(kOwn), std::end(kOwn), [&](const char* own) { return name == own; });
@@ -67,6 +69,10 @@ int threads_of(const FarmOptions& options) {
   return given > 0 ? given : static_cast<int>(std::max(std::thread::hardware_concurrency(), 1u));
 }
 
+std::vector<int> frames_of(const FarmOptions& options) {
+  return options.render.frames.empty() ? std::vector<int>() : frames_in(options.render.frames);
+}
+
 FarmStep render_step(const FarmOptions& options, const CLI::App& command) {
   std::vector<FarmWord> words = {{"{program}", true}, {"render"}, {"{scene}", true}};
   const std::vector<FarmWord> given = passed_on(command);
@@ -74,6 +80,8 @@ FarmStep render_step(const FarmOptions& options, const CLI::App& command) {
   // Where GNU parallel sends a task, it has the machine for itself.
   if (options.engine != "parallel" || options.render.threads)
     words.insert(words.end(), {{"--threads"}, {std::to_string(threads_of(options))}});
+  const bool sequence = !options.render.frames.empty();
+  if (sequence) words.insert(words.end(), {{"--frames"}, {"{frame}", true}});
   words.insert(words.end(), {{"--slice"},
                              {fmt::format("{{slice}}/{}", options.slices), true},
                              {"--resume"},
@@ -82,29 +90,37 @@ FarmStep render_step(const FarmOptions& options, const CLI::App& command) {
                              {"--progress"},
                              {"line"},
                              {"-o"},
-                             {"{folder}/slices/slice-{slice}.exr", true}});
-  return {"render", words, options.slices, threads_of(options), 0};
+                             {sequence ? "{folder}/slices/%d/slice-{slice}.exr" : "{folder}/slices/slice-{slice}.exr", true}});
+  return {"render", words, options.slices, threads_of(options), 0, frames_of(options)};
 }
 
 FarmStep merge_step(const FarmOptions& options) {
-  std::vector<FarmWord> words = {{"{program}", true}, {"merge"}, {"{folder}/slices", true}, {"-o"}, {"{output}", true}};
+  std::vector<FarmWord> words = {{"{program}", true}, {"merge"}};
+  const bool sequence = !options.render.frames.empty();
+  words.push_back({sequence ? "{folder}/slices/%d" : "{folder}/slices", true});
+  if (sequence) words.insert(words.end(), {{"--frames"}, {"{frame}", true}});
+  words.insert(words.end(), {{"-o"}, {"{output}", true}});
   if (options.error) words.insert(words.end(), {{"--error"}, {fmt::format("{}", *options.error)}});
-  return {"merge", words, 1, 1, 0};
+  return {"merge", words, 1, 1, 0, frames_of(options)};
 }
 
 /// Every slice must have samples: the smallest tells.
 void require_slices(const FarmOptions& options, RenderSettings settings) {
+  if (options.slices == 1 && options.render.frames.empty())
+    throw Error(Failure::usage, "--slices 1 is one picture on one machine, which is no job; give 2 or more, or --frames");
   for (int i = 1; i <= options.slices; ++i) {
     settings.slice = SliceChoice{i, options.slices};
     sample_range(settings);
   }
-  if (options.engine == "slurm" && options.slices > 1000)
+  const std::size_t frames = std::max<std::size_t>(frames_of(options).size(), 1);
+  if (options.engine == "slurm" && static_cast<std::size_t>(options.slices) * frames > 1000)
     log("note: Slurm takes array numbers below its MaxArraySize, which is 1001 unless your administrator has raised it\n");
 }
 
-void write_job(const FarmFiles& job, const std::string& folder) {
+void write_job(const FarmFiles& job, const std::string& folder, const std::vector<int>& job_frames) {
   make_folder(folder);
   make_folder(folder + "/slices");
+  for (const int frame : job_frames) make_folder(fmt::format("{}/slices/{}", folder, frame));
   make_folder(folder + "/logs");
   for (const FarmFile& file : job.files) write_file(file.text, folder + "/" + file.name);
 }
@@ -123,6 +139,7 @@ FarmFiles files_of(const FarmJob& job, const std::string& engine) {
 
 std::string output_of(const FarmOptions& options, const Scene& scene) {
   const std::string output = absolute(output_path(options.render, scene));
+  if (!options.render.frames.empty()) require_frame_place(output, "-o");
   if (fs::path(output).extension() == ".exr") return output;
   throw Error(Failure::usage, "output " + output + ": slices are merged to .exr; give a name that ends so");
 }
@@ -136,15 +153,32 @@ void set_memory(const FarmOptions& options, std::size_t planned, std::size_t tri
 
 FarmJob job_of(const FarmOptions& options, const CLI::App& command, const std::string& output) {
   FarmJob job;
-  const std::string name = fs::path(output).stem().string();
+  // Without the place for a frame's number: folders of tasks have one of their own.
+  static const std::regex kPlace("[._-]?(%[0-9]*d|\\$F[0-9]?)");
+  const std::string name = std::regex_replace(fs::path(output).stem().string(), kPlace, "");
   job.name = std::regex_replace(name, std::regex("[^A-Za-z0-9._-]"), "_");
   job.program = options.program.empty() ? this_program() : options.program;
   job.scene = absolute(options.render.scene);
   job.folder = absolute(options.folder.empty() ? (fs::path(output).parent_path() / (name + "-farm")).string() : options.folder);
+  if (!options.render.frames.empty() && names_frame(job.folder))
+    throw Error(Failure::usage, "folder " + job.folder + " has a place for a frame's number; choose another with --folder");
   job.output = output;
   job.steps = {render_step(options, command), merge_step(options)};
   job.engine_options = options.engine_options;
   return job;
+}
+
+/// The scene, of the first frame; all files of all frames are there.
+SceneFile read_first(const FarmOptions& options) {
+  const std::vector<int> frames = frames_of(options);
+  if (frames.empty()) return read_scene(options.render.scene);
+  SceneFile file = read_scene(options.render.scene, {.frame = frames.front()});
+  for (const int frame : frames) require_frame(file, options.render.scene, frame);
+  return file;
+}
+
+std::string frames_prefix(const FarmStep& step) {
+  return step.frames.empty() ? "" : fmt::format("{} frames of ", step.frames.size());
 }
 
 int run_farm(const FarmOptions& options, const CLI::App& command) {
@@ -152,7 +186,7 @@ int run_farm(const FarmOptions& options, const CLI::App& command) {
   if (options.submit && options.engine == "openjd")
     throw Error(Failure::usage, "openjd has no command that submits: leave --submit out, and give the folder to your farm");
   Timer timer;
-  SceneFile file = read_scene(options.render.scene);
+  SceneFile file = read_first(options);
   apply(options.render, file.scene);
   const RenderSettings settings = file.scene.settings;
   require_slices(options, settings);
@@ -171,13 +205,15 @@ int run_farm(const FarmOptions& options, const CLI::App& command) {
   if (options.print) {
     for (const FarmFile& f : files.files) print("==> {} <==\n{}\n", f.name, f.text);
   } else {
-    write_job(files, job.folder);
-    print("{}: {} slices, {:.1f} GB and {} threads each\n", job.folder, options.slices,
+    write_job(files, job.folder, job.steps.front().frames);
+    print("{}: {}{} slices, {:.1f} GB and {} threads each\n", job.folder, frames_prefix(job.steps.front()), options.slices,
           static_cast<double>(job.steps.front().memory) * 1e-9, threads_of(options));
   }
   if (trial) log_text(as_text(*trial, settings, options.slices));
   if (options.submit) start(files.start);
-  if (!options.print) print("start it:  {}\nlook:      tyndall status {}/slices\n", files.start, job.folder);
+  if (!options.print)
+    print("start it:  {}\nlook:      tyndall status {}/slices{}\n", files.start, job.folder,
+          job.steps.front().frames.empty() ? "" : "/FRAME");
   return 0;
 }
 
@@ -186,9 +222,9 @@ void declare(CLI::App& command, FarmOptions& o) {
       ->required()
       ->check(CLI::IsMember({"slurm", "openjd", "parallel"}));
   declare_task(command, o.render);
-  command.add_option("--slices", o.slices, "how many; each begins at a multiple of 16 samples; --slices 64")
+  command.add_option("--slices", o.slices, "how many, of each frame; each begins at a multiple of 16 samples; --slices 64")
       ->required()
-      ->check(CLI::Range(2, 100000));
+      ->check(CLI::Range(1, 100000));
   command
       .add_option("--error", o.error, "relMSE that is wanted: merge says how many samples more it takes [none]; --error 0.001")
       ->check(positive());

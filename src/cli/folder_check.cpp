@@ -50,12 +50,12 @@ void print_counts(const std::vector<Verdict>& verdicts) {
 
 }  // namespace
 
-Verdict verdict_on(const std::string& path) {
-  SceneCheck check = check_scene(path);
-  Verdict verdict{path, std::move(check.errors), std::move(check.warnings), {}};
+Verdict verdict_on(const std::string& path, const SceneReading& how) {
+  SceneCheck check = check_scene(path, how);
+  Verdict verdict{path, how.frame, std::move(check.errors), std::move(check.warnings), {}, !check.frame_names.empty()};
   if (!verdict.ok()) return verdict;
   try {
-    verdict.build = build(std::move(check.scene), {.max_memory = memory_limit({})}).summary();
+    verdict.build = build(std::move(check.scene), {.max_memory = memory_limit({}), .kept = how.kept}).summary();
   } catch (const Error& e) {
     verdict.errors.push_back(e.what());
   }
@@ -97,6 +97,7 @@ void print_json(const std::vector<Verdict>& verdicts) {
   std::size_t ok = 0;
   for (const Verdict& verdict : verdicts) {
     nlohmann::ordered_json scene{{"scene", verdict.path}, {"ok", verdict.ok()}, {"errors", verdict.errors}};
+    if (verdict.frame) scene["frame"] = *verdict.frame;
     scene["warnings"] = nlohmann::json::array();
     for (const Warning& w : verdict.warnings) {
       scene["warnings"].push_back({{"where", w.where.file.empty() ? verdict.path : w.where.str()}, {"message", w.message}});

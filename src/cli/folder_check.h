@@ -1,6 +1,7 @@
 /// Whether scenes read and build, one of them or all below a folder.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,12 +12,15 @@ namespace tyndall::cli {
 
 struct Verdict {
   std::string path;
+  std::optional<int> frame;         ///< of a sequence
   std::vector<std::string> errors;  ///< with their places, best first
   std::vector<Warning> warnings;    ///< of each kind the first
   BuildSummary build;
+  bool by_frame = false;  ///< other frames name other files
   bool ok() const { return errors.empty(); }
+  std::string name() const { return frame ? path + ", frame " + std::to_string(*frame) : path; }
 };
-Verdict verdict_on(const std::string& path);
+Verdict verdict_on(const std::string& path, const SceneReading& how = {});
 
 /// Paths of the .pbrt and .pbrt.gz below `folder` that have a WorldBegin, sorted: others are there to be included. Throws
 /// Error (scene) when there is none.

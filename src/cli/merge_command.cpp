@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "cli/command.h"
+#include "cli/frame_list.h"
 #include "cli/log.h"
 #include "cli/merge_inputs.h"
 #include "cli/merge_report.h"
@@ -15,6 +16,7 @@
 #include "cli/validators.h"
 #include "report/merge.h"
 #include "tyndall/error.h"
+#include "tyndall/frames.h"
 #include "tyndall/timer.h"
 
 namespace tyndall::cli {
@@ -22,7 +24,7 @@ namespace {
 
 struct MergeOptions {
   std::vector<std::string> slices;
-  std::string output;
+  std::string output, frames;
   MergeSettings settings;
   std::optional<double> error, watch;
   bool quiet = false;
@@ -75,7 +77,7 @@ int merge_again_and_again(const MergeOptions& options) {
   }
 }
 
-int run_merge(const MergeOptions& options) {
+int merge_one(const MergeOptions& options) {
   if (std::filesystem::path(options.output).extension() != ".exr") {
     throw Error(Failure::usage, "output " + options.output + " is not understood; give a name that ends in .exr");
   }
@@ -83,6 +85,22 @@ int run_merge(const MergeOptions& options) {
   if (options.watch) return merge_again_and_again(options);
   const bool complete = merge_once(options, merge_inputs(options.slices, options.output).paths).complete();
   return complete ? 0 : static_cast<int>(Failure::incomplete);
+}
+
+/// Each frame by itself; the exit code is that of the first that is not complete.
+int run_merge(const MergeOptions& options) {
+  if (options.frames.empty()) return merge_one(options);
+  if (options.watch) throw Error(Failure::usage, "--watch is for one picture; leave it or --frames out");
+  require_frame_place(options.output, "-o");
+  int exit_code = 0;
+  for (const int frame : frames_in(options.frames)) {
+    MergeOptions one = options;
+    for (std::string& name : one.slices) name = with_frame(name, frame);
+    one.output = with_frame(options.output, frame);
+    const int code = merge_one(one);
+    if (exit_code == 0) exit_code = code;
+  }
+  return exit_code;
 }
 
 }  // namespace
@@ -101,6 +119,7 @@ void add_merge(CLI::App& app, int& exit_code) {
   command->add_option("slices", options->slices, "images that tyndall render or merge wrote, .exr, and folders of them")
       ->required();
   command->add_option("-o,--output", options->output, "image to write, .exr; -o whole.exr")->required();
+  declare_frames(*command, options->frames);
   command->add_flag("--fill-black", options->settings.fill_black,
                     "pixels that no slice holds become black, with SampleCount 0, instead of an error");
   command

@@ -18,6 +18,8 @@ class ProgressDisplay {
 
   /// What the next reports are about; each activity starts a clock of its own. Empty: the only one.
   void begin(const std::string& activity);
+  /// The same, while clock and bar go on.
+  void go_on_with(const std::string& activity) { activity_ = activity + ": "; }
   void show(const Progress& progress);
   void finish();  ///< leaves the cursor on a fresh line
 

@@ -5,6 +5,7 @@
 #include <limits>
 #include <sstream>
 
+#include "cli/frame_list.h"
 #include "cli/validators.h"
 #include "tyndall/denoise.h"
 
@@ -156,7 +157,7 @@ void declare_task(CLI::App& command, RenderOptions& o) {
                   "seconds to render for, at most; without --spp the samples are as many as that gives [none]; --time 60")
       ->check(positive());
   command.add_option("--threads", o.threads, "threads [0: one a core]; --threads 2")->check(CLI::Range(0, 4096));
-  command.add_option("--seed", o.seed, "of the random numbers [0]; --seed 7")->check(whole_number());
+  command.add_option("--seed", o.seed, "of the random numbers [0, with --frames the frame]; --seed 7")->check(whole_number());
   declare(command, o.picture);
   declare(command, o.methods);
   command.add_option("--aov", o.aovs,
@@ -171,6 +172,7 @@ void declare_task(CLI::App& command, RenderOptions& o) {
                                         })
       ->group("");  // not listed: it is told to those who look for it
   command.add_flag("--reproducible", o.reproducible, "leave dates and times out of the image header");
+  declare_frames(command, o.frames);
   declare_progress(command, o.progress);
 }
 

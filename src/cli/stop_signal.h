@@ -11,5 +11,7 @@ void catch_stop_signals(const char* message);
 const std::atomic<bool>& stop_requested();
 /// 128 + the signal: the exit code of a program that it ended; 0 when there was none.
 int stop_exit_code();
+/// What a render says then.
+inline constexpr const char* kStopping = "stopping soon; press again to quit at once and lose the image\n";
 
 }  // namespace tyndall::cli

@@ -1,26 +1,32 @@
 /// A render on many machines, told without the words of any engine that runs it.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <vector>
 
 namespace tyndall {
 
-/// A word of a command. What `is_template` may hold {program}, {scene}, {folder}, {output} and {slice}, which each engine has
-/// names of its own for; everything else is as it was typed.
+/// A word of a command. What `is_template` may hold {program}, {scene}, {folder}, {output}, {slice} and {frame}, which each
+/// engine has names of its own for; everything else is as it was typed.
 struct FarmWord {
   std::string text;
   bool is_template = false;
 };
 
-/// A command that is run `tasks` times, with {slice} from 1 on, on any machines, in any order, and again if need be.
+/// A command that is run `slices` times, with {slice} from 1 on, and as often for each of the frames, on any machines, in any
+/// order, and again if need be.
 struct FarmStep {
   std::string name;  ///< one word
   std::vector<FarmWord> command;
-  int tasks = 1;
+  int slices = 1;
   int threads = 1;
-  std::size_t memory = 0;  ///< bytes
+  std::size_t memory = 0;     ///< bytes
+  std::vector<int> frames{};  ///< none: there is but one picture, and no {frame}
+
+  /// Those of a frame follow each other.
+  int tasks() const { return slices * std::max(static_cast<int>(frames.size()), 1); }
 };
 
 /// Steps, each of which waits for the end of the one before: what a render is to learn before its slices is one more, in front.

@@ -15,7 +15,7 @@ std::string array_line(const FarmJob& job, const FarmStep& step) {
   return fmt::format(
       "parallel --jobs 1 --retries 3 --joblog logs/{0}.txt --line-buffer --tagstring '{0} {{}}'{1} \\\n"
       "  sh {2} {{}} ::: $(seq 1 {3}) || echo \"some tasks of {0} failed; see logs/{0}.txt\" >&2\n",
-      step.name, options, shell_quoted(shell_quoted(job.folder + "/" + step.name + ".sh")), step.tasks);
+      step.name, options, shell_quoted(shell_quoted(job.folder + "/" + step.name + ".sh")), step.tasks());
 }
 
 std::string run_script(const FarmJob& job) {
@@ -28,8 +28,8 @@ std::string run_script(const FarmJob& job) {
       "cd " +
       shell_quoted(job.folder) + " || exit 1\n";
   for (const FarmStep& step : job.steps) {
-    if (step.tasks > 1) text += array_line(job, step);
-    if (step.tasks == 1) text += "sh " + step.name + ".sh\n";
+    if (step.tasks() > 1) text += array_line(job, step);
+    if (step.tasks() == 1) text += "sh " + step.name + ".sh\n";
   }
   return text;
 }

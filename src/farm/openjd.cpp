@@ -8,6 +8,7 @@
 #include "farm/farm_job.h"
 #include "report/shell_quote.h"
 #include "tyndall/error.h"
+#include "tyndall/frames.h"
 
 namespace tyndall {
 namespace {
@@ -25,8 +26,9 @@ const std::string& without_braces(const std::string& text) {
 
 std::string format_string(const FarmWord& word) {
   if (!word.is_template) return without_braces(word.text);
-  static const std::regex kSlice("\\{slice\\}"), kName("\\{([a-z])([a-z]+)\\}");
+  static const std::regex kSlice("\\{slice\\}"), kFrame("\\{frame\\}"), kName("\\{([a-z])([a-z]+)\\}");
   std::string text = std::regex_replace(word.text, kSlice, "{{Task.Param.Slice}}");
+  text = std::regex_replace(text, kFrame, "{{Task.Param.Frame}}");
   std::smatch name;
   while (std::regex_search(text, name, kName)) {
     const auto capital = static_cast<char>(std::toupper(static_cast<unsigned char>(name[1].str()[0])));
@@ -42,10 +44,12 @@ Json step_json(const FarmStep& step, const std::string& before) {
   if (!before.empty()) j["dependencies"] = {{{"dependsOn", before}}};
   j["hostRequirements"]["amounts"] = {amount("amount.worker.vcpu", static_cast<std::size_t>(step.threads)),
                                       amount("amount.worker.memory", (step.memory >> 20) + 1)};
-  if (step.tasks > 1) {
-    j["parameterSpace"]["taskParameterDefinitions"] = {
-        {{"name", "Slice"}, {"type", "INT"}, {"range", fmt::format("1-{}", step.tasks)}}};
-  }
+  // Tasks are all pairs of the two.
+  Json parameters = Json::array();
+  if (!step.frames.empty()) parameters.push_back({{"name", "Frame"}, {"type", "INT"}, {"range", frames_text(step.frames)}});
+  if (step.slices > 1 || !step.frames.empty())
+    parameters.push_back({{"name", "Slice"}, {"type", "INT"}, {"range", fmt::format("1-{}", step.slices)}});
+  if (!parameters.empty()) j["parameterSpace"]["taskParameterDefinitions"] = parameters;
   Json& run = j["script"]["actions"]["onRun"];
   run["command"] = format_string(step.command.front());
   for (std::size_t i = 1; i < step.command.size(); ++i) run["args"].push_back(format_string(step.command[i]));

@@ -7,7 +7,7 @@
 
 namespace tyndall {
 
-/// Sets what the templates name, then becomes the command. `slice`: where the shell finds the task's number.
-std::string shell_body(const FarmJob& job, const FarmStep& step, const std::string& slice);
+/// Sets what the templates name, then becomes the command. `task`: where the shell finds the task's number, from 1.
+std::string shell_body(const FarmJob& job, const FarmStep& step, const std::string& task);
 
 }  // namespace tyndall

@@ -8,11 +8,11 @@ namespace tyndall {
 namespace {
 
 std::string directives(const FarmJob& job, const FarmStep& step) {
-  const bool array = step.tasks > 1;
+  const bool array = step.tasks() > 1;
   std::string text;
   const auto add = [&](const std::string& option) { text += "#SBATCH " + option + "\n"; };
   add("--job-name=" + job.name + "-" + step.name);
-  if (array) add(fmt::format("--array=1-{}", step.tasks));
+  if (array) add(fmt::format("--array=1-{}", step.tasks()));
   add(fmt::format("--cpus-per-task={}", step.threads));
   add(fmt::format("--mem={}M", (step.memory >> 20) + 1));
   // Preempted, requeued or out of time: two minutes to save, then again from there.

@@ -49,7 +49,7 @@ Spectrum from_pairs(const Param& p, const std::vector<float>& numbers) {
   return spectrum;
 }
 
-Spectrum from_file(const State& state, const Param& p) {
+Spectrum from_file(State& state, const Param& p) {
   const std::string path = resolve_asset(state, p.where, p.strings[0]);
   Tokenizer in(read_file_text(path), path);
   std::vector<float> numbers;
@@ -73,7 +73,7 @@ std::string cache_key(char kind, std::string_view text, ColorUse use) {
 
 }  // namespace
 
-Spectrum to_spectrum(const State& state, const Param& param) {
+Spectrum to_spectrum(State& state, const Param& param) {
   if (param.strings.empty()) return from_pairs(param, param.numbers);
   if (param.strings.size() > 1) throw wrong(param, "names more than one spectrum; give one");
   if (const auto named = named_spectrum(param.strings[0])) return *named;

@@ -25,7 +25,7 @@ std::vector<Rgb> find_colors(ParamList& params, std::string_view name, ColorUse 
 Rgb light_color(State& state, ParamList& params, std::string_view name);
 
 /// A parameter of type spectrum as such: pairs, a named spectrum, or a file of pairs.
-Spectrum to_spectrum(const State& state, const Param& param);
+Spectrum to_spectrum(State& state, const Param& param);
 
 /// An index of refraction; of one that varies with wavelength the luminance's, and each channel's.
 struct RefractiveIndex {

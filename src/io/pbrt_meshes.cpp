@@ -6,6 +6,7 @@
 
 #include "io/loop_subdivision.h"
 #include "io/ply.h"
+#include "tyndall/frames.h"
 
 namespace tyndall::pbrt {
 namespace {
@@ -91,7 +92,8 @@ std::vector<decltype(Shape::kind)> read_ply_mesh(State& state, ParamList& params
   params.ignore("edgelength", {ParamType::number}, "surfaces are not displaced");
   PlyMesh ply;
   try {
-    ply = read_ply(path);
+    // The scene has its own, so that only what may be asked for again is held twice.
+    ply = state.how.kept ? *state.how.kept->get<PlyMesh>({path, "mesh"}, [&] { return read_ply(path); }) : read_ply(path);
   } catch (const Error& e) {
     throw Error(where, e.what());
   }

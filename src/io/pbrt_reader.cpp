@@ -30,7 +30,8 @@ std::string canonical(const std::string& path) {
 
 class Reading {
  public:
-  Reading(std::string folder, OnError on_error) : state_(initial_state(std::move(folder))), on_error_(on_error) {}
+  Reading(std::string folder, const SceneReading& how, OnError on_error)
+      : state_(initial_state(std::move(folder), how)), on_error_(on_error) {}
 
   void read(Tokenizer& top) {
     open_files_.push_back(canonical(top.name()));
@@ -120,7 +121,7 @@ class Reading {
   /// Parameters that the file's end cuts off go on in `includer`.
   void include(Tokenizer& in, Tokenizer* includer) {
     const Token name = in.expect_string("a file name");
-    const std::string path = resolve_asset(state_, in.location(name.at), std::string(name.text));
+    const std::string path = resolve_asset(state_, in.location(name.at), std::string(name.text), true);
     const std::string one_name = canonical(path);
     const bool open = std::find(open_files_.begin(), open_files_.end(), one_name) != open_files_.end();
     if (open || open_files_.size() > kMaxDepth)
@@ -170,29 +171,32 @@ std::string folder_of(const std::string& path) {
   return folder.empty() ? "." : folder;
 }
 
-SceneFile read_or_throw(std::string text, const std::string& name, const std::string& folder) {
-  Tokenizer in(std::move(text), name);
-  Reading reading(folder, OnError::stop);
+SceneFile read_or_throw(Tokenizer in, const std::string& folder, const SceneReading& how) {
+  Reading reading(folder, how, OnError::stop);
   reading.read(in);
-  return {std::move(reading.state().scene), reading.state().reports.take()};
+  State& state = reading.state();
+  return {std::move(state.scene), state.reports.take(), std::move(state.frame_names)};
 }
 
 }  // namespace
 }  // namespace pbrt
 
-SceneFile read_scene(const std::string& path) { return pbrt::read_or_throw(read_file_text(path), path, pbrt::folder_of(path)); }
-
-SceneFile read_scene_text(const std::string& text, const std::string& name, const std::string& folder) {
-  return pbrt::read_or_throw(text, name, folder);
+SceneFile read_scene(const std::string& path, const SceneReading& how) {
+  return pbrt::read_or_throw(pbrt::Tokenizer(read_file_text(path), path), pbrt::folder_of(path), how);
 }
 
-SceneCheck check_scene(const std::string& path) {
+SceneFile read_scene_text(const std::string& text, const std::string& name, const std::string& folder) {
+  return pbrt::read_or_throw(pbrt::Tokenizer(text, name), folder, {});
+}
+
+SceneCheck check_scene(const std::string& path, const SceneReading& how) {
   SceneCheck check;
   try {
     pbrt::Tokenizer in(read_file_text(path), path);
-    pbrt::Reading reading(pbrt::folder_of(path), pbrt::OnError::go_on);
+    pbrt::Reading reading(pbrt::folder_of(path), how, pbrt::OnError::go_on);
     reading.read(in);
-    check = {std::move(reading.state().scene), std::move(reading.errors()), reading.state().reports.take()};
+    pbrt::State& state = reading.state();
+    check = {std::move(state.scene), std::move(reading.errors()), state.reports.take(), std::move(state.frame_names)};
   } catch (const Error& e) {
     check.errors.push_back(e.what());
   }

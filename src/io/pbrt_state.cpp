@@ -3,12 +3,15 @@
 #include <filesystem>
 #include <utility>
 
+#include "io/asset.h"
 #include "io/pbrt_textures.h"
+#include "tyndall/frames.h"
 
 namespace tyndall::pbrt {
 
-State initial_state(std::string folder) {
+State initial_state(std::string folder, const SceneReading& how) {
   State state;
+  state.how = how;
   state.folder = std::move(folder);
   state.graphics.color_space = find_color_space("srgb");
   state.graphics.defaults = std::make_shared<const AttributeDefaults>();
@@ -27,15 +30,12 @@ const Transform& usable_ctm(const State& state, const Location& where) {
   return state.graphics.ctm;
 }
 
-std::string resolve_asset(const State& state, const Location& where, const std::string& name) {
+std::string resolve_asset(State& state, const Location& where, const std::string& name, bool holds_scene) {
   if (name.empty()) throw Error(where, "file name is empty; name a file");
-  const std::filesystem::path given(name);
-  const std::filesystem::path path = given.is_absolute() ? given : std::filesystem::path(state.folder) / given;
-  std::error_code ignored;
-  if (!std::filesystem::exists(path, ignored))
-    throw Error(where, "file \"" + printable(name) + "\" does not exist; looked for " + path.string() +
-                           ", relative names start at the folder of the top scene file");
-  return path.string();
+  const FrameName asset{where, std::filesystem::path(name).is_absolute() ? "" : state.folder, name, holds_scene};
+  const bool by_frame = state.how.frame && names_frame(name);
+  if (by_frame) state.frame_names.push_back(asset);
+  return require_asset(asset, state.how.frame);
 }
 
 ParamList read_param_list(State& state, Tokenizer& in, std::string owner, Location where,

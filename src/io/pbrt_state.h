@@ -12,6 +12,7 @@
 #include "io/color.h"
 #include "io/pbrt_params.h"
 #include "io/pbrt_reports.h"
+#include "tyndall/io.h"
 #include "tyndall/scene.h"
 
 namespace tyndall::pbrt {
@@ -69,6 +70,8 @@ struct State {
   Scene scene;
   Reports reports;
   std::string folder;  ///< of the top file; relative names start here
+  SceneReading how;
+  std::vector<FrameName> frame_names;
 
   bool in_world = false;
   bool render_in_world_space = false;  ///< Option "rendercoordsys" "world"
@@ -102,14 +105,15 @@ struct State {
 };
 
 /// A state at the start of a file: pbrt's defaults, one default material.
-State initial_state(std::string folder);
+State initial_state(std::string folder, const SceneReading& how);
 
 /// The current transformation matrix for something made at `where`. pbrt lets a scene pass through singular matrices as
 /// long as nothing is made under one; that is an Error.
 const Transform& usable_ctm(const State& state, const Location& where);
 
-/// `name` against the top file's folder unless absolute; Error at `where` when no such file exists.
-std::string resolve_asset(const State& state, const Location& where, const std::string& name);
+/// `name`, with the frame's number where it has a place for it, against the top file's folder unless absolute; Error at `where`
+/// when no such file exists. `holds_scene`: what is in it is a part of the scene's text.
+std::string resolve_asset(State& state, const Location& where, const std::string& name, bool holds_scene = false);
 
 /// The parameter list that follows in the tokenizer, with the Attribute defaults of its kind.
 ParamList read_param_list(State& state, Tokenizer& in, std::string owner, Location where,

@@ -94,11 +94,11 @@ void Builder::add(const Light& light) {
     parts_->infinite.push_back(static_cast<LightId>(parts_->lights.size()));
     if (infinite.portal) {
       refer(Kind::portal, parts_->portals.size());
-      parts_->portals.emplace_back(infinite, light.where);
+      parts_->portals.emplace_back(infinite, light.where, options_.kept);
       return;
     }
     refer(Kind::environment, parts_->environments.size());
-    parts_->environments.emplace_back(infinite, light.where);
+    parts_->environments.emplace_back(infinite, light.where, options_.kept);
     if (parts_->environments.back().even()) ++parts_->even_skies;
   }
 }
@@ -106,7 +106,7 @@ void Builder::add(const Light& light) {
 template <typename Described>
 void Builder::add_profile(const Described& light, const Location& where) {
   require_finite(light.I, where);
-  const IntensityProfile& profile = parts_->profile_library.of(light, where);
+  const IntensityProfile& profile = parts_->profile_library.of(light, where, options_.kept);
   refer(Kind::profile, parts_->profiles.size());
   parts_->profiles.emplace_back(light.to_world, ProfileEmitter::Strength{light.I, light.power}, profile);
 }
@@ -116,7 +116,7 @@ std::uint32_t Builder::image(const AreaLight& light, const Location& where) {
       images_.try_emplace({light.path, light.to_rec709}, static_cast<std::uint32_t>(parts_->maps.images.size()));
   if (added) {
     try {
-      parts_->maps.images.push_back(TexelImage::load(light.path, "", light.to_rec709));
+      parts_->maps.images.push_back(TexelImage::load(options_.kept, light.path, light.to_rec709));
     } catch (const Error& error) {
       throw Error(where, error.what());
     }
@@ -133,7 +133,7 @@ Emission Builder::emission(const Shape& shape) {
   e.two_sided = light.two_sided;
   if (!light.path.empty()) {
     e.image = image(light, shape.where);
-    const Rgb average = parts_->maps.images[*e.image].average();
+    const Rgb average = parts_->maps.images[*e.image]->average();
     e.mean = light.L * average;
     e.power_per_radiosity = luminance(average);
   }

@@ -62,7 +62,7 @@ LightBounds Emitter::bounds(std::uint32_t i) const {
 Rgb Emitter::radiance(const EmissionMaps& maps, std::uint32_t i, Vec2 uv, Vec3 ng, Vec3 wo) const {
   if (!emission_.two_sided && !(dot(ng, wo) > 0)) return {};
   Rgb L = emission_.power ? emission_.L * scale(i) : emission_.L;
-  if (emission_.image) L *= maps.images[*emission_.image].bilinear({uv.x, 1 - uv.y}, TexelImage::Wrap::clamp);
+  if (emission_.image) L *= maps.images[*emission_.image]->bilinear({uv.x, 1 - uv.y}, TexelImage::Wrap::clamp);
   return L;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <variant>
 #include <vector>
@@ -17,7 +18,7 @@ namespace tyndall {
 
 /// What emission is looked up in; shared by all emitters.
 struct EmissionMaps {
-  std::vector<TexelImage> images;
+  std::vector<std::shared_ptr<const TexelImage>> images;
   const Textures* textures = nullptr;
 };
 

@@ -17,7 +17,8 @@ Rgb magnitude(Rgb c) { return {std::abs(c.r), std::abs(c.g), std::abs(c.b)}; }
 
 }  // namespace
 
-Environment::Environment(const InfiniteLight& light, const Location& where) : to_world_(light.to_world), L_(light.L) {
+Environment::Environment(const InfiniteLight& light, const Location& where, KeptFiles* kept)
+    : to_world_(light.to_world), L_(light.L) {
   const Transform::Matrix m = light.to_world.inverse().matrix();
   std::array<Vec3d, 3> rows;
   for (std::size_t i = 0; i < 3; ++i) rows_[i] = to_vec3(rows[i] = Vec3d(m[i][0], m[i][1], m[i][2]));
@@ -26,38 +27,39 @@ Environment::Environment(const InfiniteLight& light, const Location& where) : to
     for (std::size_t j = 0; j < 3; ++j) rotation_ = rotation_ && std::abs(dot(rows[i], rows[j]) - (i == j ? 1 : 0)) < 1e-6;
 
   if (!light.path.empty()) {
-    load(light, where);
+    load(light, where, kept);
     return;
   }
+  image_ = std::make_shared<const TexelImage>();
   // An upward surface under constant radiance L receives pi L.
   if (light.illuminance) L_ *= *light.illuminance / kPi;
   mean_ = L_;
 }
 
-void Environment::load(const InfiniteLight& light, const Location& where) {
+void Environment::load(const InfiniteLight& light, const Location& where, KeptFiles* kept) {
   try {
-    image_ = TexelImage::load(light.path, "", light.to_rec709);
+    image_ = TexelImage::load(kept, light.path, light.to_rec709);
   } catch (const Error& error) {
     throw Error(where, error.what());
   }
-  if (image_.width() == image_.height() && image_.width() > 0) {
+  if (image_->width() == image_->height() && image_->width() > 0) {
     layout_ = Layout::equal_area;
-  } else if (image_.width() == 2 * image_.height() && image_.height() > 0) {
+  } else if (image_->width() == 2 * image_->height() && image_->height() > 0) {
     layout_ = Layout::latitude_longitude;
   } else {
-    throw Error(where, "environment map \"" + light.path + "\" is " + std::to_string(image_.width()) + " x " +
-                           std::to_string(image_.height()) +
+    throw Error(where, "environment map \"" + light.path + "\" is " + std::to_string(image_->width()) + " x " +
+                           std::to_string(image_->height()) +
                            "; it must be square (equal-area) or twice as wide as high (latitude-longitude)");
   }
 
   std::array<double, 3> sum{};
   double upward = 0;
-  for (std::uint32_t y = 0; y < static_cast<std::uint32_t>(image_.height()); ++y)
-    for (std::uint32_t x = 0; x < static_cast<std::uint32_t>(image_.width()); ++x) {
-      const Rgb c = image_.texel(static_cast<int>(x), static_cast<int>(y));
+  for (std::uint32_t y = 0; y < static_cast<std::uint32_t>(image_->height()); ++y)
+    for (std::uint32_t x = 0; x < static_cast<std::uint32_t>(image_->width()); ++x) {
+      const Rgb c = image_->texel(static_cast<int>(x), static_cast<int>(y));
       const double omega = texel_solid_angle(y);
       for (int i = 0; i < 3; ++i) sum[static_cast<std::size_t>(i)] += c[i] * omega;
-      const Vec3 w = direction({(x + 0.5f) / image_.width(), (y + 0.5f) / image_.height()});
+      const Vec3 w = direction({(x + 0.5f) / image_->width(), (y + 0.5f) / image_->height()});
       upward += luminance(c) * std::max(w.z, 0.0f) * omega;
     }
   if (light.illuminance) {
@@ -73,11 +75,11 @@ void Environment::load(const InfiniteLight& light, const Location& where) {
 }
 
 float Environment::weight(std::uint32_t x, std::uint32_t y) const {
-  return luminance(magnitude(image_.texel(static_cast<int>(x), static_cast<int>(y))));
+  return luminance(magnitude(image_->texel(static_cast<int>(x), static_cast<int>(y))));
 }
 
 void Environment::build_distributions() {
-  const auto width = static_cast<std::uint32_t>(image_.width()), height = static_cast<std::uint32_t>(image_.height());
+  const auto width = static_cast<std::uint32_t>(image_->width()), height = static_cast<std::uint32_t>(image_->height());
   std::vector<float> weights;
   weights.reserve(std::size_t(width) * height);
   double sum = 0;
@@ -88,7 +90,7 @@ void Environment::build_distributions() {
       sum += weight(x, y) * omega;
     }
   }
-  full_ = PiecewiseConstant2D(image_.width(), image_.height(), weights);
+  full_ = PiecewiseConstant2D(image_->width(), image_->height(), weights);
 
   mean_weight_ = static_cast<float>(sum / kFullSphere);
   std::size_t i = 0;
@@ -97,24 +99,24 @@ void Environment::build_distributions() {
       const double excess = std::max(weight(x, y) - mean_weight_, 0.0f);
       weights[i] = static_cast<float>(excess * texel_solid_angle(y) * width * height);
     }
-  compensated_ = PiecewiseConstant2D(image_.width(), image_.height(), weights);
+  compensated_ = PiecewiseConstant2D(image_->width(), image_->height(), weights);
   has_excess_ = compensated_.total() > 1e-6 * full_.total();
 }
 
-double Environment::cos_row(std::uint32_t y) const { return std::cos(std::numbers::pi * y / image_.height()); }
+double Environment::cos_row(std::uint32_t y) const { return std::cos(std::numbers::pi * y / image_->height()); }
 
 double Environment::texel_solid_angle(std::uint32_t y) const {
-  const double width = image_.width();
-  if (layout_ == Layout::equal_area) return kFullSphere / (width * image_.height());
+  const double width = image_->width();
+  if (layout_ == Layout::equal_area) return kFullSphere / (width * image_->height());
   // cos a - cos b as a product, which keeps its digits near the poles.
-  const double step = std::numbers::pi / image_.height();
+  const double step = std::numbers::pi / image_->height();
   return kFullSphere / width * std::sin((y + 0.5) * step) * std::sin(0.5 * step);
 }
 
 Vec3 Environment::direction(Vec2 st) const {
   if (layout_ == Layout::equal_area) return equal_area_square_to_sphere(st);
   const std::uint32_t y = texel_of(st).y;
-  const double within = std::clamp(static_cast<double>(st.y) * image_.height() - y, 0.0, 1.0);
+  const double within = std::clamp(static_cast<double>(st.y) * image_->height() - y, 0.0, 1.0);
   const double z = cos_row(y) + within * (cos_row(y + 1) - cos_row(y));
   const double sine = std::sqrt(std::max(0.0, (1 - z) * (1 + z))), phi = 2 * std::numbers::pi * st.x;
   return to_vec3(Vec3d(sine * std::cos(phi), sine * std::sin(phi), z));
@@ -130,7 +132,7 @@ Environment::Texel Environment::texel_of(Vec2 st) const {
   const auto cell = [](float s, int n) {
     return static_cast<std::uint32_t>(std::clamp(static_cast<int>(s * static_cast<float>(n)), 0, n - 1));
   };
-  return {cell(st.x, image_.width()), cell(st.y, image_.height())};
+  return {cell(st.x, image_->width()), cell(st.y, image_->height())};
 }
 
 Vec3 Environment::to_light(Vec3 w) const { return {dot(rows_[0], w), dot(rows_[1], w), dot(rows_[2], w)}; }
@@ -146,19 +148,19 @@ float Environment::stretch(Vec3 w) const {
 Rgb Environment::radiance(Vec3 w) const {
   if (layout_ == Layout::constant) return L_;
   const Texel t = texel_of(square(normalize(to_light(w))));
-  return L_ * image_.texel(static_cast<int>(t.x), static_cast<int>(t.y));
+  return L_ * image_->texel(static_cast<int>(t.x), static_cast<int>(t.y));
 }
 
 Rgb Environment::interpolated(Vec3 w) const {
   if (layout_ != Layout::equal_area) return radiance(w);
   const Vec2 st = equal_area_sphere_to_square(normalize(to_light(w)));
-  const int n = image_.width();
+  const int n = image_->width();
   const float x = st.x * static_cast<float>(n) - 0.5f, y = st.y * static_cast<float>(n) - 0.5f;
   const int left = static_cast<int>(std::floor(x)), above = static_cast<int>(std::floor(y));
   const float s = x - static_cast<float>(left), t = y - static_cast<float>(above);
   const auto texel = [&](int i, int j) {
     const auto [column, row] = equal_area_neighbor(i, j, n);
-    return image_.texel(column, row);
+    return image_->texel(column, row);
   };
   return L_ * ((texel(left, above) * (1 - s) + texel(left + 1, above) * s) * (1 - t) +
                (texel(left, above + 1) * (1 - s) + texel(left + 1, above + 1) * s) * t);
@@ -183,9 +185,9 @@ float Environment::pdf(Vec3 w, bool mis_partner) const {
   if (layout_ == Layout::constant) return mis_partner ? 0 : uniform_sphere_pdf(w);
   if (mis_partner && !has_excess_) return 0;
   const Texel t = texel_of(square(normalize(to_light(w))));
-  const Vec2 center{(t.x + 0.5f) / image_.width(), (t.y + 0.5f) / image_.height()};
+  const Vec2 center{(t.x + 0.5f) / image_->width(), (t.y + 0.5f) / image_->height()};
   const double per_texel = static_cast<double>((mis_partner ? compensated_ : full_).pdf(center)) /
-                           (static_cast<double>(image_.width()) * image_.height());
+                           (static_cast<double>(image_->width()) * image_->height());
   return static_cast<float>(per_texel / texel_solid_angle(t.y) * stretch(w));
 }
 
@@ -201,16 +203,16 @@ std::vector<FarCone> Environment::cones() const {
       mean[i] = Vec3d(i & 1 ? 0.5 : -0.5, i & 2 ? 0.5 : -0.5, i & 4 ? 0.5 : -0.5) * fluence[i];
   } else {
     // Small maps are cut finer, so that each piece falls into one octant, roughly.
-    const int pieces = std::max(1, 64 / image_.height());
+    const int pieces = std::max(1, 64 / image_->height());
     const float fine = 1.0f / static_cast<float>(pieces);
-    reach = 2 * std::sqrt(kFullSphere) / (image_.height() * pieces);
-    for (int y = 0; y < image_.height() * pieces; ++y)
-      for (int x = 0; x < image_.width() * pieces; ++x) {
-        const Vec2 st{(x + 0.5f) * fine / image_.width(), (y + 0.5f) * fine / image_.height()};
+    reach = 2 * std::sqrt(kFullSphere) / (image_->height() * pieces);
+    for (int y = 0; y < image_->height() * pieces; ++y)
+      for (int x = 0; x < image_->width() * pieces; ++x) {
+        const Vec2 st{(x + 0.5f) * fine / image_->width(), (y + 0.5f) * fine / image_->height()};
         const Texel t = texel_of(st);
         const Vec3 w = to_world(direction(st));
         const double omega = texel_solid_angle(t.y) / (double(pieces) * pieces) / stretch(w);
-        const Rgb L = L_ * image_.texel(static_cast<int>(t.x), static_cast<int>(t.y));
+        const Rgb L = L_ * image_->texel(static_cast<int>(t.x), static_cast<int>(t.y));
         const double value = strength(L) * omega;
         const double excess = std::max(weight(t.x, t.y) - mean_weight_, 0.0f);
         const std::size_t octant = (w.x > 0 ? 1u : 0u) | (w.y > 0 ? 2u : 0u) | (w.z > 0 ? 4u : 0u);
@@ -229,7 +231,7 @@ std::vector<FarCone> Environment::cones() const {
 }
 
 std::size_t Environment::memory_bytes() const {
-  return static_cast<std::size_t>(image_.width()) * static_cast<std::size_t>(image_.height()) * sizeof(Rgb) +
+  return static_cast<std::size_t>(image_->width()) * static_cast<std::size_t>(image_->height()) * sizeof(Rgb) +
          full_.memory_bytes() + compensated_.memory_bytes();
 }
 

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "light/far_lights.h"
@@ -19,12 +20,12 @@ namespace tyndall {
 class Environment {
  public:
   /// Throws Error at `where` when the map cannot be read or has neither shape.
-  Environment(const InfiniteLight& light, const Location& where);
+  Environment(const InfiniteLight& light, const Location& where, KeptFiles* kept = nullptr);
 
   Rgb radiance(Vec3 w) const;  ///< arriving from unit direction `w`
   /// The same with square maps interpolated between texels, as pbrt resamples them for portals.
   Rgb interpolated(Vec3 w) const;
-  int resolution() const { return layout_ == Layout::constant ? 1 : image_.height(); }  ///< texels from pole to pole
+  int resolution() const { return layout_ == Layout::constant ? 1 : image_->height(); }  ///< texels from pole to pole
 
   struct Sample {
     Vec3 wi;
@@ -47,7 +48,7 @@ class Environment {
     std::uint32_t x, y;
   };
 
-  void load(const InfiniteLight& light, const Location& where);
+  void load(const InfiniteLight& light, const Location& where, KeptFiles* kept);
   void build_distributions();
   float weight(std::uint32_t x, std::uint32_t y) const;  ///< luminance of a texel
   double texel_solid_angle(std::uint32_t y) const;
@@ -66,7 +67,7 @@ class Environment {
   bool rotation_ = true;      ///< that map keeps angles and lengths
   Rgb L_;                     ///< factor of the texels
   Rgb mean_;
-  TexelImage image_;
+  std::shared_ptr<const TexelImage> image_;  ///< of a constant environment: empty
   PiecewiseConstant2D full_, compensated_;
   float mean_weight_ = 0;
   bool has_excess_ = false;  ///< something exceeds the mean

@@ -179,8 +179,8 @@ std::size_t Lights::memory_bytes() const {
   for (const Environment& e : p.environments) bytes += e.memory_bytes();
   for (const Portal& portal : p.portals) bytes += portal.memory_bytes();
   for (const Emitter& e : p.emitters) bytes += e.memory_bytes();
-  for (const TexelImage& i : p.maps.images)
-    bytes += static_cast<std::size_t>(i.width()) * static_cast<std::size_t>(i.height()) * sizeof(Rgb);
+  for (const auto& i : p.maps.images)
+    bytes += static_cast<std::size_t>(i->width()) * static_cast<std::size_t>(i->height()) * sizeof(Rgb);
   return bytes;
 }
 

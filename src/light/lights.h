@@ -21,6 +21,7 @@
 
 namespace tyndall {
 
+class KeptFiles;  // tyndall/frames.h
 class Textures;
 
 struct LightSample {
@@ -52,6 +53,7 @@ struct LightBuildOptions {
   const Textures* textures = nullptr;        ///< read for the alpha of emissive shapes; null: opaque. Must outlive the lights
   int threads = 0;                           ///< to build with; 0: one a core
   std::span<const VolumeEmitter> volumes{};  ///< pieces of media that emit; their ids are consecutive
+  KeptFiles* kept = nullptr;                 ///< images and profiles are taken from it
 };
 
 /// For the summary of a build.

@@ -19,7 +19,7 @@ double solid_angle_per_area(Vec3d w) { return kPi2 * (w.y * w.y + w.z * w.z) * (
 
 }  // namespace
 
-Portal::Portal(const InfiniteLight& light, const Location& where) {
+Portal::Portal(const InfiniteLight& light, const Location& where, KeptFiles* kept) {
   const std::array<Vec3, 4>& p = *light.portal;
   corner_ = Vec3d(p[0]);
   const Vec3d edge_x = Vec3d(p[3]) - corner_, edge_y = Vec3d(p[1]) - corner_;
@@ -33,7 +33,7 @@ Portal::Portal(const InfiniteLight& light, const Location& where) {
   x_ = edge_x / width_;
   y_ = normalize(edge_y - x_ * dot(edge_y, x_));
   z_ = cross(x_, y_);
-  resample(Environment(light, where));
+  resample(Environment(light, where, kept));
 }
 
 void Portal::resample(const Environment& map) {

@@ -19,7 +19,7 @@ namespace tyndall {
 class Portal {
  public:
   /// `light` has a portal. Throws Error at `where` when its map cannot be read or the portal is no rectangle.
-  Portal(const InfiniteLight& light, const Location& where);
+  Portal(const InfiniteLight& light, const Location& where, KeptFiles* kept = nullptr);
 
   Rgb radiance(Vec3 p, Vec3 w) const;  ///< arriving at `p` from unit direction `w`
   /// In proportion to the luminance of what is seen through the portal from `p`, as far as it is constant in the texels.

@@ -45,8 +45,8 @@ std::string MemoryPlan::str() const {
   return text;
 }
 
-MemoryPlan plan_memory(const Scene& scene, std::span<const LightStrategy> lights) {
-  const PlannedMemory built = plan_built_world(scene, lights);
+MemoryPlan plan_memory(const Scene& scene, std::span<const LightStrategy> lights, KeptFiles* kept) {
+  const PlannedMemory built = plan_built_world(scene, lights, kept);
   return {process_memory().resident,
           {{"film", plan_film(scene) + built.on_film},
            {"geometry", built.geometry},

@@ -20,8 +20,8 @@ struct MemoryPlan {
   std::size_t total() const;
   std::string str() const;  ///< "film 0.5, geometry 2.1 GB"
 };
-/// `lights`: the strategies that it is built for.
-MemoryPlan plan_memory(const Scene& scene, std::span<const LightStrategy> lights);
+/// `lights`: the strategies that it is built for. Sizes of images are taken from `kept`.
+MemoryPlan plan_memory(const Scene& scene, std::span<const LightStrategy> lights, KeptFiles* kept = nullptr);
 
 /// Throws Error (scene) with the estimate when the plan exceeds `limit` bytes.
 void require_memory(const MemoryPlan& plan, const Scene& scene, std::size_t limit);

@@ -7,6 +7,7 @@
 
 #include "math/stream_hash.h"
 #include "session/scene_fields.h"
+#include "tyndall/frames.h"
 
 namespace tyndall {
 namespace {
@@ -41,6 +42,8 @@ std::uint64_t hash_file(const std::string& path) {
 /// Walks the scene; every struct without an `add` of its own gives all its fields (scene_fields.h).
 class SceneHasher {
  public:
+  explicit SceneHasher(KeptFiles* kept) : kept_(kept) {}
+
   template <typename T>
   void add(const T& value) {
     if constexpr (kPlain<T>) {
@@ -169,7 +172,7 @@ class SceneHasher {
     add(!file.path.empty());
     if (file.path.empty()) return;
     const auto [entry, is_new] = files_.try_emplace(file.path, 0);
-    if (is_new) entry->second = hash_file(file.path);
+    if (is_new) entry->second = *get_kept<std::uint64_t>(kept_, {file.path, "hash"}, [&] { return hash_file(file.path); });
     add(entry->second);
   }
   /// Images whose channels are not the same do not go together.
@@ -181,14 +184,15 @@ class SceneHasher {
     (add(values), ...);
   }
 
+  KeptFiles* kept_;
   StreamHash bytes_;
   std::map<std::string, std::uint64_t> files_;  ///< by path: many textures may name one
 };
 
 }  // namespace
 
-std::uint64_t hash_scene(const Scene& scene) {
-  SceneHasher hasher;
+std::uint64_t hash_scene(const Scene& scene, KeptFiles* kept) {
+  SceneHasher hasher(kept);
   hasher.add(scene);
   return hasher.value();
 }

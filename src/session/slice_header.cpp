@@ -94,6 +94,7 @@ void add_slice(Image& image, const FilmBuffer& film, const RenderSettings& setti
 void mark_stopped(Image& image) {
   const auto slice = image.attributes.find(kSlice);
   if (slice != image.attributes.end()) slice->second = std::get<std::string>(slice->second) + kStopped;
+  if (slice == image.attributes.end()) image.attributes["tyndall/stopped"] = 1;
 }
 
 std::optional<SliceCheckpoint> slice_checkpoint(std::string_view bytes, const std::string& path) {

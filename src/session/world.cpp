@@ -6,6 +6,7 @@
 #include "session/scene_hash.h"
 #include "session/world_parts.h"
 #include "tyndall/error.h"
+#include "tyndall/frames.h"
 
 namespace tyndall {
 namespace {
@@ -43,7 +44,7 @@ World build(Scene scene, const BuildSettings& settings) {
   constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
   std::size_t volume_memory = kNoLimit;
   if (settings.max_memory != kNoLimit) {
-    const MemoryPlan plan = plan_memory(scene, settings.lights);
+    const MemoryPlan plan = plan_memory(scene, settings.lights, settings.kept);
     require_memory(plan, scene, settings.max_memory);
     volume_memory = left_for_volumes(plan, settings.max_memory);
   }
@@ -52,10 +53,12 @@ World build(Scene scene, const BuildSettings& settings) {
   std::uint64_t hash = 0;
   std::optional<Error> unread;
   try {
-    hash = hash_scene(scene);
+    hash = hash_scene(scene, settings.kept);
   } catch (const Error& e) {
     unread = e;
   }
+  // All files of the scene were asked for by now: what others were made to is gone before more is made.
+  if (settings.kept) settings.kept->drop_others();
   UnitScene unit_scene = in_unit_size(std::move(scene));
   require_camera_within_reach(unit_scene.scene.camera, unit_scene.scene.source);
   auto parts = std::make_unique<World::Parts>(std::move(unit_scene), settings, volume_memory);

@@ -3,6 +3,7 @@
 #include "math/cie.h"
 #include "texture/textures.h"
 #include "tyndall/error.h"
+#include "tyndall/frames.h"
 #include "tyndall/io.h"
 
 namespace tyndall {
@@ -55,7 +56,7 @@ bool asks_for_footprint(const Texture& texture) {
 
 class Textures::Builder {
  public:
-  explicit Builder(const std::vector<Texture>& textures) : textures_(textures) {
+  Builder(const std::vector<Texture>& textures, KeptFiles* kept) : textures_(textures), kept_(kept) {
     result_.nodes_.resize(textures.size());
     result_.uses_footprint_.resize(textures.size());
   }
@@ -97,16 +98,20 @@ class Textures::Builder {
     if (found == loaded_.end()) found = loaded_.emplace(key, load(texture, where)).first;
     ImageNode node{texture, found->second.index};
     if (auto& coarser = result_.coarser_[node.image]; coarser.empty() && is_mip_mapped(texture))
-      coarser = coarser_levels(result_.images_[node.image]);
+      coarser = coarser_levels(*result_.images_[node.image]);
     if (found->second.to_rec709) node.texture.to_rec709 = *found->second.to_rec709;
     return node;
   }
 
   Loaded load(const ImageTexture& texture, const Location& where) try {
-    const Image image = read_image(texture.path, texture.encoding);
+    const KeptFiles::Use use{texture.path, "texture " + texture.encoding};
+    const auto kept = get_kept<KeptImage>(kept_, use, [&]() -> KeptImage {
+      const Image image = read_image(texture.path, texture.encoding);
+      return {TexelImage::from(image, texture.path), image.chromaticities};
+    });
     Loaded loaded{result_.images_.size(), {}};
-    if (image.chromaticities && !texture.is_data) loaded.to_rec709 = rec709_from(*image.chromaticities, true);
-    result_.images_.push_back(TexelImage::from(image, texture.path));
+    if (kept->chromaticities && !texture.is_data) loaded.to_rec709 = rec709_from(*kept->chromaticities, true);
+    result_.images_.emplace_back(kept, &kept->texels);
     result_.coarser_.emplace_back();
     return loaded;
   } catch (const Error& error) {
@@ -126,11 +131,19 @@ class Textures::Builder {
     return !ids.empty();
   }
 
+  struct KeptImage {
+    TexelImage texels;
+    std::optional<Chromaticities> chromaticities;
+  };
+
   const std::vector<Texture>& textures_;
+  KeptFiles* kept_;
   std::map<std::pair<std::string, std::string>, Loaded> loaded_;
   Textures result_;
 };
 
-Textures build_textures(const std::vector<Texture>& textures) { return Textures::Builder(textures).build(); }
+Textures build_textures(const std::vector<Texture>& textures, KeptFiles* kept) {
+  return Textures::Builder(textures, kept).build();
+}
 
 }  // namespace tyndall

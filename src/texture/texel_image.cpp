@@ -6,6 +6,7 @@
 
 #include "math/cie.h"
 #include "tyndall/error.h"
+#include "tyndall/frames.h"
 #include "tyndall/io.h"
 
 namespace tyndall {
@@ -136,6 +137,12 @@ TexelImage TexelImage::load(const std::string& path, const std::string& encoding
   if (matrix != kIdentity)
     for (Rgb& texel : result.texels_) texel = transformed(matrix, texel);
   return result;
+}
+
+std::shared_ptr<const TexelImage> TexelImage::load(KeptFiles* kept, const std::string& path,
+                                                   const std::array<float, 9>& to_rec709) {
+  const std::string details(reinterpret_cast<const char*>(to_rec709.data()), sizeof to_rec709);
+  return get_kept<TexelImage>(kept, {path, "light", details}, [&] { return load(path, "", to_rec709); });
 }
 
 std::optional<TexelPlace> TexelImage::place(int x, int y, Wrap wrap) const {

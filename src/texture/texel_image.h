@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,8 @@
 #include "tyndall/scene.h"
 
 namespace tyndall {
+
+class KeptFiles;  // tyndall/frames.h
 
 struct TexelPlace {
   int x, y;
@@ -37,6 +40,9 @@ class TexelImage {
   /// may come out slightly negative when the file's gamut is wider.
   static TexelImage load(const std::string& path, const std::string& encoding = "",
                          const std::array<float, 9>& to_rec709 = kIdentity);
+  /// The same for 8-bit sRGB and all others, from `kept` when it is there.
+  static std::shared_ptr<const TexelImage> load(KeptFiles* kept, const std::string& path,
+                                                const std::array<float, 9>& to_rec709 = kIdentity);
 
   int width() const { return width_; }
   int height() const { return height_; }

@@ -156,7 +156,7 @@ std::optional<Rgb> Textures::constant(TextureId id) const {
 
 std::size_t Textures::memory_bytes() const {
   std::size_t sum = 0;
-  for (const TexelImage& image : images_) sum += image.memory_bytes();
+  for (const auto& image : images_) sum += image->memory_bytes();
   for (const auto& levels : coarser_)
     for (const TexelImage& level : levels) sum += level.memory_bytes();
   return sum;

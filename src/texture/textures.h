@@ -1,6 +1,7 @@
 /// The scene's textures, built once and evaluated at shading points.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <variant>
 #include <vector>
@@ -11,6 +12,8 @@
 #include "tyndall/scene.h"
 
 namespace tyndall {
+
+class KeptFiles;  // tyndall/frames.h
 
 /// Immutable after build_textures; safe to evaluate from any number of threads.
 class Textures {
@@ -29,7 +32,7 @@ class Textures {
   std::size_t memory_bytes() const;  ///< of the images
 
  private:
-  friend Textures build_textures(const std::vector<Texture>& textures);
+  friend Textures build_textures(const std::vector<Texture>& textures, KeptFiles* kept);
   struct ImageNode {
     ImageTexture texture;  ///< to_rec709 replaced by the file's own where it states chromaticities
     std::size_t image;     ///< into images_
@@ -39,16 +42,17 @@ class Textures {
   struct RgbEvaluator;
   struct FloatEvaluator;
   class Builder;
-  MipMap mip_map(const ImageNode& node) const { return {images_[node.image], coarser_[node.image]}; }
+  MipMap mip_map(const ImageNode& node) const { return {*images_[node.image], coarser_[node.image]}; }
 
   std::vector<Node> nodes_;
   std::vector<bool> uses_footprint_;
-  std::vector<TexelImage> images_;
+  std::vector<std::shared_ptr<const TexelImage>> images_;
   std::vector<std::vector<TexelImage>> coarser_;  ///< of each image; none unless a texture's filter asks for them
 };
 
 /// Loads every image once (textures of the same path and encoding share it) and folds what is constant.
+/// Images are taken from `kept` and put there.
 /// Throws Error (scene) at the texture's place: an image that cannot be read, an unknown or a circular reference.
-Textures build_textures(const std::vector<Texture>& textures);
+Textures build_textures(const std::vector<Texture>& textures, KeptFiles* kept = nullptr);
 
 }  // namespace tyndall

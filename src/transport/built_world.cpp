@@ -16,7 +16,8 @@ std::vector<ParticipatingMedium> build_media(const Scene& scene, const BuildSett
   media.reserve(scene.media.size());
   for (const Medium& medium : scene.media) {
     const std::size_t left = most_memory - std::min(summary.volume_bytes, most_memory);
-    media.push_back(build_medium(medium, {.sanitize = settings.sanitize, .most_memory = left}, summary.notes));
+    media.push_back(
+        build_medium(medium, {.sanitize = settings.sanitize, .most_memory = left, .kept = settings.kept}, summary.notes));
     summary.volume_bytes += media.back().memory_bytes();
   }
   summary.media = media.size();
@@ -102,7 +103,7 @@ Bounds3 scene_bounds(const Geometry& geometry, const std::vector<ParticipatingMe
 
 BuiltWorld::BuiltWorld(Scene unit_scene, const BuildSettings& settings, std::size_t volume_memory, BuildSummary& summary)
     : scene(std::move(unit_scene)),
-      textures(build_textures(scene.textures)),
+      textures(build_textures(scene.textures, settings.kept)),
       materials(scene, textures),
       geometry(build_geometry(scene, textures, settings.threads, summary)),
       media(build_media(scene, settings, volume_memory, summary)),
@@ -119,9 +120,12 @@ BuiltWorld::BuiltWorld(Scene unit_scene, const BuildSettings& settings, std::siz
   const Timer watch;
   const Emitters emitters = find_emitters(scene, geometry, summary);
   const std::vector<VolumeEmitter> volumes = volume_lights.emitters();
-  lights =
-      build_lights(scene, emitters.shapes, scene_bounds(geometry, media),
-                   {.strategies = settings.lights, .textures = &textures, .threads = settings.threads, .volumes = volumes});
+  lights = build_lights(scene, emitters.shapes, scene_bounds(geometry, media),
+                        {.strategies = settings.lights,
+                         .textures = &textures,
+                         .threads = settings.threads,
+                         .volumes = volumes,
+                         .kept = settings.kept});
   volume_lights.set_first(lights.first_volume());
   light_distances = tyndall::light_distances(media, geometry.groups(), scene.camera.medium, lights, volume_lights);
   bright_media =

@@ -9,6 +9,7 @@
 #include "texture/mip_map.h"
 #include "transport/film_emitters.h"
 #include "tyndall/error.h"
+#include "tyndall/frames.h"
 #include "tyndall/io.h"
 
 namespace tyndall {
@@ -94,11 +95,13 @@ std::size_t plan_geometry(const Scene& scene) {
 
 class Pictures {
  public:
+  explicit Pictures(KeptFiles* kept) : kept_(kept) {}
+
   void add(const std::string& path, std::size_t bytes_a_texel) {
     if (path.empty() || !seen_.insert(path).second) return;
     ImageSize size;
     try {
-      size = read_image_size(path);
+      size = *get_kept<ImageSize>(kept_, {path, "size"}, [&] { return read_image_size(path); });
     } catch (const Error&) {
       return;  // the reader will report it, with its place in the scene
     }
@@ -112,6 +115,7 @@ class Pictures {
   }
 
  private:
+  KeptFiles* kept_;
   std::set<std::string> seen_;
   ByteCount sum_;
   double largest_ = 0;
@@ -122,8 +126,8 @@ void add_pictures(const std::vector<Shape>& shapes, Pictures& pictures) {
     if (shape.emission) pictures.add(shape.emission->path, kTexel);
 }
 
-std::size_t plan_pictures(const Scene& scene) {
-  Pictures pictures;
+std::size_t plan_pictures(const Scene& scene, KeptFiles* kept) {
+  Pictures pictures(kept);
   for (const bool mip_mapped : {true, false}) {
     for (const Texture& texture : scene.textures) {
       const auto* image = std::get_if<ImageTexture>(&texture.kind);
@@ -157,12 +161,12 @@ double pixels_of(const Scene& scene) {
   return static_cast<double>(std::max(crop.width(), 0)) * std::max(crop.height(), 0);
 }
 
-PlannedMemory plan_built_world(const Scene& scene, std::span<const LightStrategy> lights) {
+PlannedMemory plan_built_world(const Scene& scene, std::span<const LightStrategy> lights, KeptFiles* kept) {
   const bool shared = std::all_of(lights.begin(), lights.end(), [](LightStrategy s) { return s == LightStrategy::tree; });
   return {.on_film = plan_film_search(scene),
           .geometry = plan_geometry(scene),
           .lights = plan_lights(scene, shared),
-          .textures = plan_pictures(scene),
+          .textures = plan_pictures(scene, kept),
           .volumes = plan_volumes(scene)};
 }
 

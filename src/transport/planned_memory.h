@@ -10,6 +10,8 @@
 
 namespace tyndall {
 
+class KeptFiles;  // tyndall/frames.h
+
 /// Bytes, from counts that may be beyond 64 bits.
 class ByteCount {
  public:
@@ -28,7 +30,7 @@ double pixels_of(const Scene& scene);
 struct PlannedMemory {
   std::size_t on_film, geometry, lights, textures, volumes;
 };
-/// `lights`: the strategies that the world is built for.
-PlannedMemory plan_built_world(const Scene& scene, std::span<const LightStrategy> lights);
+/// `lights`: the strategies that the world is built for. Sizes of images are taken from `kept`.
+PlannedMemory plan_built_world(const Scene& scene, std::span<const LightStrategy> lights, KeptFiles* kept = nullptr);
 
 }  // namespace tyndall

@@ -30,7 +30,7 @@ Rgb EmissionField::at(Vec3 p) const {
   return {};
 }
 
-ParticipatingMedium::ParticipatingMedium(std::unique_ptr<const MediumData> data) : data_(std::move(data)) {}
+ParticipatingMedium::ParticipatingMedium(std::shared_ptr<const MediumData> data) : data_(std::move(data)) {}
 ParticipatingMedium::ParticipatingMedium(ParticipatingMedium&&) noexcept = default;
 ParticipatingMedium& ParticipatingMedium::operator=(ParticipatingMedium&&) noexcept = default;
 ParticipatingMedium::~ParticipatingMedium() = default;

@@ -12,6 +12,8 @@
 
 namespace tyndall {
 
+class KeptFiles;  // tyndall/frames.h
+
 /// What a medium does at a point.
 struct Coefficients {
   Rgb sigma_a, sigma_s;  ///< 1/world unit
@@ -29,6 +31,7 @@ struct MediumBuildOptions {
   /// Bytes that a volume file may take while it is read and after; one that would take more is refused.
   std::size_t most_memory = std::numeric_limits<std::size_t>::max();
   bool float_bricks = false;  ///< keep voxels as 32-bit floats instead of 16-bit steps of each brick's range
+  KeptFiles* kept = nullptr;  ///< media of files are taken from it
 };
 
 struct MediumData;  // medium_data.h, for tracking
@@ -36,7 +39,7 @@ struct MediumData;  // medium_data.h, for tracking
 /// One medium. Immutable; safe to use from any number of threads. Its address may change by a move, its data's not.
 class ParticipatingMedium {
  public:
-  explicit ParticipatingMedium(std::unique_ptr<const MediumData> data);
+  explicit ParticipatingMedium(std::shared_ptr<const MediumData> data);
   ParticipatingMedium(ParticipatingMedium&&) noexcept;
   ParticipatingMedium& operator=(ParticipatingMedium&&) noexcept;
   ~ParticipatingMedium();
@@ -58,7 +61,7 @@ class ParticipatingMedium {
   const MediumData& data() const { return *data_; }
 
  private:
-  std::unique_ptr<const MediumData> data_;
+  std::shared_ptr<const MediumData> data_;  ///< that of a file may be kept for another scene
 };
 
 /// Load and prepare `medium`. Appends to `notes` what was chosen or changed ("smoke.vdb: density grid "density", ...").

@@ -285,16 +285,16 @@ void require_range(const BuildContext& context, const MediumData& data) {
 
 }  // namespace
 
-ParticipatingMedium build_medium(const Medium& medium, const MediumBuildOptions& options, std::vector<std::string>& notes) {
+MediumData build_medium_data(const Medium& medium, const MediumBuildOptions& options, std::vector<std::string>& notes) {
   const BuildContext context{medium, options, notes};
-  auto data = std::make_unique<MediumData>();
-  data->optics = medium.optics;
-  std::visit([&](const auto& kind) { build(kind, context, *data); }, medium.kind);
-  require_range(context, *data);
+  MediumData data;
+  data.optics = medium.optics;
+  std::visit([&](const auto& kind) { build(kind, context, data); }, medium.kind);
+  require_range(context, data);
   // What cannot absorb cannot emit either.
-  if (is_black(data->optics.sigma_a)) data->emission = {};
-  if (data->emission.kind == EmissionField::Kind::blackbody) data->emission.table.emplace();
-  return ParticipatingMedium(std::move(data));
+  if (is_black(data.optics.sigma_a)) data.emission = {};
+  if (data.emission.kind == EmissionField::Kind::blackbody) data.emission.table.emplace();
+  return data;
 }
 
 }  // namespace tyndall

@@ -58,4 +58,7 @@ struct MediumData {
   }
 };
 
+/// As build_medium(), of which it is the work.
+MediumData build_medium_data(const Medium& medium, const MediumBuildOptions& options, std::vector<std::string>& notes);
+
 }  // namespace tyndall

@@ -101,7 +101,7 @@ void require_step(const Json& step, std::set<std::string> known, const std::set<
       require_keys(t, {"name", "type", "range"}, {});
       require_identifier(t["name"]);
       REQUIRE(t["type"] == "INT");
-      REQUIRE(std::regex_match(t["range"].get<std::string>(), std::regex("[0-9]+-[0-9]+")));
+      REQUIRE(std::regex_match(t["range"].get<std::string>(), std::regex("[0-9]+(-[0-9]+)?(,[0-9]+(-[0-9]+)?)*")));
       known.insert("Task.Param." + t["name"].get<std::string>());
     }
   }
@@ -170,4 +170,21 @@ TEST_CASE("words that are no template stay what they were, whatever they hold") 
   CHECK(openjd_files(job).files[0].text.find("\"{slice} 'and' $HOME\"") != std::string::npos);
   job.steps[0].command.push_back({"{{no}}"});
   CHECK_THROWS_AS(openjd_files(job), Error);
+}
+
+TEST_CASE("a sequence has all pairs of frames and slices as tasks") {
+  FarmJob job = a_job();
+  job.steps[0].command.push_back({"{folder}/slices/{frame}", true});
+  for (FarmStep& step : job.steps) step.frames = {1, 5, 10, 11, 12};
+  CHECK(job.steps[0].tasks() == 80);
+  const Json j = Json::parse(openjd_files(job).files[0].text);
+  std::set<std::string> steps;
+  for (const Json& step : j["steps"]) {
+    require_step(step, require_parameters(j["parameterDefinitions"]), steps);
+    steps.insert(step["name"]);
+    CHECK(step["parameterSpace"]["taskParameterDefinitions"][0] ==
+          Json({{"name", "Frame"}, {"type", "INT"}, {"range", "1,5,10-12"}}));
+  }
+  CHECK(j["steps"][0]["parameterSpace"]["taskParameterDefinitions"][1]["range"] == "1-16");
+  CHECK(j["steps"][0]["script"]["actions"]["onRun"]["args"].back() == "{{Param.Folder}}/slices/{{Task.Param.Frame}}");
 }

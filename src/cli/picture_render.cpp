@@ -1,0 +1,191 @@
+#include "cli/picture_render.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+#include <sstream>
+
+#include "cli/log.h"
+#include "cli/memory.h"
+#include "cli/output_paths.h"
+#include "cli/room.h"
+#include "cli/save.h"
+#include "cli/stop_signal.h"
+#include "session/image_header.h"
+#include "session/scene_hash.h"
+#include "tyndall/io.h"
+#include "tyndall/slice.h"
+#include "tyndall/timer.h"
+
+namespace tyndall::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Before anything is built: whether what comes out of it can be written.
+void check_outputs(const RenderOptions& options, const Scene& scene, const std::string& output) {
+  check_writable(output);
+  require_room(output, scene, options.keeps_checkpoints());
+  if (!options.error_log.empty()) check_writable(options.error_log);
+}
+
+/// What the denoiser takes is not the render's.
+std::size_t memory_for_render(const RenderOptions& options, const Scene& scene) {
+  const std::size_t limit = memory_limit(options.max_memory);
+  if (!options.denoise) return limit;
+  return limit - std::min(limit, denoise_memory(pixels_of(scene)));
+}
+
+template <typename T>
+bool says(const Image& header, const std::string& attribute, const T& value) {
+  const auto found = header.attributes.find(attribute);
+  const T* text = found == header.attributes.end() ? nullptr : std::get_if<T>(&found->second);
+  return text && *text == value;
+}
+
+/// What a setting leaves open stands in the header as the render chose it.
+bool says_options(const Image& header, const RenderSettings& settings) {
+  const auto found = header.attributes.find("tyndall/options");
+  const auto* text = found == header.attributes.end() ? nullptr : std::get_if<std::string>(&found->second);
+  if (!text) return false;
+  std::istringstream asked(options_text(settings)), rendered(*text);
+  std::string word, other;
+  while (asked >> word)
+    if (!(rendered >> other) || (word != other && word != "auto")) return false;
+  return !(rendered >> other);
+}
+
+}  // namespace
+
+PictureRender::PictureRender(const RenderOptions& options, Scene& scene) : options_(options), checkpoint_(std::string()) {
+  apply(options, scene);
+  asked_aovs_ = scene.settings.aovs;
+  if (options.denoise) denoiser_.emplace(options, scene.settings);
+  settings_ = scene.settings;
+  limit_image_threads(settings_.threads);
+  output_ = output_path(options, scene);
+  checkpoint_ = CheckpointFile(output_);
+  if (options.keeps_checkpoints()) checkpoint_.tidy();
+  check_outputs(options, scene, output_);
+  pixels_ = pixels_of(scene);
+  memory_ = memory_for_render(options, scene);
+  if (!options.reference.empty()) reference_ = read_reference(options.reference);
+}
+
+bool PictureRender::holds_all_channels(const Image& header) const {
+  const auto holds = [&](const std::string& name) {
+    return std::any_of(header.channels.begin(), header.channels.end(),
+                       [&](const Channel& c) { return c.name == name || c.name.starts_with(name + "."); });
+  };
+  return std::all_of(asked_aovs_.begin(), asked_aovs_.end(), holds) && (!options_.denoise || holds("noisy"));
+}
+
+bool PictureRender::is_finished(std::uint64_t scene_hash) const {
+  std::error_code absent;
+  if (settings_.slice || !fs::exists(output_, absent) || fs::exists(checkpoint_.path(), absent)) return false;
+  try {
+    const Image header = read_exr_header(output_);
+    const bool open_end = settings_.time || settings_.error;  // it ended where these say
+    return says(header, "tyndall/sceneHash", scene_hash_text(scene_hash, settings_)) &&
+           says(header, "tyndall/seed", std::to_string(settings_.seed)) && says_options(header, settings_) &&
+           !header.attributes.contains("tyndall/stopped") && (open_end || says(header, "tyndall/samples", settings_.spp)) &&
+           static_cast<std::uint64_t>(header.width()) * static_cast<std::uint64_t>(header.height()) == pixels_ &&
+           holds_all_channels(header);
+  } catch (const Error&) {
+    return false;  // damaged, or no .exr: it is rendered anew
+  }
+}
+
+World PictureRender::build(Scene scene, KeptFiles* kept) const {
+  const BuildSettings how{.lights = {settings_.lights},
+                          .volume_lights = settings_.emission == EmissionStrategy::lights,
+                          .sanitize = options_.picture.sanitize,
+                          .threads = settings_.threads,
+                          .max_memory = memory_,
+                          .kept = kept};
+  return tyndall::build(std::move(scene), how);
+}
+
+/// What was rendered before need not be rendered again: an array of jobs can be submitted as often as you like.
+bool PictureRender::is_slice_there(const World& world) const {
+  std::error_code absent;
+  if (!options_.resume || !settings_.slice || !fs::exists(output_, absent)) return false;
+  try {
+    return holds_slice(read_image(output_), world, settings_);
+  } catch (const Error&) {
+    return false;  // damaged: it is rendered anew
+  }
+}
+
+/// At 1, 2, 4 ... samples.
+void PictureRender::look_at(const RenderJob& job) {
+  if (errors_) errors_->add(job);
+  if (denoiser_) denoiser_->preview(job, output_);
+}
+
+void PictureRender::resume(RenderJob& job) {
+  const bool found = checkpoint_.resume(job, settings_);
+  if (found && errors_) errors_->resume(job.samples());
+  if (options_.quiet) return;
+  if (found) log("{}: going on from {} samples a pixel\n", checkpoint_.path(), job.samples());
+  if (!found && options_.frames.empty()) log("{}: no such file; starting at the beginning\n", checkpoint_.path());
+}
+
+Rendering PictureRender::render_with(const World& world, const std::function<void(const Progress&)>& progress) {
+  RenderControl control{.progress = progress, .stop = &stop_requested()};
+  const bool previews = denoiser_ && denoiser_->previews();
+  if (errors_ || previews) control.checkpoint = [&](const RenderJob& job) { look_at(job); };
+  if (options_.resume) control.begin = [&](RenderJob& job) { resume(job); };
+  if (options_.keeps_checkpoints()) control.save = [&](const RenderJob& job) { checkpoint_.save(job); };
+  // --resume alone: at a stop
+  control.save_seconds = options_.checkpoint.value_or(std::numeric_limits<double>::infinity());
+  Rendering rendering = render(world, settings_, control);
+  if (errors_) errors_->finish(rendering);
+  return rendering;
+}
+
+/// A slice says how it was made, so that the command for others can be told; one of a picture that is not all there is none.
+void PictureRender::finish_slice(Rendering& rendering, const std::string& command_line) const {
+  if (rendering.report.unrendered > 0)
+    throw Error(Failure::incomplete, output_ + ": not written: the slice was stopped before every pixel had a sample");
+  rendering.image.attributes["tyndall/command"] = command_line;
+}
+
+/// A render that was stopped at its first sample stays as it is.
+std::optional<DenoiseReport> PictureRender::denoise_finished(Rendering& rendering) const {
+  if (rendering.report.samples > 1) return denoiser_->finish(rendering.image);
+  log("{}: is not denoised: it has one sample a pixel, and noise is told from two\n", output_);
+  return std::nullopt;
+}
+
+/// A render that is complete needs its checkpoint no longer than until the image is safe, and the room it takes least of all.
+void PictureRender::save(const Rendering& rendering) const {
+  std::function<void()> remove_checkpoint;
+  if (options_.keeps_checkpoints() && !rendering.report.stopped) remove_checkpoint = [&] { checkpoint_.remove(); };
+  save_image(rendering.image, output_, remove_checkpoint);
+  if (remove_checkpoint) remove_checkpoint();
+}
+
+void PictureRender::require_log_written() const {
+  if (errors_) errors_->require_written();
+}
+
+Summary PictureRender::run(const World& world, const std::string& command_line,
+                           const std::function<void(const Progress&)>& progress) {
+  if (reference_) reference_->require_fit(world, settings_, {settings_.seed});
+  if (reference_) errors_.emplace(std::move(*reference_), options_.error_log);
+  Rendering rendering = render_with(world, progress);
+  if (settings_.slice) finish_slice(rendering, command_line);
+  Summary summary;
+  summary.output = output_;
+  summary.render = rendering.report;
+  summary.width = rendering.image.width();
+  summary.height = rendering.image.height();
+  if (denoiser_) summary.denoised = denoise_finished(rendering);
+  Timer watch;
+  save(rendering);
+  summary.write_seconds = watch.lap();
+  return summary;
+}
+
+}  // namespace tyndall::cli
