@@ -11,6 +11,11 @@ void SequenceProgress::begin(int frame) {
   display_.go_on_with(fmt::format("frame {} ({} of {})", frame, begun_, frames_));
 }
 
+void SequenceProgress::skip() {
+  ++skipped_;
+  display_.finish();
+}
+
 /// Frames to come take as long as those that were rendered did on average, reading and building included.
 void SequenceProgress::show(const Progress& p) {
   const double this_frame = frame_.seconds() + p.remaining;

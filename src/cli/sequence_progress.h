@@ -15,7 +15,7 @@ class SequenceProgress {
   SequenceProgress(const std::string& kind, std::size_t frames) : display_(kind), frames_(frames) {}
 
   void begin(int frame);                ///< the one before, if any, has ended
-  void skip() { ++skipped_; }           ///< the frame that has begun takes no time
+  void skip();                          ///< the frame that has begun takes no time; the line is free for a message
   void show(const Progress& progress);  ///< of the frame that has begun
   void finish() { display_.finish(); }
 
