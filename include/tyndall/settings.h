@@ -37,8 +37,8 @@ enum class GuidingStrategy { automatic, off, media };
 /// with what stands for other programs' methods. Not with LightStrategy::exhaustive.
 enum class JointStrategy { automatic, off, points };
 /// Whether paths of neighbouring pixels share the light that they find beyond their first bounce, weighted by MIS: where a ray
-/// meets a diffuse surface after its first bounce or collides in a medium, what is scattered there is seen by up to 16 pixels
-/// of a block of 4 x 4, whose noise is then correlated. `automatic`: they do with MediaStrategy::product, and not
+/// meets a diffuse surface after its first bounce or collides in a medium, what is scattered there is seen by up to 64 pixels
+/// of a block of 8 x 8, whose noise is then correlated. `automatic`: they do with MediaStrategy::product, and not
 /// with what stands for other programs' methods, nor with AOV Replicate, which is there for filters. Never in scenes with
 /// alpha, whose surfaces let different rays through.
 enum class ReuseStrategy { automatic, off, pixels };

@@ -17,7 +17,7 @@ struct PixelPlace {
 /// Pixels of the frame in one cell of a grid that begins at its origin, whatever part of it is rendered.
 class PixelBlock {
  public:
-  static constexpr int kSide = 4;  ///< the nearer they are, the more of what one finds the others might have found
+  static constexpr int kSide = 8;  ///< more pixels find more, of which the nearest might have found most
 
   /// Of the cell that holds (x, y); its pixels that lie in `bounds`.
   PixelBlock(int x, int y, const PixelBounds& bounds) {

@@ -83,8 +83,8 @@ void Path::complete_offer() {
   GroupedLight::add(offer_->arrived, groups->own, groups->found);
 }
 
-void Path::take(Rgb light, Rgb factor, const Path& finder) {
-  add(light, 2);
+void Path::take(Rgb factor, const Path& finder) {
+  add(factor * finder.offer_->radiance, 2);
   if (context_.groups) GroupedLight::add(factor, finder.context_.groups->find, context_.groups->found);
 }
 

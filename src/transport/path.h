@@ -31,11 +31,12 @@ class Path {
   /// ends, or stands at a vertex that others may see as well. Its offer; nothing: it shares with nobody.
   PathOffer* run_until_offer();
   PathOffer& offer() { return *offer_; }
+  const PathOffer& offer() const { return *offer_; }
   /// The rest of a path whose offer has a find: the light that is scattered there. What others may count too counts only as it
   /// is handed out, by take().
   void complete_offer();
-  /// What of a find, its own or another's, the path counts: `light`, which is `factor` times the find's radiance.
-  void take(Rgb light, Rgb factor, const Path& finder);
+  /// What of a find, its own or another's, the path counts: `factor` times the find's radiance.
+  void take(Rgb factor, const Path& finder);
   /// What the ended path has found.
   PathRecord result();
 

@@ -19,6 +19,10 @@ constexpr float kLeastPart = 0.05f;
 constexpr float kSpacing = 0.5f, kInverseSpacing = 0.25f;
 /// Reads of a grid for the chance of passing it.
 constexpr int kReads = 16;
+/// Finds for each path, at most on average.
+constexpr double kMostFinds = 16;
+/// Paths, with the finder, that are asked whether they might have made a find.
+constexpr std::size_t kProbes = 8;
 
 /// From the first vertex of a path to a find.
 struct Connection {
@@ -169,37 +173,90 @@ class Shares {
   bool shared_ = false;
 };
 
-}  // namespace
+/// What a path makes of the light of its own find.
+Rgb reached(const PathOffer& find) { return find.arrived * find.scattered; }
 
 /// L(x1) = sum over finds x2 of f(x1, x2) L(x2) / sum_k p_k(x2): the balance heuristic's weights p_j / sum p_k over p_j. All
-/// paths count as finders, whether they found anything or not.
-void share_suffixes(const Between& between, std::span<Path* const> paths) {
+/// of `paths` count as finders, whether they found anything or not. `scale`: of the find's light.
+void share_find(const Between& between, std::span<Path* const> paths, std::size_t finder, float scale) {
+  const Path& path = *paths[finder];
+  const Rgb own = reached(path.offer()) * scale;
+  const Shares shares(between, paths, finder);
+  if (!shares.shared()) {
+    paths[finder]->take(own, path);
+    return;
+  }
+  const Rgb others = shares.flight() * (scale / shares.sum());
+  for (std::size_t k = 0; k < paths.size(); ++k) {
+    const Connection& to = shares[k];
+    if (to.pdf > 0) paths[k]->take(k == finder ? own * (to.pdf / shares.sum()) : paths[k]->offer().beta * to.f * others, path);
+  }
+}
+
+/// What the find brings its own path, which is of the order of what it brings others. Zero: there is nothing to share. What is
+/// not a number stays with its path, where it is counted once.
+float worth_of(Path& path) {
+  const PathOffer& find = path.offer();
+  if (!find.at || is_black(find.radiance)) return 0;
+  const Rgb own = reached(find) * find.radiance;
+  if (is_finite(own)) return mean(own);
+  path.take(reached(find), path);
+  return 0;
+}
+
+/// Roulette by strata of one number: how many survive hardly varies.
+class Roulette {
+ public:
+  explicit Roulette(double u) : next_(u) {}
+  bool survives(double chance) {
+    passed_ += chance;
+    if (!(passed_ > next_)) return false;
+    next_ += 1;
+    return true;
+  }
+
+ private:
+  double passed_ = 0, next_;
+};
+
+/// How many of `paths`, about, might have made the find: itself, and of the others as many as of some, evenly spread.
+float finders_of(std::span<Path* const> paths, std::size_t finder) {
+  const PathOffer& find = paths[finder]->offer();
+  const float least = kLeastPart * connect(find, find).pdf;
+  if (!(least > 0)) return 1;
+  const std::size_t n = paths.size(), step = (n + kProbes - 1) / kProbes;
+  int probes = 0, might = 0;
+  for (std::size_t i = step; i < n; i += step, ++probes) might += connect(paths[(finder + i) % n]->offer(), find).pdf >= least;
+  return might > 0 ? 1 + static_cast<float>(might) / static_cast<float>(probes) * static_cast<float>(n - 1) : 1;
+}
+
+/// A find of worth c that a of n paths share costs a connections, and the variance of leaving it to chance is spread over as
+/// many: c^2 / a is least for a given cost where chances go with c / a. With n c / (a sum c) times kMostFinds each path gets
+/// that many, at most; where few finds have nearly all, as where rays pass a flame by chance, fewer.
+void share_among(const Between& between, std::span<Path* const> paths) {
+  std::array<float, kMostSharing> worth;
+  double total = 0;
+  for (std::size_t j = 0; j < paths.size(); ++j) total += worth[j] = worth_of(*paths[j]);
+  if (!(total > 0)) return;
+  const auto* const first = std::find_if(worth.begin(), worth.end(), [](float w) { return w > 0; });
+  Roulette roulette(paths[static_cast<std::size_t>(first - worth.begin())]->offer().rng.uniform() + 0x1p-25);
   for (std::size_t j = 0; j < paths.size(); ++j) {
-    const PathOffer& find = paths[j]->offer();
-    if (!find.at || is_black(find.radiance)) continue;
-    const Rgb reached = find.arrived * find.scattered, own = reached * find.radiance;
-    if (!is_finite(find.radiance)) {
-      paths[j]->take(own, reached, *paths[j]);  // what is not a number stays with its path, and is counted once
-      continue;
-    }
-    const Shares shares(between, paths, j);
-    if (!shares.shared()) {
-      paths[j]->take(own, reached, *paths[j]);
-      continue;
-    }
-    const Rgb others = shares.flight() * find.radiance * (1 / shares.sum());
-    const Rgb by_flight = shares.flight() * (1 / shares.sum());
-    for (std::size_t k = 0; k < paths.size(); ++k) {
-      const Connection& to = shares[k];
-      if (!(to.pdf > 0)) continue;
-      const float part = to.pdf / shares.sum();
-      const Rgb connected = paths[k]->offer().beta * to.f;
-      if (k == j) {
-        paths[k]->take(own * part, reached * part, *paths[j]);
-      } else {
-        paths[k]->take(connected * others, connected * by_flight, *paths[j]);
-      }
-    }
+    double chance = std::min(1.0, kMostFinds * worth[j] / total);
+    if (worth[j] > 0 && chance < 1) chance = std::min(1.0, chance * static_cast<double>(paths.size()) / finders_of(paths, j));
+    if (worth[j] > 0 && roulette.survives(chance)) share_find(between, paths, j, static_cast<float>(1 / chance));
+  }
+}
+
+}  // namespace
+
+/// Paths whose first vertices are of one kind: what surfaces find and what collisions find is found so differently that it is
+/// not worth connecting.
+void share_suffixes(const Between& between, std::span<Path* const> paths) {
+  for (const bool on_surface : {true, false}) {
+    std::array<Path*, kMostSharing> alike;
+    const auto end = std::copy_if(paths.begin(), paths.end(), alike.begin(),
+                                  [&](Path* path) { return path->offer().first.on_surface() == on_surface; });
+    share_among(between, {alike.begin(), end});
   }
 }
 

@@ -22,12 +22,12 @@ std::vector<std::pair<int, int>> places(const PixelBlock& block) {
 TEST_CASE("a block holds the pixels of its cell that lie within the bounds, each once") {
   const PixelBlock block(19, 10, {0, 0, 18, 40});
   const auto all = places(block);
-  CHECK(all.size() == 2 * 4);
+  CHECK(all.size() == 2 * 8);
   CHECK(std::set<std::pair<int, int>>(all.begin(), all.end()).size() == all.size());
   for (const auto& [x, y] : all) {
     CHECK((x == 16 || x == 17));
     CHECK(y >= 8);
-    CHECK(y < 12);
+    CHECK(y < 16);
   }
 }
 
