@@ -4,9 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "tyndall/error.h"
 #include "tyndall/lights.h"
-#include "tyndall/settings.h"
 
 namespace tyndall {
 namespace {
@@ -44,32 +42,7 @@ std::string sum_channel(std::size_t number, std::size_t part) {
   return "Sum." + std::to_string(number) + kParts[part];
 }
 
-std::string name_of_aov(Aov aov) { return std::string(aov_names()[static_cast<std::size_t>(aov)]); }
-
 }  // namespace
-
-std::vector<Aov> parse_aovs(const std::vector<std::string>& names) {
-  const auto known = aov_names();
-  std::vector<Aov> aovs;
-  for (const std::string& name : names) {
-    const auto it = std::find(known.begin(), known.end(), name);
-    if (it == known.end()) {
-      std::string list;
-      for (const auto k : known) list += (list.empty() ? "" : ", ") + std::string(k);
-      throw Error(Failure::usage, "AOV \"" + name + "\" is not known; choose from " + list);
-    }
-    aovs.push_back(static_cast<Aov>(it - known.begin()));
-  }
-  std::sort(aovs.begin(), aovs.end());
-  aovs.erase(std::unique(aovs.begin(), aovs.end()), aovs.end());
-  return aovs;
-}
-
-std::string aov_list(const std::vector<std::string>& names) {
-  std::string list;
-  for (const Aov aov : parse_aovs(names)) list += (list.empty() ? "" : ",") + name_of_aov(aov);
-  return list;
-}
 
 FilmBuffer::FilmBuffer(const Film& film, PixelBounds crop, Extras extras)
     : film_(film),

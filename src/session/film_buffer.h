@@ -6,34 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "session/aov.h"
 #include "session/film_sums.h"
 #include "transport/path_record.h"
 #include "tyndall/image.h"
 #include "tyndall/scene.h"
 
 namespace tyndall {
-
-enum class Aov {
-  albedo,
-  n,
-  p,
-  z,
-  z_volume,
-  variance,
-  sample_count,
-  transmittance,
-  surface_direct,
-  surface_indirect,
-  volume_direct,
-  volume_indirect,
-  emission,
-  replicate,
-};
-
-/// AOVs by name, once each, in the order of aov_names(). Throws Error (usage) that lists the names for an unknown one.
-std::vector<Aov> parse_aovs(const std::vector<std::string>& names);
-/// And back: "Albedo,Z", whatever the order of `names`.
-std::string aov_list(const std::vector<std::string>& names);
 
 /// Sums over the pixels of a crop. A pixel is written by one thread at a time; neither threads nor how samples are grouped into
 /// passes, or into jobs, change a sum.
