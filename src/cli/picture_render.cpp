@@ -38,15 +38,13 @@ std::size_t memory_for_render(const RenderOptions& options, const Scene& scene) 
 
 template <typename T>
 bool says(const Image& header, const std::string& attribute, const T& value) {
-  const auto found = header.attributes.find(attribute);
-  const T* text = found == header.attributes.end() ? nullptr : std::get_if<T>(&found->second);
-  return text && *text == value;
+  const T* said = header.attribute<T>(attribute);
+  return said && *said == value;
 }
 
 /// What a setting leaves open stands in the header as the render chose it.
 bool says_options(const Image& header, const RenderSettings& settings) {
-  const auto found = header.attributes.find("tyndall/options");
-  const auto* text = found == header.attributes.end() ? nullptr : std::get_if<std::string>(&found->second);
+  const auto* text = header.attribute<std::string>("tyndall/options");
   if (!text) return false;
   std::istringstream asked(options_text(settings)), rendered(*text);
   std::string word, other;
