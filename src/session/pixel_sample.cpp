@@ -17,8 +17,7 @@ PixelSample::PixelSample(const SampleContext& sample, const SampleKey& key, Pixe
       sampler_(key),
       offset_(sample.world.built.filter.sample(sampler_.next_2d())),
       on_film_(center_of(key) + offset_.p),
-      film_ray_(film_.points, on_film_, offset_.pdf),
-      emitter_ray_(film_.emitters, offset_.pdf) {
+      film_ray_(film_.points, on_film_, offset_.pdf) {
   const Vec2 lens = sampler_.next_2d();
   LightContext context{world_.built, sample.selector, sample.settings, sampler_, counters};
   if (!world_.built.light_groups.empty()) context.groups = &groups_.emplace(world_.built.light_groups);
@@ -26,8 +25,8 @@ PixelSample::PixelSample(const SampleContext& sample, const SampleKey& key, Pixe
     context.joint = &film_ray_;
     of_points_ = film_light(context, film_.points, center_of(key), sampler_.fork());
   }
-  if (!film_.emitters.own_only()) {
-    context.emitters = &emitter_ray_;
+  if (!film_.emitters.empty()) {
+    context.emitters = &film_.emitters;
     of_emitters_ = visible_emitters(context, film_.emitters, center_of(key), sampler_.fork());
   }
   if (groups_) groups_->settle(Rgb(1 / offset_.weight), groups_->found);

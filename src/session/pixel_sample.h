@@ -24,7 +24,7 @@ struct SampleContext {
 /// What is searched for on the film for a pixel's samples; nothing outside of the pixels that are rendered.
 struct PixelFilm {
   PixelPoints points;
-  EmitterView emitters;
+  PixelEmitters emitters;
 };
 
 /// A value for one sample: make it, let its path end, take its record.
@@ -54,7 +54,6 @@ class PixelSample {
   FilterSampler::Offset offset_;
   Vec2 on_film_;
   FilmRay film_ray_;
-  EmitterRay emitter_ray_;
   Rgb of_points_, of_emitters_;
   float weight_of_ray_ = 1;
   std::optional<GroupedLight> groups_;

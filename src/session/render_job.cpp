@@ -147,15 +147,14 @@ class RenderJob::Impl {
     const FilmSearch search{world_.built, settings_, film_.crop(), pool_, alive};
     alive();
     film_points_ = film_points(search);
-    film_emitters_ = film_emitters(search);
-    film_edges_ = film_edges(search, film_emitters_);
+    film_emitters_ = FilmEmitters(search);
     searched_ = true;
     preparing_seconds_ = search_timer.seconds();
   }
 
   PixelFilm film_of(PixelPlace p) const {
     if (!film_.crop().contains(p.x, p.y)) return PixelFilm();
-    return {film_points_.of(p.x, p.y), {film_emitters_.of(p.x, p.y), film_edges_.at(p.x, p.y)}};
+    return {film_points_.of(p.x, p.y), film_emitters_.of(p.x, p.y)};
   }
 
   /// False: the pass was given up.
@@ -270,7 +269,6 @@ class RenderJob::Impl {
   double preparing_seconds_ = 0;
   FilmPoints film_points_;
   FilmEmitters film_emitters_;
-  FilmEdges film_edges_;
   int samples_ = 0;
   double seconds_ = 0;
   std::mutex mutex_;

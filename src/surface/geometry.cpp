@@ -100,6 +100,16 @@ Crossings Geometry::trace_all(const Ray& ray, float t_min, float t_max) const {
 
 SurfaceTangents Geometry::tangents(const SurfaceHit& hit) const { return surface_tangents(*impl_, hit); }
 
+ShapeOutline Geometry::outline(std::uint32_t shape, std::uint32_t primitive, const ShapeView& view) const {
+  const std::uint32_t instance = impl_->placed[shape].instance;
+  if (instance == kNone) return impl_->world().parts[shape].outline(primitive, view);
+  const PlacedObject& object = impl_->objects[instance];
+  const ShapeView inner{view.along ? object.map.inverse_vector(view.from) : object.map.inverse_point(view.from), view.along};
+  ShapeOutline points = object.set->parts[shape - object.first_placed].outline(primitive, inner);
+  for (Vec3d& p : points) p = object.map.point(p);
+  return points;
+}
+
 Vec3 Geometry::offset_origin(const SurfaceHit& hit, Vec3 direction) const {
   const float side = dot(hit.ng, direction) < 0 ? -1.0f : 1.0f;
   const Vec3 offset = hit.ng * (side * hit.position_error);

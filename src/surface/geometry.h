@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "math/small_vector.h"
+#include "surface/shape_root.h"
 #include "tyndall/scene.h"
 
 namespace tyndall {
@@ -100,6 +101,9 @@ class Geometry {
 
   /// Worked out when asked for: few surfaces need it.
   SurfaceTangents tangents(const SurfaceHit& hit) const;
+
+  /// Of a primitive of a placed shape; empty where it is not known.
+  ShapeOutline outline(std::uint32_t shape, std::uint32_t primitive, const ShapeView& view) const;
 
   /// Origin for a ray that leaves the hit along `direction` and does not meet the same surface again at t > 0.
   Vec3 offset_origin(const SurfaceHit& hit, Vec3 direction) const;

@@ -40,6 +40,7 @@ struct Part {
   ShapeSurface surface(std::uint32_t primitive, double u, double v) const;
   int orientation(std::uint32_t primitive) const;  ///< of ng against the roots' facing
   ShapeTangents tangents(std::uint32_t primitive, double u, double v) const;
+  ShapeOutline outline(std::uint32_t primitive, const ShapeView& view) const;
   Enclosure enclosure(Vec3d center) const;  ///< by ng
 };
 

@@ -49,6 +49,16 @@ ShapeTangents Part::tangents(std::uint32_t primitive, double u, double v) const 
   return is_patch ? patch_tangents(*mesh, primitive, u, v) : triangle_tangents(*mesh, primitive, u, v);
 }
 
+/// A patch lies in the hull of its corners.
+ShapeOutline Part::outline(std::uint32_t primitive, const ShapeView& view) const {
+  const auto* mesh = std::get_if<PlacedMesh>(&form);
+  if (!mesh) return std::get<PlacedQuadric>(form).outline(view);
+  ShapeOutline points;
+  const std::uint32_t corners = is_patch ? 4 : 3;
+  for (std::uint32_t i = 0; i < corners; ++i) points.push_back(mesh->position((*mesh->indices)[corners * primitive + i]));
+  return points;
+}
+
 Enclosure Part::enclosure(Vec3d center) const {
   const auto* mesh = std::get_if<PlacedMesh>(&form);
   if (!mesh) return std::get<PlacedQuadric>(form).enclosure(center);

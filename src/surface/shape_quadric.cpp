@@ -14,6 +14,18 @@ double angle_of(double y, double x) {
 
 double sweep(float degrees) { return std::clamp(static_cast<double>(degrees), 0.0, 360.0) * (std::numbers::pi / 180); }
 
+/// The corners of a regular polygon around a circle.
+template <std::size_t N>
+std::array<std::array<double, 2>, N> polygon_around(double radius) {
+  std::array<std::array<double, 2>, N> corners;
+  const double r = radius / std::cos(std::numbers::pi / N);
+  for (std::size_t i = 0; i < N; ++i) {
+    const double phi = kTwoPi * static_cast<double>(i) / N;
+    corners[i] = {r * std::cos(phi), r * std::sin(phi)};
+  }
+  return corners;
+}
+
 void require(bool good, const Shape& shape, const char* what) {
   if (!good) throw Error(shape.where, what);
 }
@@ -153,6 +165,32 @@ ShapeTangents PlacedQuadric::tangents(double phi, double v) const {
 Bounds3 PlacedQuadric::bounds() const {
   const float r = static_cast<float>(radius_);
   return to_space_.bounds({{-r, -r, static_cast<float>(z_min_)}, {r, r, static_cast<float>(z_max_)}});
+}
+
+/// The corners of a polygon around the circle in which a cone from the eye touches the sphere.
+ShapeOutline PlacedQuadric::outline_of_sphere(const ShapeView& local) const {
+  const double distance = length(local.from);
+  if (!local.along && !(distance > radius_)) return {};
+  const double sine = local.along ? 0 : radius_ / distance;
+  const Vec3d axis = normalize(local.from), center = axis * (radius_ * sine);
+  const Vec3d across = normalize(std::abs(axis.z) < 0.5 ? Vec3d(axis.y, -axis.x, 0) : Vec3d(0, axis.z, -axis.y));
+  const Vec3d up = cross(axis, across);
+  ShapeOutline points;
+  for (const auto [x, y] : polygon_around<12>(radius_ * std::sqrt((1 - sine) * (1 + sine))))
+    points.push_back(map_.point(center + across * x + up * y));
+  return points;
+}
+
+ShapeOutline PlacedQuadric::outline(const ShapeView& view) const {
+  if (kind_ == Kind::sphere) {
+    return outline_of_sphere({view.along ? map_.inverse_vector(view.from) : map_.inverse_point(view.from), view.along});
+  }
+  ShapeOutline points;
+  for (const auto [x, y] : polygon_around<8>(radius_)) {
+    points.push_back(map_.point({x, y, z_min_}));
+    if (kind_ == Kind::cylinder) points.push_back(map_.point({x, y, z_max_}));
+  }
+  return points;
 }
 
 Enclosure PlacedQuadric::enclosure(Vec3d center) const {

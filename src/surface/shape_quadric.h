@@ -19,6 +19,7 @@ class PlacedQuadric {
   ShapeSurface surface(double u, double v) const;
   ShapeTangents tangents(double u, double v) const;
   Bounds3 bounds() const;
+  ShapeOutline outline(const ShapeView& view) const;  ///< of the whole quadric; empty from inside of a sphere
   Enclosure enclosure(Vec3d center) const;            ///< of a tessellation, by ng
   int orientation() const { return flip_ ? -1 : 1; }  ///< of ng against cross(dpdu, dpdv)
 
@@ -26,6 +27,7 @@ class PlacedQuadric {
   enum class Kind { sphere, disk, cylinder };
 
   bool keeps(double phi, double z, double radius) const;
+  ShapeOutline outline_of_sphere(const ShapeView& local) const;
   void push_root(ShapeRoots& roots, const ShapeRay& local, double t, int facing) const;
 
   Kind kind_;

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "math/small_vector.h"
 #include "surface/shape_map.h"
 
 namespace tyndall {
@@ -27,6 +28,14 @@ struct ShapeRoots {
 struct ShapeRay {
   Vec3d o, d;
 };
+
+/// From where a shape is seen: from a point, or along a direction from infinity.
+struct ShapeView {
+  Vec3d from;  ///< the point; or the direction toward the shape
+  bool along = false;
+};
+/// Points whose convex hull, as it is seen, holds the image of a primitive and is little larger.
+using ShapeOutline = SmallVector<Vec3d, 16>;
 
 /// The surface at given parameters, in the space the shape was placed in.
 struct ShapeSurface {

@@ -61,12 +61,6 @@ Emitters find_emitters(const Scene& scene, const Geometry& geometry, BuildSummar
   return emitters;
 }
 
-std::size_t primitives_of(const Shape& shape) {
-  if (const auto* mesh = std::get_if<TriangleMesh>(&shape.kind)) return mesh->indices.size() / 3;
-  if (const auto* mesh = std::get_if<BilinearMesh>(&shape.kind)) return mesh->indices.size() / 4;
-  return 1;
-}
-
 /// Lights by id: of the scene, of shapes, of media, of shapes that instances share.
 LightGroups light_groups_of(const BuiltWorld& world, const std::vector<EmitterShape>& emitters) {
   LightGroupsBuilder builder(world.scene);
@@ -101,6 +95,22 @@ Bounds3 scene_bounds(const Geometry& geometry, const std::vector<ParticipatingMe
 
 }  // namespace
 
+std::size_t primitives_of(const Shape& shape) {
+  if (const auto* mesh = std::get_if<TriangleMesh>(&shape.kind)) return mesh->indices.size() / 3;
+  if (const auto* mesh = std::get_if<BilinearMesh>(&shape.kind)) return mesh->indices.size() / 4;
+  return 1;
+}
+
+/// It is known at the center; what lies between that and the origin is crossed first.
+MediaState BuiltWorld::media_at_start(Vec3 origin) const {
+  MediaState state = camera_media;
+  if (camera.is_pinhole() || geometry.groups().empty()) return state;
+  const Vec3 step = origin - camera.center();
+  if (length_squared(step) == 0) return state;
+  for (const Crossing& c : geometry.trace_all({camera.center(), step}, 0, 1)) state.cross(c.group, c.sign);
+  return state;
+}
+
 BuiltWorld::BuiltWorld(Scene unit_scene, const BuildSettings& settings, std::size_t volume_memory, BuildSummary& summary)
     : scene(std::move(unit_scene)),
       textures(build_textures(scene.textures, settings.kept)),
@@ -110,7 +120,8 @@ BuiltWorld::BuiltWorld(Scene unit_scene, const BuildSettings& settings, std::siz
       volume_lights(settings.volume_lights ? VolumeLights(media, geometry.groups(), scene.camera.medium) : VolumeLights()),
       has_volume_lights(settings.volume_lights),
       camera(scene.camera, scene.film),
-      filter(scene.filter) {
+      filter(scene.filter),
+      filter_cells(filter) {
   const auto all_opaque = [](const std::vector<Shape>& shapes) {
     return std::none_of(shapes.begin(), shapes.end(), [](const Shape& s) { return s.alpha.has_value(); });
   };

@@ -9,6 +9,7 @@
 #include "texture/textures.h"
 #include "transport/bright_media.h"
 #include "transport/camera_ray.h"
+#include "transport/filter_cells.h"
 #include "transport/light_distances.h"
 #include "transport/light_groups.h"
 #include "transport/media/media_state.h"
@@ -19,6 +20,9 @@
 #include "volume/medium.h"
 
 namespace tyndall {
+
+/// Triangles or patches of a mesh; 1 of other shapes.
+std::size_t primitives_of(const Shape& shape);
 
 /// Everything that a path may meet, in the units of the scene it was made from.
 struct BuiltWorld {
@@ -41,9 +45,12 @@ struct BuiltWorld {
   std::vector<LightId> first_light;  ///< by placed shape; kNone where it does not emit
   CameraRays camera;
   FilterSampler filter;
+  FilterCells filter_cells;
   MediaState camera_media;  ///< what holds the camera's center
 
   SpanWalk::Context media_context() const { return {geometry.groups(), media}; }
+  /// Membership where a ray of the camera begins, which is not the center of a lens or screen.
+  MediaState media_at_start(Vec3 origin) const;
   /// No medium anywhere: nothing of src/volume needs to run.
   bool has_media() const { return !media.empty(); }
   bool media_emit;  ///< some medium does

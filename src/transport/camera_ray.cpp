@@ -92,16 +92,39 @@ Ray CameraRays::ray(Vec2 p, Vec2 lens) const {
   return {to_world_.point(o), normalize(to_world_.vector(d))};
 }
 
-std::optional<Vec2> CameraRays::film_position(Vec3 p) const {
+std::optional<Point2> CameraRays::image_of(Vec3d p) const {
   // In double, and from where rays start: far from the origin the last bit of a float may be more than a pixel.
-  const Vec3 c = center();
-  const std::array<double, 3> d{double{p.x} - c.x, double{p.y} - c.y, double{p.z} - c.z};
+  const Vec3d d = p - Vec3d(center());
   const Transform::Matrix m = to_world_.inverse().matrix();
-  std::array<double, 3> local{};
-  for (int r = 0; r < 3; ++r) local[r] = m[r][0] * d[0] + m[r][1] * d[1] + m[r][2] * d[2];
-  if (!(local[2] > 0)) return std::nullopt;
-  const double x = (local[0] / local[2] - x0_) / (x1_ - x0_), y = (local[1] / local[2] - y1_) / (y0_ - y1_);
-  return Vec2{static_cast<float>(x * width_), static_cast<float>(y * height_)};
+  const auto row = [&](int r) { return m[r][0] * d.x + m[r][1] * d.y + m[r][2] * d.z; };
+  const double z = row(2), depth = kind_ == Camera::Kind::orthographic ? 1 : z;
+  if (!(z > 0)) return std::nullopt;
+  const double x = (row(0) / depth - x0_) / (x1_ - x0_), y = (row(1) / depth - y1_) / (y0_ - y1_);
+  return Point2{x * width_, y * height_};
+}
+
+Ray CameraRays::ray_through(Point2 p) const {
+  const double x = x0_ + (double{x1_} - x0_) * (p.x / width_), y = y1_ + (double{y0_} - y1_) * (p.y / height_);
+  const bool orthographic = kind_ == Camera::Kind::orthographic;
+  const Vec3d on_screen = orthographic ? Vec3d{x, y, 0} : Vec3d{}, along = orthographic ? Vec3d{0, 0, 1} : Vec3d{x, y, 1};
+  const Transform::Matrix& m = to_world_.matrix();
+  const auto row = [&](int r, Vec3d v) { return m[r][0] * v.x + m[r][1] * v.y + m[r][2] * v.z; };
+  const Vec3d o{row(0, on_screen) + m[0][3], row(1, on_screen) + m[1][3], row(2, on_screen) + m[2][3]};
+  return {to_vec3(o), to_vec3(normalize(Vec3d{row(0, along), row(1, along), row(2, along)}))};
+}
+
+ShapeView CameraRays::view() const {
+  const bool along = kind_ == Camera::Kind::orthographic;
+  return {Vec3d(along ? to_world_.vector({0, 0, 1}) : center()), along};
+}
+
+Vec3 CameraRays::eye_of(Vec3 p) const {
+  return kind_ == Camera::Kind::orthographic ? p - axis_ * std::max(depth(p), 0.0f) : center();
+}
+
+std::optional<Vec2> CameraRays::film_position(Vec3 p) const {
+  const auto at = image_of(Vec3d(p));
+  return at ? std::optional(Vec2{static_cast<float>(at->x), static_cast<float>(at->y)}) : std::nullopt;
 }
 
 /// Steps of a pixel at the point `to_p` from the center, without regard to the plane there.
@@ -133,16 +156,14 @@ std::array<Vec3, 2> CameraRays::pixel_steps(Vec3 p, Vec3 n) const {
   return steps;
 }
 
-float CameraRays::solid_angle(Vec2 p) const {
-  const float x = x0_ + (x1_ - x0_) * (p.x / width_), y = y1_ + (y0_ - y1_) * (p.y / height_);
-  const float d2 = x * x + y * y + 1;
-  return std::abs((x1_ - x0_) * (y1_ - y0_)) / (width_ * height_ * d2 * std::sqrt(d2));
-}
-
 float CameraRays::film_rounding() const {
   constexpr float kSomeBits = 0x1p-20f;
-  const float pixels_a_radian = std::max(width_ / std::abs(x1_ - x0_), height_ / std::abs(y1_ - y0_));
-  return kSomeBits * std::max({width_, height_, pixels_a_radian});
+  const float pixels_a_unit = std::max(width_ / std::abs(x1_ - x0_), height_ / std::abs(y1_ - y0_));
+  if (kind_ != Camera::Kind::orthographic) return kSomeBits * std::max({width_, height_, pixels_a_unit});
+  // Rays start on the screen, whose places are rounded in the world.
+  const Vec3 c = center(), step = to_world_.vector({1 / pixels_a_unit, 0, 0});
+  const float size = std::max({std::abs(c.x), std::abs(c.y), std::abs(c.z)});
+  return kSomeBits * (std::max(width_, height_) + size / length(step));
 }
 
 std::array<float, 16> CameraRays::world_to_camera() const { return to_floats(to_world_.inverse().matrix()); }

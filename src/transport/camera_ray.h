@@ -5,6 +5,8 @@
 #include <memory>
 #include <optional>
 
+#include "math/polygon.h"
+#include "surface/shape_root.h"
 #include "transport/lens_system.h"
 
 namespace tyndall {
@@ -25,7 +27,7 @@ class CameraRays {
   std::optional<Sample> sample(Vec2 p, Vec2 lens) const;
   /// World position all rays of a pinhole share; the middle of the lens or of the screen otherwise.
   Vec3 center() const { return to_world_.point({0, 0, 0}); }
-  /// Whether every ray starts at center() and goes through a plane: what film_position, solid_angle and film_rounding are for.
+  /// Whether every ray starts at center() and goes through a plane.
   bool is_pinhole() const { return kind_ == Camera::Kind::perspective && lens_radius_ == 0; }
   /// Whether it sees all around center().
   bool is_spherical() const {
@@ -38,11 +40,19 @@ class CameraRays {
   /// down; as the camera would see it through its middle where it does not see it. Of a spherical camera, for a step of one
   /// mean pixel in two directions across.
   std::array<Vec3, 2> pixel_steps(Vec3 p, Vec3 n) const;
-  /// Where on the film (pixels of the full frame) a pinhole sees world point `p`; nothing for what is behind it.
+  /// Whether every point before it is seen at one place of the film: a pinhole, or without perspective, and no lens.
+  bool is_sharp() const { return has_projection() && lens_radius_ == 0; }
+  /// That place (pixels of the full frame) of a camera that is_sharp(); nothing for what is not before it.
+  std::optional<Point2> image_of(Vec3d p) const;
+  /// Its ray through a film position, exact but for the rounding of the ray.
+  Ray ray_through(Point2 p) const;
+  /// From where it sees what it sees; from where it sees `p`.
+  ShapeView view() const;
+  Vec3 eye_of(Vec3 p) const;
+  /// The same of a pinhole.
   std::optional<Vec2> film_position(Vec3 p) const;
-  /// Of the film at `p`, as a pinhole sees it whose transform keeps angles: sr per pixel^2.
-  float solid_angle(Vec2 p) const;
-  /// Pixels below which film positions and the rays through them do not agree, for all the rounding.
+  /// Pixels below which film positions and the rays through them do not agree, for all the rounding; of a camera with a
+  /// projection.
   float film_rounding() const;
   /// Distance of world point `p` along the viewing axis; of a spherical camera, which has none, from its center.
   float depth(Vec3 p) const { return is_spherical() ? length(p - center()) : dot(p - center(), axis_); }

@@ -1,62 +1,61 @@
-/// Small emissive surfaces, by their footprint on the film.
+/// Emissive surfaces, by the pixels whose filters see a part of them.
 ///
-/// An emitter smaller than a pixel is hit by few of the pixel's samples, and brightly: where it is directly visible that is
-/// most of the noise.
+/// Where an emitter ends within a pixel one of the filter's samples hits it and the next does not: in a picture of bright
+/// emitters that is most of the noise. Such a pixel therefore draws film positions on its emitters' images instead
+/// (visible_emitters.h).
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <vector>
 
-#include "light/lights.h"
-#include "transport/pixel_lights.h"
+#include "math/polygon.h"
+#include "transport/film_search.h"
 #include "tyndall/image.h"
 
 namespace tyndall {
 
+/// A primitive of an emissive shape.
 struct FilmEmitter {
-  LightId light = 0;
-  float brightness = 0;
-};
-/// The surfaces that may be aimed at for one pixel.
-using PixelEmitters = PixelLights<FilmEmitter>;
+  std::uint32_t shape, primitive;  ///< of Geometry::placed()
+  float share;                     ///< probability that its pixel draws it
 
-/// All of them, by pixel.
+  LightId light(const BuiltWorld& world) const { return world.first_light[shape] + primitive; }
+};
+
+/// A convex polygon on the film (pixels of the full frame) that holds the image of a primitive, and is little larger. Nothing
+/// where it is not all before the camera, or the camera does not see it sharply.
+std::optional<ConvexPolygon> image_of(const BuiltWorld& world, std::uint32_t shape, std::uint32_t primitive);
+
+/// The emitters that a pixel draws: all of the directly visible emission of these, and of no other, is found that way.
+struct PixelEmitters {
+  std::span<const FilmEmitter> emitters;  ///< shares add up to 1
+  int positions = 0;                      ///< film positions a sample
+
+  bool empty() const { return emitters.empty(); }
+  bool hold(const BuiltWorld& world, LightId light) const;
+  /// One by its share; `u` in [0, 1) is made anew of what is left of it. Not when empty.
+  const FilmEmitter& draw(float& u) const;
+};
+
 class FilmEmitters {
  public:
   /// Pixels. Wider filters hit emitters often enough, and would list each hundreds of times.
   static constexpr float kWidestFilter = 4;
-  /// The footprint of an emissive primitive, as a circle that encloses nearly all of it.
-  struct Spot {
-    LightId light = 0;
-    Vec2 at;               ///< pixels of the full frame
-    float radius = 0;      ///< pixels
-    float brightness = 0;  ///< of the image as a whole, in any unit
-  };
-  /// Which footprints are worth aiming at.
-  struct View {
-    PixelBounds pixels;
-    Vec2 filter_radius;
-    /// Whether a pixel's filter may cover some of it, and it is so small that looks at pixel centers may miss it.
-    bool wants(const Spot& spot) const;
-    /// It is even missed by most samples.
-    bool aims_at(const Spot& spot) const;
-  };
+  /// In the picture. More would take seconds to process, and are triangles of larger things rather than bulbs.
+  static constexpr std::size_t kMostSeen = 1'000'000;
 
   FilmEmitters() = default;
-  /// Pixels whose filters the footprints would fill together have no aims: their samples hit them anyhow.
-  FilmEmitters(const View& view, const std::vector<Spot>& spots);
+  /// Of the pixels that are rendered: none where settings or the camera rule it out, or no emitter ends in any.
+  explicit FilmEmitters(const FilmSearch& search);
   PixelEmitters of(int x, int y) const;
-  /// What a pixel sees at which it does not aim: nothing; some that would fill it together; some too large.
-  enum class Unaimed : char { none, crowd, large };
-  Unaimed unaimed(int x, int y) const { return unaimed_.empty() ? Unaimed::none : unaimed_[pixels_.index(x, y)]; }
 
  private:
-  void add_row(const View& view, int y, const std::vector<Spot>& spots, const std::vector<std::uint32_t>& seen);
-
   PixelBounds pixels_;
-  std::vector<std::uint32_t> begin_;  ///< of each pixel's lights, and the end of the last's; empty without any
-  std::vector<FilmEmitter> lights_;
-  std::vector<Unaimed> unaimed_;  ///< likewise
+  std::vector<std::uint32_t> begin_;     ///< of each pixel's emitters, and the end of the last's; empty without any
+  std::vector<std::uint8_t> positions_;  ///< by pixel, likewise
+  std::vector<FilmEmitter> emitters_;
 };
 
 }  // namespace tyndall

@@ -8,7 +8,7 @@
 namespace tyndall {
 
 class JointRay;
-class EmitterRay;
+struct PixelEmitters;
 class GroupedLight;
 
 /// What light estimation needs of the render at large.
@@ -21,8 +21,8 @@ struct LightContext {
   int bounce = 0;  ///< bounces of the path before this vertex
   /// The ray to it, where lights were also sampled jointly (joint_ray.h).
   const JointRay* joint = nullptr;
-  /// The camera's ray, where emissive surfaces were also sampled otherwise (visible_emitters.h).
-  const EmitterRay* emitters = nullptr;
+  /// Emitters whose directly visible emission is found otherwise (visible_emitters.h).
+  const PixelEmitters* emitters = nullptr;
   /// Where the scene has light groups (grouped_light.h).
   GroupedLight* groups = nullptr;
 };

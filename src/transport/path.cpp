@@ -34,14 +34,7 @@ constexpr float kGuidedLive = 0.75f;
 }  // namespace
 
 Path::Path(const LightContext& context, const Limits& limits, const Ray& camera_ray)
-    : context_(context), limits_(limits), ray_(camera_ray), media_(context.world.camera_media) {
-  const BuiltWorld& world = context.world;
-  if (world.camera.is_pinhole() || world.geometry.groups().empty()) return;
-  // Membership is known at the center of the lens; what lies between it and this ray's origin is crossed first.
-  const Vec3 step = ray_.o - world.camera.center();
-  if (length_squared(step) == 0) return;
-  for (const Crossing& c : world.geometry.trace_all({world.camera.center(), step}, 0, 1)) media_.cross(c.group, c.sign);
-}
+    : context_(context), limits_(limits), ray_(camera_ray), media_(context.world.media_at_start(camera_ray.o)) {}
 
 void Path::run() {
   ++context_.counters.paths;

@@ -107,15 +107,13 @@ void Path::add_environment() {
 void Path::add_surface_emission(const SurfaceHit& hit) {
   const auto id = context_.world.light_of(hit);
   if (!id) return;
+  if (depth_ == 0 && context_.emitters && context_.emitters->hold(context_.world, *id)) return;
   const Lights& lights = context_.world.lights;
   const EmitterHit emitter{.p = hit.p, .ng = hit.ng, .uv = hit.uv, .distance = hit.t};
   const Rgb L = lights.emitted(*id, emitter, -ray_.d);
   if (is_black(L)) return;
   const float pdf = light_sampled_ ? lights.pdf(*id, from_, emitter) : 0.0f;
-  const bool seen_otherwise = depth_ == 0 && context_.emitters;
-  const float share =
-      seen_otherwise ? context_.emitters->path_mis_weight(context_.world, *id, emitter) : scattering_mis_weight(*id, pdf);
-  add_light(*id, seen_.value_or(beta_) * L * share, depth_);
+  add_light(*id, seen_.value_or(beta_) * L * scattering_mis_weight(*id, pdf), depth_);
 }
 
 }  // namespace tyndall

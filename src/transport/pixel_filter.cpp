@@ -64,6 +64,7 @@ FilterSampler::Axis::Axis(const PixelFilter& filter, int axis) : radius(axis == 
     throw Error(Failure::scene, "the pixel filter has no positive integral; give it a larger radius");
   }
   distribution = PiecewiseConstant1D(magnitudes);
+  even = std::all_of(magnitudes.begin(), magnitudes.end(), [&](float m) { return m == magnitudes.front(); });
   for (float& w : weights) w *= static_cast<float>(distribution.total() / plain);
 }
 

@@ -27,12 +27,18 @@ class FilterSampler {
   Offset sample(Vec2 u) const;
   Offset at(Vec2 p) const;  ///< what sample() says of that offset; its pdf is 0 beyond the radius
 
+  // Of one axis, 0 or 1, of which offsets are the product.
+  float radius(int axis) const { return of(axis).radius; }
+  float pdf(int axis, float x) const { return of(axis).at(x).pdf; }  ///< 1/pixels
+  bool is_even(int axis) const { return of(axis).even; }             ///< the same density everywhere
+
  private:
   /// One dimension, tabulated: f is taken as constant within each of many equal bins.
   struct Axis {
     float radius;
     PiecewiseConstant1D distribution;  ///< of |f|
     std::vector<float> weights;        ///< +-W by bin
+    bool even;
 
     Axis(const PixelFilter& filter, int axis);
     struct Place {
@@ -41,6 +47,7 @@ class FilterSampler {
     Place sample(float u) const;
     Place at(float x) const;
   };
+  const Axis& of(int axis) const { return axis == 0 ? x_ : y_; }
   static Offset both(Axis::Place x, Axis::Place y);
   Axis x_, y_;
 };

@@ -24,25 +24,15 @@ constexpr std::size_t kLightInstance = 1000;  // all lights of an instance that 
 constexpr std::size_t kTexel = 16, kTexelOfMipMap = 22, kTexelWhileRead = 20, kTexelOfSky = 62;
 constexpr std::size_t kDenseVoxel = 12;  // values, and the bricks made of them
 
-struct Primitives {
-  double triangles = 0, others = 0;
-  double all() const { return triangles + others; }
-};
-
-Primitives primitives_of(const Shape& shape) {
-  if (const auto* mesh = std::get_if<TriangleMesh>(&shape.kind)) return {static_cast<double>(mesh->indices.size() / 3), 0};
-  if (const auto* mesh = std::get_if<BilinearMesh>(&shape.kind)) return {0, static_cast<double>(mesh->indices.size() / 4)};
-  return {0, 1};
-}
-
 void add_shapes(const std::vector<Shape>& shapes, ByteCount& geometry) {
   for (const Shape& shape : shapes)
-    geometry.add(primitives_of(shape).all(), static_cast<double>(shape.boundary ? kBoundaryTriangle : kTriangle));
+    geometry.add(static_cast<double>(primitives_of(shape)),
+                 static_cast<double>(shape.boundary ? kBoundaryTriangle : kTriangle));
 }
 
 double emitters_of(const std::vector<Shape>& shapes) {
   double count = 0;
-  for (const Shape& shape : shapes) count += shape.emission ? primitives_of(shape).all() : 0;
+  for (const Shape& shape : shapes) count += shape.emission ? static_cast<double>(primitives_of(shape)) : 0;
   return count;
 }
 
@@ -52,8 +42,8 @@ std::vector<double> emitters_of(const std::vector<Object>& objects) {
   return counts;
 }
 
-/// The lists of pixels that aim at small emissive surfaces (film_emitters.h), and the search for outlines of larger ones
-/// (film_edges.h). A surface of about a pixel is in the lists of those whose filters cover it.
+/// The lists of pixels that emissive surfaces end in (film_emitters.h). A surface of about a pixel is in the lists of those
+/// whose filters cover it.
 std::size_t plan_film_search(const Scene& scene) {
   const double radius = std::max(scene.filter.radius.x, scene.filter.radius.y);
   const std::vector<double> of_object = emitters_of(scene.objects);
@@ -64,8 +54,8 @@ std::size_t plan_film_search(const Scene& scene) {
   if (surfaces == 0 || !(radius <= FilmEmitters::kWidestFilter)) return 0;
   const double pixels = pixels_of(scene), pixels_of_surface = (4 * radius + 1) * (4 * radius + 1);
   ByteCount sum;
-  sum.add(pixels, sizeof(std::uint32_t) + sizeof(float) + 2);
-  sum.add(std::min(pixels * PixelEmitters::kMost, surfaces * pixels_of_surface), sizeof(FilmEmitter));
+  sum.add(pixels, 2 * (sizeof(std::uint32_t) + 1));
+  sum.add(std::min(surfaces, double{FilmEmitters::kMostSeen}) * pixels_of_surface, 2 * sizeof(FilmEmitter));
   return sum.bytes();
 }
 

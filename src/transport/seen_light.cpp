@@ -13,8 +13,8 @@ namespace {
 constexpr float kDeepest = 5;
 constexpr int kReads = 4;
 
-SpanWalk walk_to(const BuiltWorld& world, const Trace& trace) {
-  return SpanWalk(world.media_context(), world.camera_media, trace.crossings, trace.t_end);
+SpanWalk walk_to(const BuiltWorld& world, const Ray& ray, const Trace& trace) {
+  return SpanWalk(world.media_context(), world.media_at_start(ray.o), trace.crossings, trace.t_end);
 }
 
 }  // namespace
@@ -34,7 +34,7 @@ std::optional<SeenLight> seen_light(const BuiltWorld& world, const Ray& ray) {
 Rgb attenuated(const LightContext& context, const Ray& ray, const SeenLight& seen, Sampler& sampler) {
   if (!context.world.has_media()) return Rgb(1.0f);
   Rng rng = sampler.stream();
-  SpanWalk walk = walk_to(context.world, seen.trace);
+  SpanWalk walk = walk_to(context.world, ray, seen.trace);
   const Rgb T = transmittance_along(context, walk, ray, rng);
   context.counters.parity_errors += walk.parity_errors();
   return T;
@@ -43,7 +43,7 @@ Rgb attenuated(const LightContext& context, const Ray& ray, const SeenLight& see
 float attenuated_roughly(const BuiltWorld& world, const Ray& ray, const SeenLight& seen) {
   if (!world.has_media()) return 1;
   float depth = 0;
-  SpanWalk walk = walk_to(world, seen.trace);
+  SpanWalk walk = walk_to(world, ray, seen.trace);
   while (const auto i = walk.next()) depth += coarse_optical_depth(i->view(), ray, i->t0, i->t1, kReads);
   return depth < kDeepest ? std::exp(-depth) : 0.0f;
 }

@@ -1,4 +1,4 @@
-/// Directly visible emission along a ray of a pinhole camera.
+/// Directly visible emission along a ray of the camera.
 #pragma once
 
 #include <optional>

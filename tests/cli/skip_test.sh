@@ -51,7 +51,7 @@ absent "$(grep -E "$joint" bare.txt two.txt fog.txt smoke.txt)" "rays are drawn 
 present "$(grep -E 'joint_light' within.txt)" "collisions are not drawn near a point light in fog"
 present "$(grep -E 'film_light' within.txt)" "film positions are not drawn near a point light in fog"
 
-emitters='visible_emitters|FilmEmitters::FilmEmitters'
+emitters='visible_emitters|tyndall::image_of'
 absent "$(grep -E "$emitters" two.txt fog.txt smoke.txt within.txt)" "emitters are aimed at where there are none"
 present "$(grep -E "$emitters" bulb.txt)" "a small emitter that is seen is not aimed at"
 

@@ -1,0 +1,56 @@
+/// Convex polygons in a plane, in double precision: what the camera sees of a flat primitive.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include "tyndall/math.h"
+
+namespace tyndall {
+
+struct Point2 {
+  double x, y;
+  double operator[](int axis) const { return axis == 0 ? x : y; }
+};
+
+/// Sides along the axes; empty where it does not begin before it ends.
+struct Rectangle {
+  Point2 min, max;
+};
+
+class ConvexPolygon {
+ public:
+  static constexpr std::size_t kMost = 32;        ///< corners
+  static constexpr std::size_t kMostOfHull = 64;  ///< points
+
+  ConvexPolygon() {}  // empty, its corners uninitialised
+  /// The convex hull of at most kMostOfHull points [Andrew 1979], with at most 24 corners. Empty where they are on one line.
+  static ConvexPolygon hull(std::span<const Point2> points);
+
+  std::span<const Point2> corners() const { return {corners_.data(), size_}; }
+  bool empty() const { return size_ < 3; }
+  double area() const;
+  /// Of the part whose x (axis 0) or y (axis 1) is below a limit.
+  double area_below(int axis, double limit) const;
+  Rectangle bounds() const;  ///< not when empty
+  /// The part of it in the rectangle [Sutherland and Hodgman 1974]. Each cut adds a corner at most; what would exceed kMost is
+  /// never asked for: a hull is cut by three rectangles, one within the other.
+  ConvexPolygon cut(const Rectangle& rectangle) const;
+  ConvexPolygon moved(Point2 by) const;
+  bool covers(const Rectangle& rectangle) const;
+  /// Uniform in it, `u` in [0, 1)^2; not when empty.
+  Point2 sample(Vec2 u) const;
+
+ private:
+  void push(Point2 p) {
+    if (size_ < kMost) corners_[size_++] = p;
+  }
+
+  void keep(int axis, double limit, bool below);
+
+  std::array<Point2, kMost> corners_;  ///< counterclockwise where y points up
+  std::size_t size_ = 0;
+};
+
+}  // namespace tyndall
