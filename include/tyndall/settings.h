@@ -18,9 +18,9 @@ enum class LightStrategy { uniform, power, exhaustive, tree, tree_binary, cycles
 /// the lights, the integral of 1/r^2 along it, or that times transmittance, scattering and phase function.
 enum class MediaStrategy { vertex, closest, integral, product };
 /// How the distance at which a ray's light is gathered is sampled: at tracked collisions, equi-angular toward the light [Kulla
-/// and Fajardo 2012], both with MIS, or equi-angular times a coarse profile of the medium. `automatic`: profile; with
-/// MediaStrategy::vertex, which knows no other, tracking. MediaStrategy::product then chooses lights as vertex does where they
-/// all are far from a dense segment.
+/// and Fajardo 2012], both with MIS, or equi-angular times a coarse profile of the medium. `automatic`: profile, on the
+/// camera's segment with tracked collisions as well; with MediaStrategy::vertex, which knows no other, tracking.
+/// MediaStrategy::product then chooses lights as vertex does where they all are far from a dense segment.
 enum class DistanceStrategy { automatic, tracking, equiangular, both, profile };
 /// How the volume emission of media reaches what it illuminates: by scattered rays that pass through it, which surfaces guide
 /// toward it (GuidingStrategy), or by next-event estimation toward it as well, with MIS: the cells of a medium that emit are

@@ -28,7 +28,7 @@ Rgb Path::light_at(const Directions& directions, Rgb beta) {
     return is_black(beta) ? Rgb() : direct_light(context_, directions, search_, beta);
   }
   span_collision_ = SpanCollision{*span_search_, collision_t_, collision_density_};
-  return tracks(context_.settings) ? collision_light(context_, vertex, *span_collision_, beta) : Rgb();
+  return span_search_->tracked ? collision_light(context_, vertex, *span_collision_, beta) : Rgb();
 }
 
 /// MIS weight of a scattered ray that found light `id`, which next-event estimation samples with `light_pdf`.

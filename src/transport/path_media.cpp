@@ -84,7 +84,7 @@ std::optional<Vertex> Path::pass_media(const Trace& trace) {
 /// has one of the two.
 std::optional<Rgb> Path::seen_beyond(const Span& span, const Trace& trace) {
   const RenderSettings& settings = context_.settings;
-  if (depth_ > 0 || !span_search_ || !pairs_along_spans(settings) || tracks(settings)) return std::nullopt;
+  if (depth_ > 0 || !span_search_ || !pairs_along_spans(settings)) return std::nullopt;
   if (!trace.hit && context_.world.lights.infinite().empty()) return std::nullopt;
   if (!homogeneous_throughout(span.parts)) return std::nullopt;
   Rgb T(1.0f);

@@ -72,7 +72,7 @@ class PairFinder {
     const float density = search_.chance * n_pmf * static_cast<float>(search_.distances) * distance.pdf * light->pdf;
     if (is_black(f) || !(density > 0)) return std::nullopt;
     const float collide = scattering.sigma_t * search_.profile.transmittance(distance.t);
-    const float tracked = tracks(context_.settings) ? collide * n_pmf * light->pdf : 0.0f;
+    const float tracked = search_.tracked ? collide * n_pmf * light->pdf : 0.0f;
     const float by_phase = light->delta ? 0.0f : collide * scattering.pdf(wo, light->wi);
     const float share = light->delta ? path_mis_weight(context_, id) : 1.0f;
     const Rgb contribution = f * light->L * (share * mis_weight(density, tracked, by_phase) / density);
@@ -163,6 +163,14 @@ SegmentQuery query_of(const RenderSettings& settings, const Span& span, const Sp
   return query;
 }
 
+/// By default on the camera's segment: in dense media collisions know better than a profile where there is light. Later ones
+/// are not worth both (docs/measurements.md).
+bool tracks(const LightContext& context) {
+  const RenderSettings& settings = context.settings;
+  if (settings.distance == DistanceStrategy::automatic) return settings.media == MediaStrategy::product && context.bounce == 0;
+  return settings.distance == DistanceStrategy::tracking || settings.distance == DistanceStrategy::both;
+}
+
 /// Many for single scattering, with its many pairs; where paths go on most error is of later bounces (docs/measurements.md).
 SpanProfile::Bins bins_of_profile(const LightContext& context) {
   return is_single_scattering(context) ? SpanProfile::Bins::many : SpanProfile::Bins::few;
@@ -191,10 +199,6 @@ bool pairs_along_spans(const RenderSettings& settings) {
   return settings.media != MediaStrategy::vertex && settings.distance != DistanceStrategy::tracking;
 }
 
-bool tracks(const RenderSettings& settings) {
-  return settings.distance == DistanceStrategy::tracking || settings.distance == DistanceStrategy::both;
-}
-
 std::optional<SpanSearch> span_search(const LightContext& context, const Span& span) {
   const RenderSettings& settings = context.settings;
   if (!seeks_along_spans(context) || span.empty()) return std::nullopt;
@@ -202,6 +206,7 @@ std::optional<SpanSearch> span_search(const LightContext& context, const Span& s
   if (!profile) return std::nullopt;
   SpanSearch search{.query = {}, .cut = {}, .profile = *profile, .g = mean_cosine(span)};
   search.query = query_of(settings, span, *profile, search.g);
+  search.tracked = tracks(context);
   if (!context.selector.exhaustive()) {
     const SpanCounts counts = counts_along_span(context, profile->scattered(), profile->optical_depth());
     search.cut = context.selector.cut(search.query, cut_settings(context, counts.candidates));
@@ -230,10 +235,10 @@ SpanDensities span_densities(const LightContext& context, const SpanCollision& c
   const float n_pmf = context.selector.n_pmf(collision.search.cut, collision.search.query, id);
   const float pairs =
       collision.search.chance * static_cast<float>(collision.search.distances);  // for each candidate, on average
-  const RenderSettings& settings = context.settings;
-  return {
-      .pair = pairs_along_spans(settings) ? n_pmf * pairs * distances_to(context, collision.search, id).pdf(collision.t) : 0.0f,
-      .tracked = tracks(settings) ? n_pmf * collision.density : 0.0f};
+  return {.pair = pairs_along_spans(context.settings)
+                      ? n_pmf * pairs * distances_to(context, collision.search, id).pdf(collision.t)
+                      : 0.0f,
+          .tracked = collision.search.tracked ? n_pmf * collision.density : 0.0f};
 }
 
 }  // namespace tyndall

@@ -15,10 +15,11 @@ struct SpanSearch {
   SegmentQuery query;
   LightCut cut;
   SpanProfile profile;
-  float g = 0;          ///< mean cosine of the phase functions, roughly
-  int shadow_rays = 0;  ///< to trace, 0: to all candidates
-  int distances = 1;    ///< drawn for each candidate
-  float chance = 1;     ///< of drawing any pair; roulette decides
+  float g = 0;           ///< mean cosine of the phase functions, roughly
+  int shadow_rays = 0;   ///< to trace, 0: to all candidates
+  int distances = 1;     ///< drawn for each candidate
+  float chance = 1;      ///< of drawing any pair; roulette decides
+  bool tracked = false;  ///< a collision draws lights by this search too
 };
 /// Nothing when no light can be scattered, or when settings choose lights at collisions only.
 std::optional<SpanSearch> span_search(const LightContext& context, const Span& span);
@@ -48,12 +49,11 @@ struct SpanDensities {
 };
 SpanDensities span_densities(const LightContext& context, const SpanCollision& collision, LightId id);
 
-/// Next-event estimation at a collision, with the span's choice of lights: the part of `--distance tracking` and `both`.
+/// Next-event estimation at a collision, with the span's choice of lights, where the search is tracked.
 Rgb collision_light(const LightContext& context, const Vertex& vertex, const SpanCollision& collision, Rgb beta);
 
-/// Whether settings choose lights for segments; whether distances by the light; whether at collisions.
+/// Whether settings choose lights for segments; whether distances by the light.
 bool seeks_along_spans(const LightContext& context);
 bool pairs_along_spans(const RenderSettings& settings);
-bool tracks(const RenderSettings& settings);
 
 }  // namespace tyndall
