@@ -89,7 +89,9 @@ Image read_exr_header(const std::string& path);
 /// Write a float EXR (ZIP): to a temporary name in the same folder, closed, checked, renamed.
 /// Throws Error (output) and leaves an existing file as it was.
 void write_exr(const Image& image, const std::string& path);
-/// Write an 8-bit sRGB PNG of R G B after `exposure` stops.
+/// The bytes of an 8-bit sRGB PNG of R G B after `exposure` stops. Throws Error (output) when there is nothing to encode.
+std::string encode_png(const Image& image, float exposure = 0);
+/// Write these bytes.
 void write_png(const Image& image, const std::string& path, float exposure = 0);
 
 /// A binary polygon file (.ply) of the mesh: float positions, with normals and uvs when there are any, 32-bit indices.

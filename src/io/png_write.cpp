@@ -61,9 +61,8 @@ bool encode(png_structp png, png_infop info, const Image& image, const png_byte*
 
 }  // namespace
 
-void write_png(const Image& image, const std::string& path, float exposure) {
-  if (image.width() <= 0 || image.height() <= 0)
-    throw Error(Failure::output, path + ": cannot be written: the image has no pixels");
+std::string encode_png(const Image& image, float exposure) {
+  if (image.width() <= 0 || image.height() <= 0) throw Error(Failure::output, "cannot be written: the image has no pixels");
   const std::vector<png_byte> pixels = tone_mapped(image, exposure);
 
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, on_write_error, on_write_warning);
@@ -71,7 +70,17 @@ void write_png(const Image& image, const std::string& path, float exposure) {
   std::string bytes;
   const bool encoded = info && encode(png, info, image, pixels.data(), bytes);
   png_destroy_write_struct(&png, &info);
-  if (!encoded) throw Error(Failure::output, path + ": cannot be written: out of memory");
+  if (!encoded) throw Error(Failure::output, "cannot be written: out of memory");
+  return bytes;
+}
+
+void write_png(const Image& image, const std::string& path, float exposure) {
+  std::string bytes;
+  try {
+    bytes = encode_png(image, exposure);
+  } catch (const Error& e) {
+    throw Error(e.failure(), path + ": " + e.what());
+  }
   write_file(bytes, path);
 }
 

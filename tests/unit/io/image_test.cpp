@@ -93,6 +93,10 @@ TEST_CASE("PNG output takes NaN and negative values for black and repeats its by
   const Image back = read_image(folder / "a.png");
   CHECK(back.find("R")->values == std::vector<float>{0, 0, 1, 0, 0, 0});
   CHECK_THROWS_AS(write_png(image, folder / "none/a.png"), Error);
+  CHECK(encode_png(image) == read_bytes(folder / "a.png"));
+  CHECK(encode_png(image, 1) != read_bytes(folder / "a.png"));
+  CHECK_THROWS_WITH_AS(encode_png({}), "cannot be written: the image has no pixels", Error);
+  CHECK_THROWS_WITH_AS(write_png({}, "b.png"), "b.png: cannot be written: the image has no pixels", Error);
 }
 
 TEST_CASE("16-bit, palette, transparent, grey and interlaced PNG") {
