@@ -16,24 +16,40 @@ py::object read(const std::string& path) {
   return from_image(std::move(*image));
 }
 
-void save_exr(py::handle image, const std::string& path) {
-  const Image value = to_image(image);
-  const py::gil_scoped_release free;
-  write_exr(value, path);
+/// The enum whose names these are.
+template <typename Enum>
+Enum chosen(py::handle value, const char* what, const std::vector<std::string_view>& names) {
+  const auto name = value.cast<std::string>();
+  std::string known;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    if (names[i] == name) return static_cast<Enum>(i);
+    known += (i > 0 ? ", " : "") + std::string(names[i]);
+  }
+  throw py::value_error(what + (" = \"" + name + "\" is not known; choose from " + known));
 }
 
-void save_png(py::handle image, const std::string& path, float exposure) {
-  const Image value = to_image(image);
-  const py::gil_scoped_release free;
-  write_png(value, path, exposure);
+PngSettings to_png(py::handle exposure, py::handle view) {
+  return {.exposure = exposure.cast<float>(), .view = chosen<DisplayView>(view, "view", view_names())};
 }
 
-py::bytes as_png(py::handle image, float exposure) {
+void save(py::handle image, const std::string& path, const py::dict& format) {
   const Image value = to_image(image);
+  ImageFormat settings;
+  settings.png = to_png(format["exposure"], format["view"]);
+  settings.exr.half = format["half"].cast<bool>();
+  settings.exr.parts = format["parts"].cast<bool>();
+  settings.exr.compression = chosen<ExrCompression>(format["compression"], "compression", exr_compression_names());
+  const py::gil_scoped_release free;
+  write_image(value, path, settings);
+}
+
+py::bytes as_png(py::handle image, py::handle exposure, py::handle view) {
+  const Image value = to_image(image);
+  const PngSettings settings = to_png(exposure, view);
   std::string bytes;
   {
     const py::gil_scoped_release free;
-    bytes = encode_png(value, exposure);
+    bytes = encode_png(value, settings);
   }
   return bytes;
 }
@@ -75,8 +91,7 @@ py::tuple filtered(py::handle image, int threads) {
 
 void define_images(py::module_& m) {
   m.def("read_image", read);
-  m.def("write_exr", save_exr);
-  m.def("write_png", save_png);
+  m.def("write_image", save);
   m.def("encode_png", as_png);
   m.def("diff", diff);
   m.def("denoise", filtered);

@@ -67,21 +67,23 @@ class Image(Dict[str, NDArray[np.float32]]):
         """R, G and B as one array [y, x, 3]."""
         return np.stack([self[name] for name in "RGB"], axis=-1)
 
-    def save(self, path: PathLike, *, exposure: float = 0) -> None:
-        """Write a float .exr of all channels, or an 8-bit .png of R, G, B after ``exposure`` stops."""
-        name = os.fspath(path)
-        if name.endswith(".png"):
-            _core.write_png(self, name, exposure)
-        elif name.endswith(".exr"):
-            if exposure:
-                raise ValueError("exposure is for .png: an .exr holds light as it is")
-            _core.write_exr(self, name)
-        else:
-            raise ValueError(f"{name}: give a name that ends in .exr or .png")
+    def save(self, path: PathLike, *, half: bool = False, compression: str = "zip", parts: bool = False,
+             exposure: float = 0, view: str = "srgb") -> None:
+        """Write an .exr of all channels, an 8-bit .png of R, G, B or a .pfm of them.
 
-    def png(self, *, exposure: float = 0) -> bytes:
-        """R, G, B (or Y) as an 8-bit sRGB PNG after ``exposure`` stops."""
-        return _core.encode_png(self, exposure)
+        For .exr: ``half``, colours as 16-bit floats; ``compression``, "none", "rle", "zips", "zip", "piz", "dwaa" or "dwab";
+        ``parts``, one for each group of channels. For .png: stops of ``exposure`` and ``view``, "srgb", "filmic" or "agx".
+        """
+        name = os.fspath(path)
+        if (half or parts or compression != "zip") and not name.endswith(".exr"):
+            raise ValueError(f"{name}: half, compression and parts are for .exr")
+        if (exposure != 0 or view != "srgb") and not name.endswith(".png"):
+            raise ValueError(f"{name}: exposure and view are for .png")
+        _core.write_image(self, name, dict(half=half, compression=compression, parts=parts, exposure=exposure, view=view))
+
+    def png(self, *, exposure: float = 0, view: str = "srgb") -> bytes:
+        """R, G, B (or Y) as an 8-bit PNG after ``exposure`` stops, by the ``view`` "srgb", "filmic" or "agx"."""
+        return _core.encode_png(self, exposure, view)
 
     def _repr_png_(self) -> Optional[bytes]:
         return self.png() if self.keys() >= set("RGB") or "Y" in self else None

@@ -160,7 +160,7 @@ std::optional<DenoiseReport> PictureRender::denoise_finished(Rendering& renderin
 void PictureRender::save(const Rendering& rendering) const {
   std::function<void()> remove_checkpoint;
   if (options_.keeps_checkpoints() && !rendering.report.stopped) remove_checkpoint = [&] { checkpoint_.remove(); };
-  save_image(rendering.image, output_, remove_checkpoint);
+  save_image(rendering.image, output_, image_format(options_.image, output_), remove_checkpoint);
   if (remove_checkpoint) remove_checkpoint();
 }
 

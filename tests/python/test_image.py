@@ -25,6 +25,18 @@ def test_files_hold_everything(tmp_path):
     assert np.array_equal(read.attributes["e"], image.attributes["e"])
 
 
+def test_files_of_other_formats(tmp_path):
+    image = ramp()
+    image.save(tmp_path / "a.exr", half=True, compression="piz", parts=True)
+    read = tyndall.read_image(tmp_path / "a.exr")
+    assert read.keys() == image.keys() and np.array_equal(read["Z"], image["Z"])
+    assert np.array_equal(read.rgb, image.rgb.astype(np.float16))
+    image.save(tmp_path / "a.pfm")
+    assert np.array_equal(tyndall.read_image(tmp_path / "a.pfm").rgb, image.rgb)
+    image.save(tmp_path / "a.png", view="agx", exposure=1)
+    assert (tmp_path / "a.png").read_bytes() == image.png(view="agx", exposure=1) != image.png(exposure=1)
+
+
 def test_notebooks_see_a_png(tmp_path):
     image = ramp()
     image.save(tmp_path / "a.png")
@@ -57,10 +69,16 @@ def test_arrays_outlive_their_image(floor):
 
 def test_images_that_cannot_be_written(tmp_path):
     image = ramp()
-    with pytest.raises(ValueError, match="ends in .exr or .png"):
+    with pytest.raises(tyndall.Error, match="ends in .exr, .png or .pfm"):
         image.save(tmp_path / "a.tif")
-    with pytest.raises(ValueError, match="exposure"):
-        image.save(tmp_path / "a.exr", exposure=1)
+    for name, option in (("a.exr", dict(exposure=1)), ("a.exr", dict(view="agx")), ("a.png", dict(half=True)),
+                         ("a.pfm", dict(parts=True)), ("a.png", dict(compression="piz"))):
+        with pytest.raises(ValueError, match=next(iter(option))):
+            image.save(tmp_path / name, **option)
+    with pytest.raises(ValueError, match="choose from none, rle"):
+        image.save(tmp_path / "a.exr", compression="jpeg")
+    with pytest.raises(ValueError, match="choose from srgb, filmic, agx"):
+        image.save(tmp_path / "a.png", view="aces")
     with pytest.raises(tyndall.Error) as caught:
         image.save(tmp_path / "none" / "a.exr")
     assert caught.value.failure == "output"
