@@ -36,5 +36,5 @@ class World:
     def render(self, *, progress: Optional[ProgressCallback] = None, **options: Any) -> Image:
         """As Scene.render."""
         image, report = self._core.render(self._scene, options, progress)
-        image.report = report
+        image.report = {**report, "notes": self.notes}
         return image

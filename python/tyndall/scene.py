@@ -85,7 +85,7 @@ class Scene:
 
     @property
     def settings(self) -> Dict[str, Any]:
-        """What the scene asks for where ``render`` is not told otherwise."""
+        """What the scene asks for where ``render`` is not told otherwise; of those assigned, the ones that are named change."""
         return self._core.settings()
 
     @settings.setter

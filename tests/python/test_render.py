@@ -37,6 +37,7 @@ def test_worlds_are_rendered_again_and_again(floor):
 
 def test_what_is_counted_is_reported(floor):
     report = floor.render(spp=2).report
+    assert report["notes"] == floor.build().notes
     assert report["samples"] == 2 and report["paths"] == 2 * 40 * 24 and report["non_finite"] == 0 and not report["stopped"]
 
 
