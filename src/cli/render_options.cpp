@@ -197,6 +197,10 @@ void declare(CLI::App& command, RenderOptions& o) {
                   "--preview-every 30")
       ->check(positive())
       ->needs(denoise);
+  command.add_option(
+      "--display", o.display,
+      "HOST:PORT of a viewer that speaks tev's protocol: it is shown the picture at 1, 2, 4 ... samples and at the "
+      "end [none]; --display 127.0.0.1:14158");
   auto* reference = command.add_option("--reference", o.reference,
                                        "image that the error is measured against for --error-log; --reference best.exr");
   auto* log = command.add_option("--error-log", o.error_log,

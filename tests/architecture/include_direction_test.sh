@@ -37,6 +37,7 @@ BEGIN {
   door("^[a-z]*intrin\\.h$", "^src/")
   door("^(elf|link)\\.h$", "^src/session/build_id\\.cpp$")
   door("^sys/platform/x86\\.h$", "^src/cli/cpu_")
+  door("^netdb\\.h$", "^src/cli/viewer_link\\.cpp$")
   door("^experimental/simd$", "^src/math/simd\\.h$")
   door("^(unistd\\.h|fcntl\\.h|fnmatch\\.h|signal\\.h|sys/[a-z]*\\.h)$", "^src/")
 }
