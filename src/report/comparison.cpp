@@ -61,7 +61,9 @@ std::string diff_images(const Image& image, const Image& reference, const DiffQu
 MethodRaceResult race_methods(Scene scene, const MethodRace& race, const MethodRaceControl& control) {
   require_sound(race);
   const ComparePlan plan = plan_of(race);
-  CompareContext context{.scene = scene.source, .threads = race.threads};
+  CompareContext context;
+  context.scene = scene.source;
+  context.threads = race.threads;
   const World world = build(std::move(scene), with_needs_of(plan, plan.variants.front().settings, {.threads = race.threads}));
   const Reference reference = reference_of(world, plan, race, control);
   CompareResult result;
