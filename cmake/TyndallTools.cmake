@@ -10,6 +10,6 @@ if(RUN_CLANG_TIDY)
 endif()
 if(CLANG_FORMAT)
   add_custom_target(format
-    COMMAND find include src tests -name "*.h" -o -name "*.cpp" | xargs ${CLANG_FORMAT} -i
+    COMMAND find include src python tests -name "*.h" -o -name "*.cpp" | xargs ${CLANG_FORMAT} -i
     WORKING_DIRECTORY ${PROJECT_SOURCE_DIR} VERBATIM)
 endif()

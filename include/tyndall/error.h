@@ -32,9 +32,11 @@ class Error : public std::runtime_error {
   Error(const Location& where, const std::string& message);  ///< Failure::scene, "where: message"
 
   Failure failure() const { return failure_; }
+  const Location& where() const { return where_; }  ///< that the message begins with; no file: it begins with none
 
  private:
   Failure failure_;
+  Location where_;
 };
 
 }  // namespace tyndall

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tyndall/image.h"
+#include "tyndall/image_format.h"
 #include "tyndall/scene.h"
 
 namespace tyndall {
@@ -58,8 +59,9 @@ struct SceneCheck {
 };
 SceneCheck check_scene(const std::string& path, const SceneReading& how = {});
 
-/// Read .exr (scanline or tiled, flat, single part), .png, .pfm, .hdr, .jpg, .tga, .bmp by content, not by name.
-/// 8-bit values are made linear by `encoding` ("": sRGB for 8-bit colour). Throws Error (scene).
+/// Read .exr (scanline or tiled, flat; of several parts with one data window the channels of all), .png, .pfm, .hdr, .jpg,
+/// .tga, .bmp by content, not by name. 8-bit values are made linear by `encoding` ("": sRGB for 8-bit colour). Throws Error
+/// (scene).
 Image read_image(const std::string& path, const std::string& encoding = "");
 
 /// The most threads that pack and unpack a large .exr, in the whole program; <= 0, as it starts: one a core, 8 at most.
@@ -86,11 +88,21 @@ PhotometricWeb read_ies_text(std::string_view text, const std::string& name);
 /// The header of an .exr that read_image reads: windows, attributes, and channels without values. Throws Error (scene).
 Image read_exr_header(const std::string& path);
 
-/// Write a float EXR (ZIP): to a temporary name in the same folder, closed, checked, renamed.
+/// Write an OpenEXR file: to a temporary name in the same folder, closed, read back and compared, renamed.
 /// Throws Error (output) and leaves an existing file as it was.
-void write_exr(const Image& image, const std::string& path);
-/// Write an 8-bit sRGB PNG of R G B after `exposure` stops.
-void write_png(const Image& image, const std::string& path, float exposure = 0);
+void write_exr(const Image& image, const std::string& path, const ExrSettings& settings = {});
+/// The bytes of an 8-bit PNG of R G B for sRGB displays; colours of other primaries than Rec.709's are converted. Throws Error
+/// (output) when there is nothing to encode.
+std::string encode_png(const Image& image, const PngSettings& settings = {});
+/// Write these bytes.
+void write_png(const Image& image, const std::string& path, const PngSettings& settings = {});
+/// Write R G B (or Y) as a portable float map, little-endian.
+void write_pfm(const Image& image, const std::string& path);
+
+/// Whether write_image knows the ending of `path`: .exr, .png or .pfm.
+bool is_written_image(const std::string& path);
+/// Write the image as the ending of `path` says. Throws Error: usage for another ending, output.
+void write_image(const Image& image, const std::string& path, const ImageFormat& format = {});
 
 /// A binary polygon file (.ply) of the mesh: float positions, with normals and uvs when there are any, 32-bit indices.
 /// Throws Error (output) for a mesh without triangles, or whose indices or counts do not agree.

@@ -21,20 +21,10 @@
 namespace tyndall::cli {
 namespace {
 
-constexpr std::uint64_t kReferenceSeed = 0x7265666572656e63;  ///< apart from any seed that a run is likely to have
-
 World build_for(Scene scene, const ComparePlan& plan, const RenderSettings& base, const CompareOptions& o) {
-  BuildSettings settings{.lights = {base.lights},
-                         .sanitize = o.picture.sanitize,
-                         .threads = base.threads,
-                         .max_memory = memory_limit(o.max_memory)};
-  settings.volume_lights = base.emission == EmissionStrategy::lights;
-  for (const CompareVariant& v : plan.variants) {
-    settings.volume_lights = settings.volume_lights || v.settings.emission == EmissionStrategy::lights;
-    auto& known = settings.lights;
-    if (std::find(known.begin(), known.end(), v.settings.lights) == known.end()) known.push_back(v.settings.lights);
-  }
-  return build(std::move(scene), settings);
+  const BuildSettings settings{
+      .sanitize = o.picture.sanitize, .threads = base.threads, .max_memory = memory_limit(o.max_memory)};
+  return build(std::move(scene), with_needs_of(plan, base, settings));
 }
 
 Reference make_reference(const World& world, RenderSettings settings, const ComparePlan& plan, const CompareOptions& o,

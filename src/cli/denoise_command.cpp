@@ -1,8 +1,7 @@
-#include <filesystem>
-
 #include <nlohmann/json.hpp>
 
 #include "cli/command.h"
+#include "cli/image_options.h"
 #include "cli/log.h"
 #include "cli/output_paths.h"
 #include "cli/print.h"
@@ -15,6 +14,7 @@ namespace {
 
 struct DenoiseOptions {
   std::string image, output;
+  ImageOptions format;
   DenoiseSettings settings;
   bool quiet = false, json = false;
 };
@@ -36,17 +36,16 @@ nlohmann::ordered_json as_json(const DenoiseOptions& o, const Denoised& d) {
 }
 
 void check_options(const DenoiseOptions& o) {
-  const std::string ending = std::filesystem::path(o.output).extension().string();
-  if (ending != ".exr" && ending != ".png")
-    throw Error(Failure::usage, "-o " + o.output + " is not understood; give a name that ends in .exr or .png");
+  require_image_name(o.output, "-o");
   check_writable(o.output);
 }
 
 int run_denoise(const DenoiseOptions& o) {
   check_options(o);
+  const ImageFormat format = image_format(o.format, o.output);
   limit_image_threads(o.settings.threads);
   const Denoised denoised = denoise(read_image(o.image), o.settings, o.image);
-  save_image(denoised.image, o.output);
+  save_image(denoised.image, o.output, format);
   if (!o.quiet) {
     for (const std::string& missing : denoised.report.missing) log("{}: has no {}\n", o.image, missing);
     log("{}: {}x{}, denoised in {:.2f}s, estimated relMSE {:.3g} before and {:.3g} after\n", o.output, denoised.image.width(),
@@ -63,11 +62,12 @@ void add_denoise(CLI::App& app, int& exit_code) {
   command->footer(kDenoiseFooter);
   auto options = std::make_shared<DenoiseOptions>();
   command->add_option("image", options->image, "rendered image, .exr")->required();
-  command->add_option("-o,--output", options->output, "image to write, .exr or .png; -o clean.exr")->required();
+  command->add_option("-o,--output", options->output, "image to write, .exr, .png or .pfm; -o clean.exr")->required();
   command->add_flag("--components", options->settings.components,
                     "the channels of the light split are denoised as well, in place of staying as rendered");
   command->add_option("--threads", options->settings.threads, "threads [0: one a core]; --threads 2")
       ->check(CLI::Range(0, 4096));
+  declare(*command, options->format);
   command->add_flag("--quiet", options->quiet, "no summary; errors only");
   command->add_flag("--json", options->json, "summary as JSON on stdout");
   command->callback([options, &exit_code] { exit_code = run_denoise(*options); });

@@ -6,6 +6,7 @@
 #include "cli/log.h"
 #include "cli/save.h"
 #include "tyndall/error.h"
+#include "tyndall/io.h"
 
 namespace tyndall::cli {
 namespace {
@@ -37,7 +38,8 @@ bool is_kept(const std::string& channel, const std::vector<std::string>& asked) 
 }  // namespace
 
 Denoiser::Denoiser(const RenderOptions& options, RenderSettings& settings)
-    : asked_(settings.aovs),
+    : image_(options.image),
+      asked_(settings.aovs),
       threads_(settings.threads),
       preview_every_(options.preview_every.value_or(std::numeric_limits<double>::infinity())) {
   if (settings.slice)
@@ -62,7 +64,7 @@ void Denoiser::preview(const RenderJob& job, const std::string& output) {
   try {
     Image image = job.image();
     finish(image);
-    write_image(image, output);
+    write_image(image, output, image_format(image_, output));
     failure_.clear();
   } catch (const std::exception& e) {
     if (failure_ != e.what()) log("warning: {}; the render goes on without this preview\n", e.what());

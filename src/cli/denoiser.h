@@ -25,6 +25,7 @@ class Denoiser {
   void preview(const RenderJob& job, const std::string& output);
 
  private:
+  ImageOptions image_;
   std::vector<std::string> asked_;
   int threads_;
   double preview_every_;

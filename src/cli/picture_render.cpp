@@ -68,6 +68,7 @@ PictureRender::PictureRender(const RenderOptions& options, Scene& scene) : optio
   pixels_ = pixels_of(scene);
   memory_ = memory_for_render(options, scene);
   if (!options.reference.empty()) reference_ = read_reference(options.reference);
+  if (!options.display.empty()) viewer_ = std::make_unique<ViewerLink>(options.display, output_);
 }
 
 bool PictureRender::holds_all_channels(const Image& header) const {
@@ -119,6 +120,7 @@ bool PictureRender::is_slice_there(const World& world) const {
 void PictureRender::look_at(const RenderJob& job) {
   if (errors_) errors_->add(job);
   if (denoiser_) denoiser_->preview(job, output_);
+  if (viewer_) viewer_->show(job.image());
 }
 
 void PictureRender::resume(RenderJob& job) {
@@ -132,7 +134,7 @@ void PictureRender::resume(RenderJob& job) {
 Rendering PictureRender::render_with(const World& world, const std::function<void(const Progress&)>& progress) {
   RenderControl control{.progress = progress, .stop = &stop_requested()};
   const bool previews = denoiser_ && denoiser_->previews();
-  if (errors_ || previews) control.checkpoint = [&](const RenderJob& job) { look_at(job); };
+  if (errors_ || previews || viewer_) control.checkpoint = [&](const RenderJob& job) { look_at(job); };
   if (options_.resume) control.begin = [&](RenderJob& job) { resume(job); };
   if (options_.keeps_checkpoints()) control.save = [&](const RenderJob& job) { checkpoint_.save(job); };
   // --resume alone: at a stop
@@ -160,7 +162,7 @@ std::optional<DenoiseReport> PictureRender::denoise_finished(Rendering& renderin
 void PictureRender::save(const Rendering& rendering) const {
   std::function<void()> remove_checkpoint;
   if (options_.keeps_checkpoints() && !rendering.report.stopped) remove_checkpoint = [&] { checkpoint_.remove(); };
-  save_image(rendering.image, output_, remove_checkpoint);
+  save_image(rendering.image, output_, image_format(options_.image, output_), remove_checkpoint);
   if (remove_checkpoint) remove_checkpoint();
 }
 
@@ -180,6 +182,7 @@ Summary PictureRender::run(const World& world, const std::string& command_line,
   summary.width = rendering.image.width();
   summary.height = rendering.image.height();
   if (denoiser_) summary.denoised = denoise_finished(rendering);
+  if (viewer_) viewer_->show(rendering.image);
   Timer watch;
   save(rendering);
   summary.write_seconds = watch.lap();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -10,6 +11,7 @@
 #include "cli/error_log.h"
 #include "cli/render_options.h"
 #include "cli/summary.h"
+#include "cli/viewer_link.h"
 #include "tyndall/render.h"
 
 namespace tyndall::cli {
@@ -52,6 +54,7 @@ class PictureRender {
   CheckpointFile checkpoint_;
   std::optional<Reference> reference_;
   std::optional<ErrorLog> errors_;
+  std::unique_ptr<ViewerLink> viewer_;  ///< null: not asked for
 };
 
 }  // namespace tyndall::cli

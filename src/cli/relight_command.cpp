@@ -1,6 +1,5 @@
-#include <filesystem>
-
 #include "cli/command.h"
+#include "cli/image_options.h"
 #include "cli/log.h"
 #include "cli/output_paths.h"
 #include "cli/save.h"
@@ -13,6 +12,7 @@ namespace {
 
 struct RelightOptions {
   std::string image, output;
+  ImageOptions format;
   std::vector<std::string> factors;
   bool quiet = false;
 };
@@ -27,18 +27,17 @@ constexpr const char* kRelightFooter =
     "Example: tyndall relight hall.exr key=1.5 sky=0.3,0.3,0.5 -o evening.exr";
 
 void check_options(const RelightOptions& o) {
-  const std::string ending = std::filesystem::path(o.output).extension().string();
-  if (ending != ".exr" && ending != ".png")
-    throw Error(Failure::usage, "-o " + o.output + " is not understood; give a name that ends in .exr or .png");
+  require_image_name(o.output, "-o");
   check_writable(o.output);
 }
 
 int run_relight(const RelightOptions& o) {
   check_options(o);
+  const ImageFormat format = image_format(o.format, o.output);
   std::vector<GroupFactor> factors;
   for (const std::string& text : o.factors) factors.push_back(parse_group_factor(text));
   const Relit relit = relight(read_image(o.image), factors, o.image);
-  save_image(relit.image, o.output);
+  save_image(relit.image, o.output, format);
   if (o.quiet) return 0;
   for (const std::string& channel : relit.left_out)
     log("{}: {} is left out, since it is not known by light groups\n", o.output, channel);
@@ -55,7 +54,8 @@ void add_relight(CLI::App& app, int& exit_code) {
   auto options = std::make_shared<RelightOptions>();
   command->add_option("image", options->image, "rendered image with light groups, .exr")->required();
   command->add_option("factors", options->factors, "NAME=FACTOR or NAME=R,G,B for each group that changes");
-  command->add_option("-o,--output", options->output, "image to write, .exr or .png; -o evening.exr")->required();
+  command->add_option("-o,--output", options->output, "image to write, .exr, .png or .pfm; -o evening.exr")->required();
+  declare(*command, options->format);
   command->add_flag("--quiet", options->quiet, "no summary; errors only");
   command->callback([options, &exit_code] { exit_code = run_relight(*options); });
 }

@@ -8,6 +8,7 @@
 #include "cli/frame_list.h"
 #include "cli/validators.h"
 #include "tyndall/denoise.h"
+#include "tyndall/io.h"
 
 namespace tyndall::cli {
 namespace {
@@ -149,7 +150,8 @@ void declare_scene(CLI::App& command, std::string& scene) {
 
 void declare_task(CLI::App& command, RenderOptions& o) {
   declare_scene(command, o.scene);
-  command.add_option("-o,--output", o.output, "image to write, .exr or .png [the Film's name, else SCENE.exr]; -o plume.exr");
+  command.add_option("-o,--output", o.output,
+                     "image to write, .exr, .png or .pfm [the Film's name, else SCENE.exr]; -o plume.exr");
   command.add_option("--spp", o.spp, "samples a pixel, at most [the Sampler's, else 16]; --spp 256")
       ->check(CLI::Range(1, 1 << 30));
   command
@@ -195,6 +197,10 @@ void declare(CLI::App& command, RenderOptions& o) {
                   "--preview-every 30")
       ->check(positive())
       ->needs(denoise);
+  command.add_option(
+      "--display", o.display,
+      "HOST:PORT of a viewer that speaks tev's protocol: it is shown the picture at 1, 2, 4 ... samples and at the "
+      "end [none]; --display 127.0.0.1:14158");
   auto* reference = command.add_option("--reference", o.reference,
                                        "image that the error is measured against for --error-log; --reference best.exr");
   auto* log = command.add_option("--error-log", o.error_log,
@@ -210,6 +216,7 @@ void declare(CLI::App& command, RenderOptions& o) {
   command.add_flag(
       "--resume", o.resume,
       "go on from OUTPUT.checkpoint if there is one: the same bits as an unbroken render; an interrupt saves there again");
+  declare(command, o.image);
   declare_memory(command, o.max_memory);
   command.add_flag("--quiet", o.quiet, "no progress, notes or summary; errors only");
   command.add_flag("--json", o.json, "summary as JSON on stdout");
@@ -252,20 +259,33 @@ void apply(const RenderOptions& o, Scene& scene) {
   }
 }
 
+namespace {
+
+/// A slice holds exact sums, in one place.
+void require_exact(const ImageOptions& image, const std::string& path) {
+  const ExrSettings exr = image_format(image, path).exr;
+  const bool exact = !exr.half && exr.compression != ExrCompression::dwaa && exr.compression != ExrCompression::dwab;
+  if (std::filesystem::path(path).extension() != ".exr")
+    bad("output", path, "a name that ends in .exr: a slice holds exact sums");
+  if (!exact || exr.parts)
+    throw Error(Failure::usage, "--slice keeps exact sums, in one part; leave --half, --parts and lossy --compression out");
+}
+
+}  // namespace
+
 std::string output_path(const RenderOptions& options, const Scene& scene) {
   namespace fs = std::filesystem;
   std::string path = options.output;
-  const auto ending_of = [](const fs::path& p) { return p.extension().string(); };
   const std::string named = fs::path(scene.film.filename).filename();
-  if (path.empty() && (ending_of(named) == ".exr" || ending_of(named) == ".png")) path = named;
+  if (path.empty() && is_written_image(named)) path = named;
   if (path.empty()) {
     fs::path name = fs::path(options.scene).filename();
     while (name.extension() == ".gz" || name.extension() == ".pbrt") name = name.stem();
     path = name.string() + ".exr";
   }
-  const std::string ending = ending_of(path);
-  if (ending != ".exr" && ending != ".png") bad("output", path, "a name that ends in .exr or .png");
-  if (ending == ".png" && scene.settings.slice) bad("output", path, "a name that ends in .exr: a slice holds exact sums");
+  require_image_name(path, "output");
+  image_format(options.image, path);  // throws for what does not fit
+  if (scene.settings.slice) require_exact(options.image, path);
   return path;
 }
 

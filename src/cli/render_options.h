@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/image_options.h"
 #include "tyndall/scene.h"
 
 namespace tyndall::cli {
@@ -31,10 +32,11 @@ struct RenderOptions {
   std::string scene, output;
   MethodOptions methods;
   PictureOptions picture;
+  ImageOptions image;
   std::optional<int> spp, threads;
   std::optional<double> time, error, checkpoint, max_memory, preview_every;
   std::optional<std::uint64_t> seed;
-  std::string reference, error_log, aovs, slice, frames, progress = "auto";
+  std::string reference, error_log, aovs, slice, frames, display, progress = "auto";
   bool reproducible = false, quiet = false, json = false, resume = false, denoise = false;
 
   bool keeps_checkpoints() const { return checkpoint || resume; }
@@ -54,7 +56,7 @@ void apply(const PictureOptions& options, Scene& scene);
 void apply(const RenderOptions& options, Scene& scene);
 
 /// Where the image goes: --output, else what the scene's Film names, else the scene's name with .exr, in the
-/// current folder. Throws Error (usage) for an ending that is neither .exr nor .png.
+/// current folder. Throws Error (usage) for an ending that no image is written with, and for image options that do not fit.
 std::string output_path(const RenderOptions& options, const Scene& scene);
 
 }  // namespace tyndall::cli

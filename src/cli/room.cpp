@@ -22,6 +22,7 @@ std::uint64_t channels_of(const Scene& scene) { return 4 + 4 * scene.settings.ao
 
 std::uint64_t largest_image(const Scene& scene, const std::string& path) {
   if (fs::path(path).extension() == ".png") return 3 * pixels_of(scene) + kHeader;
+  if (fs::path(path).extension() == ".pfm") return 3 * sizeof(float) * pixels_of(scene) + kHeader;
   const std::uint64_t sums = scene.settings.slice ? 3 * (3 + channels_of(scene)) : 0;
   return sizeof(float) * (channels_of(scene) + sums) * pixels_of(scene) + kHeader;
 }

@@ -86,17 +86,10 @@ void save(const std::string& what, const std::string& path, const Write& write, 
 
 }  // namespace
 
-void write_image(const Image& image, const std::string& path) {
-  if (fs::path(path).extension() == ".png") {
-    write_png(image, path);
-  } else {
-    write_exr(image, path);
-  }
-}
-
-void save_image(const Image& image, const std::string& path, const std::function<void()>& make_room) {
+void save_image(const Image& image, const std::string& path, const ImageFormat& format,
+                const std::function<void()>& make_room) {
   save(
-      "image", path, [&](const std::string& to) { write_image(image, to); }, make_room);
+      "image", path, [&](const std::string& to) { write_image(image, to, format); }, make_room);
 }
 
 void save_report(const std::string& folder, const std::function<void(const std::string& folder)>& write) {

@@ -6,6 +6,7 @@
 #include "io/describe_text.h"
 #include "io/exr.h"
 #include "io/file_text.h"
+#include "io/image_decode.h"
 #include "tyndall/io.h"
 #include "tyndall/volume_io.h"
 
@@ -62,16 +63,30 @@ void add_image(const Image& image, const std::vector<std::string>& types, Descri
   }
 }
 
+/// What is not OpenEXR's, by its first bytes.
+Description describe_picture(const std::string& path) {
+  Description result{path, "image", {}};
+  const Image image = read_image(path);
+  const std::string bytes = read_file_text(path);
+  if (is_png(bytes)) {
+    result.kind = "PNG image";
+    result.properties.push_back({"image", "stored", png_storage(bytes)});
+  } else if (is_pfm(bytes)) {
+    result.kind = "portable float map";
+    result.properties.push_back({"image", "stored", bytes[1] == 'F' ? "32-bit float RGB" : "32-bit float grey"});
+  }
+  add_image(image, {}, result);
+  return result;
+}
+
 Description describe_image(const std::string& path) {
   Description result{path, "image", {}};
-  if (!std::filesystem::is_regular_file(path) || !is_exr(path)) {
-    add_image(read_image(path), {}, result);
-    return result;
-  }
+  if (!std::filesystem::is_regular_file(path) || !is_exr(path)) return describe_picture(path);
   const ExrFile file = read_exr(path);
   result.kind = "OpenEXR image";
   result.properties.push_back({"image", "compression", file.compression});
   result.properties.push_back({"image", "storage", file.storage});
+  if (file.parts > 1) result.properties.push_back({"image", "parts", std::to_string(file.parts)});
   add_image(file.image, file.channel_types, result);
   return result;
 }

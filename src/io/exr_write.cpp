@@ -7,17 +7,24 @@
 #include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfIntAttribute.h>
 #include <OpenEXR/ImfMatrixAttribute.h>
+#include <OpenEXR/ImfMultiPartOutputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfOutputPart.h>
+#include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfStandardAttributes.h>
 #include <OpenEXR/ImfStringAttribute.h>
 
+#include <Imath/half.h>
+
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <set>
 
 #include "io/atomic_file.h"
 #include "io/exr.h"
+#include "io/exr_layout.h"
 #include "tyndall/error.h"
 #include "tyndall/io.h"
 
@@ -69,11 +76,54 @@ struct AttributeInserter {
   }
 };
 
-Imf::Header header_of(const Image& image) {
+constexpr std::array kCompressions{Imf::NO_COMPRESSION,  Imf::RLE_COMPRESSION,  Imf::ZIPS_COMPRESSION, Imf::ZIP_COMPRESSION,
+                                   Imf::PIZ_COMPRESSION, Imf::DWAA_COMPRESSION, Imf::DWAB_COMPRESSION};
+
+/// Pixels as they are written: the image's own floats, and halves of those channels that are.
+class StoredPixels {
+ public:
+  StoredPixels(const Image& image, bool some_are_halves) : image_(image), halves_(image.channels.size()) {
+    for (std::size_t i = 0; some_are_halves && i < halves_.size(); ++i) {
+      if (!is_half_channel(image.channels[i].name)) continue;
+      const std::vector<float>& values = image.channels[i].values;
+      halves_[i].assign(values.begin(), values.end());
+    }
+  }
+  Imf::PixelType type(std::size_t channel) const { return halves_[channel].empty() ? Imf::FLOAT : Imf::HALF; }
+  Imf::FrameBuffer buffer(const ExrPart& part) const {
+    Imf::FrameBuffer buffer;
+    for (const std::size_t i : part.channels) {
+      const Channel& c = image_.channels[i];
+      const void* pixels = halves_[i].empty() ? static_cast<const void*>(c.values.data()) : halves_[i].data();
+      buffer.insert(c.name, Imf::Slice::Make(type(i), pixels, to_box(image_.data)));
+    }
+    return buffer;
+  }
+
+ private:
+  const Image& image_;
+  std::vector<std::vector<Imath::half>> halves_;  ///< empty: floats
+};
+
+/// What is to be written.
+struct Layout {
+  const ExrSettings& settings;
+  std::vector<ExrPart> parts;
+  StoredPixels pixels;
+
+  bool several() const { return parts.size() > 1; }
+};
+
+Imf::Header header_of(const Image& image, const Layout& layout, const ExrPart& part) {
   const PixelBounds& display = image.display.width() > 0 && image.display.height() > 0 ? image.display : image.data;
   Imf::Header header(to_box(display), to_box(image.data));
-  header.compression() = Imf::ZIP_COMPRESSION;
-  for (const Channel& c : image.channels) header.channels().insert(c.name, Imf::Channel(Imf::FLOAT));
+  header.compression() = kCompressions.at(static_cast<std::size_t>(layout.settings.compression));
+  for (const std::size_t i : part.channels)
+    header.channels().insert(image.channels[i].name, Imf::Channel(layout.pixels.type(i)));
+  if (layout.several()) {
+    header.setName(part.name);
+    header.setType(Imf::SCANLINEIMAGE);
+  }
   for (const auto& [name, value] : image.attributes) std::visit(AttributeInserter{header, name}, value);
   if (const auto& c = image.chromaticities) {
     const auto v2f = [](Vec2 v) { return Imath::V2f(v.x, v.y); };
@@ -96,36 +146,63 @@ void require_whole(const Image& image, const AtomicFile& file) {
 }
 
 /// All bytes to the stream; on return the position is the end of the file.
-void encode(const Image& image, FileStream& stream) {
-  Imf::OutputFile output(stream, header_of(image), exr_threads(image.channels.size() * image.channels.front().values.size()));
-  Imf::FrameBuffer buffer;
-  for (const Channel& c : image.channels)
-    buffer.insert(c.name, Imf::Slice::Make(Imf::FLOAT, c.values.data(), to_box(image.data)));
-  output.setFrameBuffer(buffer);
-  output.writePixels(image.height());
+void encode(const Image& image, const ExrSettings& settings, FileStream& stream) {
+  const Layout layout{settings, parts_of(image, settings.parts), StoredPixels(image, settings.half)};
+  const int threads = exr_threads(image.channels.size() * image.channels.front().values.size());
+  std::vector<Imf::Header> headers;
+  for (const ExrPart& part : layout.parts) headers.push_back(header_of(image, layout, part));
+  if (!layout.several()) {
+    Imf::OutputFile output(stream, headers.front(), threads);
+    output.setFrameBuffer(layout.pixels.buffer(layout.parts.front()));
+    output.writePixels(image.height());
+    return;
+  }
+  Imf::MultiPartOutputFile output(stream, headers.data(), static_cast<int>(headers.size()), false, threads);
+  for (std::size_t i = 0; i < layout.parts.size(); ++i) {
+    Imf::OutputPart part(output, static_cast<int>(i));
+    part.setFrameBuffer(layout.pixels.buffer(layout.parts[i]));
+    part.writePixels(image.height());
+  }
 }
 
-}  // namespace
+bool is_lossy(ExrCompression c) { return c == ExrCompression::dwaa || c == ExrCompression::dwab; }
 
-void write_exr(const Image& image, const std::string& path) {
+/// What was written, read again.
+void require_holds(const AtomicFile& file, const Image& image, ExrCompression compression) {
+  bool same = false;
+  try {
+    same = is_lossy(compression) ? exr_has_pixels_of(file.temporary_path(), image) : exr_holds(file.temporary_path(), image);
+  } catch (const Error& error) {
+    file.fail("what was written cannot be read back (" + std::string(error.what()) + ")");
+  }
+  if (!same) file.fail("what was written reads back differently");
+}
+
+void write_as_stored(const Image& image, const std::string& path, const ExrSettings& settings) {
   AtomicFile file(path);
   require_whole(image, file);
   FileStream stream(file);
   try {
-    encode(image, stream);
+    encode(image, settings, stream);
   } catch (const std::exception& error) {
     file.fail(stream.failure().empty() ? error.what() : stream.failure());
   }
   if (!stream.failure().empty()) file.fail(stream.failure());
   file.close();
-  bool same = false;
-  try {
-    same = exr_holds(file.temporary_path(), image);
-  } catch (const Error& error) {
-    file.fail("what was written cannot be read back (" + std::string(error.what()) + ")");
-  }
-  if (!same) file.fail("what was written reads back differently");
+  require_holds(file, image, settings.compression);
   file.commit();
+}
+
+}  // namespace
+
+void write_exr(const Image& image, const std::string& path, const ExrSettings& settings) {
+  if (settings.half) return write_as_stored(rounded_to_halves(image), path, settings);
+  write_as_stored(image, path, settings);
+}
+
+const std::vector<std::string_view>& exr_compression_names() {
+  static const std::vector<std::string_view> kNames{"none", "rle", "zips", "zip", "piz", "dwaa", "dwab"};
+  return kNames;
 }
 
 }  // namespace tyndall

@@ -19,7 +19,7 @@ struct CloseFile {
 };
 
 Error unreadable(const std::string& path, const std::string& why) {
-  return Error(Failure::scene, path + ": cannot be read (" + why + "); check the name and its permissions");
+  return Error(Location{path}, "cannot be read (" + why + "); check the name and its permissions");
 }
 
 }  // namespace

@@ -29,6 +29,9 @@ Image decode_stb(std::string_view bytes, const Encoding& encoding, const std::st
 /// .pfm: floats, which are linear.
 Image decode_pfm(std::string_view bytes, const std::string& path);
 bool is_pfm(std::string_view bytes);
+bool is_png(std::string_view bytes);
+/// "8-bit RGB, taken as sRGB": how the header of a PNG says that its pixels are stored. `bytes` have been decoded before.
+std::string png_storage(std::string_view bytes);
 
 /// What their headers declare.
 ImageSize png_size(std::string_view bytes, const std::string& path);

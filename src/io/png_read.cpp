@@ -68,6 +68,19 @@ bool read_rows(png_structp png, Raster& raster) {
 
 }  // namespace
 
+bool is_png(std::string_view bytes) { return bytes.starts_with("\x89PNG\r\n\x1a\n"); }
+
+std::string png_storage(std::string_view bytes) {
+  constexpr std::size_t kBits = 24, kColor = 25;  // in the header's chunk, which is the first
+  const auto color = static_cast<unsigned char>(bytes[kColor]);
+  const char* what = color == 0   ? "grey"
+                     : color == 2 ? "RGB"
+                     : color == 3 ? "palette"
+                     : color == 4 ? "grey with alpha"
+                                  : "RGBA";
+  return std::to_string(static_cast<int>(bytes[kBits])) + "-bit " + what + ", taken as sRGB";
+}
+
 ImageSize png_size(std::string_view bytes, const std::string& path) {
   constexpr std::size_t kAt = 16;  // after the signature, the length and the name of the first chunk
   if (bytes.size() < kAt + 8 || bytes.substr(12, 4) != "IHDR")

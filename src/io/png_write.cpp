@@ -1,33 +1,36 @@
 #include <png.h>
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <csetjmp>
 #include <new>
 #include <string>
 #include <vector>
 
+#include "math/cie.h"
 #include "tyndall/error.h"
 #include "tyndall/io.h"
 
 namespace tyndall {
 namespace {
 
-png_byte to_srgb8(float linear) {
-  if (!(linear > 0)) return 0;  // NaN too
-  const float c = std::min(linear, 1.0f);
-  const float encoded = c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1 / 2.4f) - 0.055f;  // IEC 61966-2-1
-  return static_cast<png_byte>(std::lround(encoded * 255));
+png_byte to_byte(float shown) { return static_cast<png_byte>(std::lround(shown * 255)); }
+
+/// To the primaries of sRGB, which are Rec.709's.
+Rgb to_rec709(const std::array<float, 9>& m, Rgb c) {
+  return {m[0] * c.r + m[1] * c.g + m[2] * c.b, m[3] * c.r + m[4] * c.g + m[5] * c.b, m[6] * c.r + m[7] * c.g + m[8] * c.b};
 }
 
-std::vector<png_byte> tone_mapped(const Image& image, float exposure) {
-  const float scale = std::exp2(exposure);
+std::vector<png_byte> bytes_shown(const Image& image, const PngSettings& settings) {
+  const float scale = std::exp2(settings.exposure);
+  const auto matrix = rec709_from(image.chromaticities.value_or(Chromaticities()), false);
   std::vector<png_byte> pixels;
   pixels.reserve(3 * static_cast<std::size_t>(image.width()) * static_cast<std::size_t>(image.height()));
   for (int y = 0; y < image.height(); ++y)
     for (int x = 0; x < image.width(); ++x) {
       const Rgb c = image.rgb(x, y) * scale;
-      for (int i = 0; i < 3; ++i) pixels.push_back(to_srgb8(c[i]));
+      const Rgb shown = displayed(image.chromaticities ? to_rec709(matrix, c) : c, settings.view);
+      for (int i = 0; i < 3; ++i) pixels.push_back(to_byte(shown[i]));
     }
   return pixels;
 }
@@ -61,17 +64,26 @@ bool encode(png_structp png, png_infop info, const Image& image, const png_byte*
 
 }  // namespace
 
-void write_png(const Image& image, const std::string& path, float exposure) {
-  if (image.width() <= 0 || image.height() <= 0)
-    throw Error(Failure::output, path + ": cannot be written: the image has no pixels");
-  const std::vector<png_byte> pixels = tone_mapped(image, exposure);
+std::string encode_png(const Image& image, const PngSettings& settings) {
+  if (image.width() <= 0 || image.height() <= 0) throw Error(Failure::output, "cannot be written: the image has no pixels");
+  const std::vector<png_byte> pixels = bytes_shown(image, settings);
 
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, on_write_error, on_write_warning);
   png_infop info = png ? png_create_info_struct(png) : nullptr;
   std::string bytes;
   const bool encoded = info && encode(png, info, image, pixels.data(), bytes);
   png_destroy_write_struct(&png, &info);
-  if (!encoded) throw Error(Failure::output, path + ": cannot be written: out of memory");
+  if (!encoded) throw Error(Failure::output, "cannot be written: out of memory");
+  return bytes;
+}
+
+void write_png(const Image& image, const std::string& path, const PngSettings& settings) {
+  std::string bytes;
+  try {
+    bytes = encode_png(image, settings);
+  } catch (const Error& e) {
+    throw Error(e.failure(), path + ": " + e.what());
+  }
   write_file(bytes, path);
 }
 

@@ -10,6 +10,8 @@ std::string Location::str() const {
 Error::Error(Failure failure, const std::string& message) : std::runtime_error(message), failure_(failure) {}
 
 Error::Error(const Location& where, const std::string& message)
-    : std::runtime_error(where.file.empty() ? message : where.str() + ": " + message), failure_(Failure::scene) {}
+    : std::runtime_error(where.file.empty() ? message : where.str() + ": " + message),
+      failure_(Failure::scene),
+      where_(where) {}
 
 }  // namespace tyndall

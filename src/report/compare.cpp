@@ -224,6 +224,17 @@ std::string VariantResult::slope_note() const {
   return "flatter than -1: a sign of bias";
 }
 
+BuildSettings with_needs_of(const ComparePlan& plan, const RenderSettings& base, BuildSettings settings) {
+  settings.lights = {base.lights};
+  settings.volume_lights = base.emission == EmissionStrategy::lights;
+  for (const CompareVariant& v : plan.variants) {
+    settings.volume_lights = settings.volume_lights || v.settings.emission == EmissionStrategy::lights;
+    auto& known = settings.lights;
+    if (std::find(known.begin(), known.end(), v.settings.lights) == known.end()) known.push_back(v.settings.lights);
+  }
+  return settings;
+}
+
 CompareResult compare(const World& world, const ComparePlan& plan, const Reference& reference, const CompareControl& control) {
   const std::vector<CompareVariant> shown = shown_variants(plan);
   std::vector<Runs> runs(shown.size());

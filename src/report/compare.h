@@ -74,6 +74,9 @@ struct CompareControl {
   const std::atomic<bool>* stop = nullptr;  ///< set it to end with the seeds that are complete
 };
 
+/// What the plan's variants and a reference rendered with `base` need of a World, added to `settings`.
+BuildSettings with_needs_of(const ComparePlan& plan, const RenderSettings& base, BuildSettings settings);
+
 /// Run the plan on `world`, which must have been built for every light strategy in it. No variants in the result: it was
 /// stopped before a seed was complete.
 CompareResult compare(const World& world, const ComparePlan& plan, const Reference& reference,

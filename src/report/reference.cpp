@@ -65,11 +65,13 @@ void Reference::require_fit(const World& world, const RenderSettings& settings, 
 
 void Reference::refuse(const std::string& why) const { throw Error(Failure::scene, source + ": " + why); }
 
-Reference read_reference(const std::string& path) {
+Reference read_reference(const std::string& path) { return as_reference(read_image(path), path); }
+
+Reference as_reference(Image image, const std::string& source) {
   Reference r;
-  r.image = read_image(path);
-  r.source = path;
-  require_sound(r.image, path);
+  r.image = std::move(image);
+  r.source = source;
+  require_sound(r.image, source);
   r.has_variance = r.image.find("Variance.R") && r.image.find("Variance.G") && r.image.find("Variance.B");
   if (const int* samples = r.image.attribute<int>("tyndall/samples")) r.samples = *samples;
   if (const auto* seed = r.image.attribute<std::string>("tyndall/seed")) r.seed = *seed;

@@ -1,6 +1,7 @@
 /// The picture that errors are measured against.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <limits>
 #include <string>
@@ -31,8 +32,13 @@ struct Reference {
   [[noreturn]] void refuse(const std::string& why) const;
 };
 
-/// Throws Error (scene) when it cannot be read, has no R, G and B, or holds values that are not finite.
+/// `source` stands for the image in messages. Throws Error (scene) when it has no R, G and B, or values that are not finite.
+Reference as_reference(Image image, const std::string& source);
+/// The same of a file. Throws Error (scene) when it cannot be read.
 Reference read_reference(const std::string& path);
+
+/// Of references that are rendered: apart from any seed that a run is likely to have.
+inline constexpr std::uint64_t kReferenceSeed = 0x7265666572656e63;
 
 /// When a reference is good enough.
 struct ReferenceGoal {

@@ -19,5 +19,5 @@ cp "$here/.clang-format" "$planted"
 printf 'int  twice(int a){return a+a;}\n' >"$planted/planted.cpp"
 [ "$(unformatted "$planted")" = "$planted/planted.cpp" ] || { echo "a planted source that is not formatted was not noticed"; exit 1; }
 
-found=$(for folder in include src tests; do unformatted "$here/$folder"; done)
+found=$(for folder in include src python tests; do unformatted "$here/$folder"; done)
 [ -z "$found" ] || { echo "$found"; echo "not formatted; build the target format"; exit 1; }

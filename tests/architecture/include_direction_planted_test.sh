@@ -7,7 +7,7 @@ trap 'rm -rf "$tree"' EXIT
 failures=0
 
 expect() {  # pass|fail FILE INCLUDE
-  rm -rf "$tree/src" "$tree/include"
+  rm -rf "$tree/src" "$tree/include" "$tree/python"
   mkdir -p "$tree/src" "$tree/include" "$tree/$(dirname "$2")"
   printf '#include <vector>\n#include %s\n' "$3" >"$tree/$2"
   if sh "$test" "$tree" >/dev/null; then result=pass; else result=fail; fi
@@ -51,6 +51,14 @@ expect fail src/math/rng.h '<tbb/tbb.h>'
 expect fail src/transport/path.cpp '<some_library/thing.h>'
 expect fail src/report/page.cpp '<zlib.h>'
 
+expect fail src/io/tev_message.cpp '<netdb.h>'
+expect fail python/bindings/scene.cpp '"io/exr.h"'
+expect fail python/bindings/scene.cpp '<openvdb/openvdb.h>'
+expect fail src/io/exr.cpp '<pybind11/pybind11.h>'
+
+expect pass python/bindings/scene.cpp '"tyndall/io.h"'
+expect pass python/bindings/scene.cpp '"convert.h"'
+expect pass python/bindings/scene.cpp '<pybind11/numpy.h>'
 expect pass src/transport/path.cpp '"volume/grid.h"'
 expect pass src/transport/path.cpp '"transport/media/span.h"'
 expect pass src/transport/media/span.cpp '"transport/media/span_walk.h"'

@@ -1,10 +1,10 @@
 #!/bin/sh
-# Who may include whom: reads every #include line of include/ and src/, prints each that goes the wrong way, and fails if there is one.
+# Who may include whom: reads every #include line of include/, src/ and python/, prints each that goes the wrong way, and fails if there is one.
 # Usage: include_direction_test.sh [CHECKOUT]
 set -eu
 cd "${1:-$(dirname "$0")/../..}"
 
-find include src \( -name '*.h' -o -name '*.cpp' \) -exec grep -HnE '^[[:space:]]*#[[:space:]]*include' {} + | awk '
+find include src $([ ! -d python ] || echo python) \( -name '*.h' -o -name '*.cpp' \) -exec grep -HnE '^[[:space:]]*#[[:space:]]*include' {} + | awk '
 BEGIN {
   # A folder of src, and the folders it may include besides itself and include/tyndall.
   allow("math", "")
@@ -37,6 +37,7 @@ BEGIN {
   door("^[a-z]*intrin\\.h$", "^src/")
   door("^(elf|link)\\.h$", "^src/session/build_id\\.cpp$")
   door("^sys/platform/x86\\.h$", "^src/cli/cpu_")
+  door("^netdb\\.h$", "^src/cli/viewer_link\\.cpp$")
   door("^experimental/simd$", "^src/math/simd\\.h$")
   door("^(unistd\\.h|fcntl\\.h|fnmatch\\.h|signal\\.h|sys/[a-z]*\\.h)$", "^src/")
 }
@@ -66,6 +67,10 @@ function wrong(why) { print place ": " path ": " why; found = 1 }
 
   if (path ~ /^\.\.?\// || path ~ /\/\.\.?\//) { wrong("write paths from src or include"); next }
   if (folder == "tyndall") next
+  if (step[1] == "python") {  # the public headers, its own, and pybind11
+    if (path !~ /^(pybind11\/)?[a-z_0-9]+(\.h)?$/) wrong("python/ sees tyndall/, pybind11/ and the standard library only")
+    next
+  }
   if (owner == "include") {
     if (path !~ /^[a-z_0-9]+$/) wrong("public headers see the standard library and tyndall/ only")
     next

@@ -17,7 +17,7 @@ row() {
   sed 's/`//g; s/²/^2/g' "$3" | awk -v command="$1" -v option="$2" '
     /^## / { here = $2 == command }
     /^\|/ { split($0, cell, "|"); if (("," cell[2] ",") ~ "[ ,]" option "[ ,]") { if (here) own = $0; if (render) other = $0 } }
-    /^## / { render = $2 == "render" && (command == "compare" || command == "farm") }
+    /^## / { render = $2 == "render" && command ~ /^(compare|farm|denoise|relight)$/ }
     END { print own ? own : other }'
 }
 

@@ -42,7 +42,12 @@ void check(const std::vector<std::string>& seeds, bool cuts_show) {
 TEST_CASE("damaged .exr files") {
   const Scratch folder;
   write_exr(ramp(37, 23), folder / "zip.exr");
-  check({folder / "zip.exr", kUnitData + "scanline_mixed_piz.exr"}, true);
+  write_exr(ramp(37, 23), folder / "half.exr", {.half = true, .compression = ExrCompression::piz});
+  check({folder / "zip.exr", folder / "half.exr", kUnitData + "scanline_mixed_piz.exr"}, true);
+  Image several = ramp(37, 23);
+  several.add_channel("Z");
+  write_exr(several, folder / "parts.exr", {.parts = true});
+  check({folder / "parts.exr"}, true);
   check({kUnitData + "tiled_mipmap.exr"}, false);  // smaller levels, which are not read, may be missing
 }
 

@@ -76,7 +76,7 @@ TEST_CASE("a PNG comes back within its 8 bits, brighter by its exposure") {
     CHECK(image.find("G")->values[i] == Approx(srgb(static_cast<double>(i) * 40 / 255)).epsilon(1e-5));
     CHECK(read_image(folder / "a.png", "linear").find("G")->values[i] == Approx(static_cast<double>(i) * 40 / 255));
   }
-  write_png(grey_ramp(), folder / "b.png", 1);
+  write_png(grey_ramp(), folder / "b.png", {.exposure = 1});
   const Image brighter = read_image(folder / "b.png");
   CHECK(brighter.rgb(1, 1).r == Approx(2 * srgb(160. / 255)).epsilon(0.01));
   CHECK(brighter.rgb(2, 1).r == 1.0f);
@@ -93,6 +93,10 @@ TEST_CASE("PNG output takes NaN and negative values for black and repeats its by
   const Image back = read_image(folder / "a.png");
   CHECK(back.find("R")->values == std::vector<float>{0, 0, 1, 0, 0, 0});
   CHECK_THROWS_AS(write_png(image, folder / "none/a.png"), Error);
+  CHECK(encode_png(image) == read_bytes(folder / "a.png"));
+  CHECK(encode_png(image, {.exposure = 1}) != read_bytes(folder / "a.png"));
+  CHECK_THROWS_WITH_AS(encode_png({}), "cannot be written: the image has no pixels", Error);
+  CHECK_THROWS_WITH_AS(write_png({}, "b.png"), "b.png: cannot be written: the image has no pixels", Error);
 }
 
 TEST_CASE("16-bit, palette, transparent, grey and interlaced PNG") {

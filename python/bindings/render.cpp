@@ -1,0 +1,105 @@
+#include "tyndall/render.h"
+
+#include "define.h"
+#include "settings.h"
+#include "tyndall/compare.h"
+#include "watch.h"
+
+namespace tyndall::python {
+namespace {
+
+std::function<void()> call(const py::object& progress, const Progress& p) {
+  return [&progress, p] {
+    progress(python_class("tyndall.render", "Progress")(p.samples_done, p.fraction, p.seconds, p.remaining, p.preparing));
+  };
+}
+
+py::dict from_report(const RenderReport& r) {
+  py::list bad;
+  for (const BadSample& b : r.bad_samples) bad.append(py::make_tuple(b.x, b.y, b.sample));
+  return py::dict("samples"_a = r.samples, "seconds"_a = r.seconds, "stopped"_a = r.stopped, "paths"_a = r.paths,
+                  "rays"_a = r.rays, "shadow_rays"_a = r.shadow_rays, "density_lookups"_a = r.density_lookups,
+                  "non_finite"_a = r.non_finite, "majorant_violations"_a = r.majorant_violations, "caps_hit"_a = r.caps_hit,
+                  "parity_errors"_a = r.parity_errors, "bad_samples"_a = bad);
+}
+
+/// (image, report)
+py::tuple render_world(const World& world, const RenderSettings& settings, const py::object& progress) {
+  Watched watched;
+  RenderControl control{.stop = &watched.stop};
+  if (!progress.is_none()) control.progress = [&](const Progress& p) { watched.tell(call(progress, p)); };
+  std::optional<Rendering> rendering;
+  run_watched(watched, [&] { rendering = render(world, settings, control); });
+  return py::make_tuple(from_image(std::move(rendering->image)), from_report(rendering->report));
+}
+
+struct BuildOptions {
+  bool sanitize = false;
+  std::optional<double> max_memory;  ///< GB
+};
+
+World build_scene(const Scene& scene, const RenderSettings& settings, const BuildOptions& options) {
+  BuildSettings how{.lights = {settings.lights},
+                    .volume_lights = settings.emission == EmissionStrategy::lights,
+                    .sanitize = options.sanitize,
+                    .threads = settings.threads};
+  if (options.max_memory) how.max_memory = static_cast<std::size_t>(*options.max_memory * 1e9);
+  Watched watched;
+  std::optional<World> world;
+  run_watched(watched, [&] { world.emplace(build(scene, how)); });
+  return std::move(*world);
+}
+
+MethodRace to_race(const Scene& scene, const py::dict& methods, const py::dict& plan) {
+  MethodRace race;
+  for (const auto& [name, options] : methods)
+    race.methods.push_back({name.cast<std::string>(), with_options(scene.settings, options.cast<py::dict>())});
+  race.seconds = plan["time"].cast<std::optional<double>>();
+  race.samples = plan["spp"].cast<std::optional<int>>();
+  race.seeds = plan["seeds"].cast<int>();
+  race.seed = plan["seed"].cast<std::uint64_t>();
+  race.reference_relmse = plan["reference_error"].cast<double>();
+  race.reference_seconds = plan["reference_time"].cast<std::optional<double>>();
+  race.threads = plan["threads"].cast<int>();
+  for (NamedMethod& m : race.methods) m.settings.threads = race.threads;
+  if (!plan["reference"].is_none()) race.reference = to_image(plan["reference"]);
+  return race;
+}
+
+/// (results as JSON, reference, images by method)
+py::tuple compare_methods(const Scene& scene, const py::dict& methods, const py::dict& plan, const py::object& progress) {
+  const MethodRace race = to_race(scene, methods, plan);
+  Watched watched;
+  MethodRaceControl control{.stop = &watched.stop};
+  if (!progress.is_none()) {
+    control.progress = [&](double fraction) { watched.tell([&progress, fraction] { progress(fraction); }); };
+  }
+  std::optional<MethodRaceResult> result;
+  run_watched(watched, [&] { result = race_methods(scene, race, control); });
+  py::dict images;
+  for (NamedImage& i : result->images) images[py::str(i.name)] = from_image(std::move(i.image));
+  return py::make_tuple(result->json, from_image(std::move(result->reference)), images);
+}
+
+}  // namespace
+
+void define_render(py::module_& m) {
+  py::class_<World>(m, "World")
+      .def("render",
+           [](const World& world, const Scene& scene, const py::dict& options, const py::object& progress) {
+             return render_world(world, with_options(scene.settings, options), progress);
+           })
+      .def("notes", [](const World& world) { return world.summary().notes; });
+  m.def("build", [](const Scene& scene, const py::dict& options, bool sanitize, std::optional<double> max_memory) {
+    return build_scene(scene, with_options(scene.settings, options), {sanitize, max_memory});
+  });
+  m.def("compare", compare_methods);
+  m.def("aov_names", [] {
+    py::list names;
+    for (const std::string_view name : aov_names()) names.append(py::str(std::string(name)));
+    return names;
+  });
+  m.def("version", [] { return std::string(version()); });
+}
+
+}  // namespace tyndall::python
