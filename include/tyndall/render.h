@@ -85,7 +85,10 @@ struct BadSample {
 
 /// Counts of a render. A correct render has 0 in the second group.
 struct RenderReport {
-  int samples = 0;               ///< per pixel, done
+  int samples = 0;                          ///< per pixel, done; with RenderSettings::adaptive in the mean, as everywhere
+  int least_samples = 0, most_samples = 0;  ///< of any pixel
+  /// As RenderJob tells, and the largest of a block of 8 x 8 pixels, pooled with those around it. Infinity below 2 samples.
+  double estimated_relmse = 0, worst_relmse = 0;
   bool stopped = false;          ///< ended by RenderControl::stop
   std::uint64_t unrendered = 0;  ///< pixels without a sample: the first pass was given up
   double seconds = 0;            ///< spent rendering
@@ -103,7 +106,8 @@ class RenderJob {
   /// at the film beforehand. Return false to give the pass up. Must not throw.
   using PassWatch = std::function<bool(double samples)>;
 
-  /// `world` must outlive the job. Of `settings`, `spp`, `time` and `error` are the caller's to keep.
+  /// `world` must outlive the job. Of `settings`, `spp`, `time` and `error` are the caller's to keep, but `spp` where it is
+  /// adaptive: then no pixel gets more.
   /// Throws Error (usage) for settings that cannot be, or a light strategy that the world was not built with.
   RenderJob(const World& world, const RenderSettings& settings);
   RenderJob(RenderJob&&) noexcept;
@@ -115,7 +119,7 @@ class RenderJob {
   /// leaves the pixels it finished, the others black (report().unrendered, and 0 in channel SampleCount).
   enum class GivenUp { spoilt, undone };
 
-  /// `samples` > 0 more for every pixel. False: given up.
+  /// `samples` > 0 more for every pixel, with RenderSettings::adaptive in the mean. False: given up.
   bool advance(int samples, const PassWatch& watch = {}, GivenUp given_up = GivenUp::spoilt);
 
   /// The state at this pass end, at least 1 sample, as bytes for restore(). Ends in a checksum.
@@ -130,7 +134,7 @@ class RenderJob {
   double seconds() const;            ///< spent in advance(), looking at the film beforehand included; after restore(), as saved
   double preparing_seconds() const;  ///< of these, spent in looking at the film
   /// relMSE that the two replicates of each pixel predict: mean of variance / (mean^2 + 0.01) over pixels and
-  /// channels. Infinity below 2 samples.
+  /// channels, mean^2 without its own noise. Infinity below 2 samples.
   double estimated_relmse() const;
   RenderReport report() const;
   Image image() const;  ///< of at least 1 sample

@@ -48,9 +48,13 @@ enum class TransmittanceStrategy { residual, ratio, delta, raymarch };
 struct RenderSettings {
   int spp = 64;                  ///< samples a pixel, >= 1
   std::optional<double> time{};  ///< seconds; stops at the first pass end after it, if spp have not been reached before
-  /// relMSE (mean of variance / (mean^2 + 0.01), from the render's own replicates) to stop below; looked at when the
-  /// samples are 64, 128, 256 ...
+  /// relMSE (mean of variance / (mean^2 + 0.01), from the render's own replicates) to stop below; if not `adaptive` looked at
+  /// when the samples are 64, 128, 256 ...
   std::optional<double> error{};
+  /// More samples where the error is, after 32 everywhere; `spp` is then the most that a pixel gets, and numbers of samples are
+  /// means over pixels. Ends at `error`, looked at when they are 32, 40, 48, 56, 64, 72, 80 ..., or `time`: at `spp` all pixels
+  /// have as many. Not of slices. Unset: in render() with `error`.
+  std::optional<bool> adaptive{};
   int max_depth = 5;  ///< bounces a path, counted as pbrt's volpath; >= 0
   std::uint64_t seed = 0;
   int threads = 0;                             ///< 0: all cores

@@ -78,6 +78,9 @@ void set_samples(const RenderOptions& options, RenderSettings& settings) {
   if (options.spp) settings.spp = *options.spp;
   if (options.time) settings.time = *options.time;
   if (options.error) settings.error = *options.error;
+  if (options.adaptive) settings.adaptive = *options.adaptive;
+  if (settings.adaptive.value_or(false) && !settings.error && !settings.time)
+    throw Error(Failure::usage, "--adaptive says where samples go, not how many; give --error or --time with it");
   // A limit of time or error alone leaves the number of samples open.
   if (!options.spp && (options.time || options.error)) settings.spp = std::numeric_limits<int>::max();
 }
@@ -181,10 +184,16 @@ void declare_task(CLI::App& command, RenderOptions& o) {
 void declare(CLI::App& command, RenderOptions& o) {
   declare_task(command, o);
   command
-      .add_option("--error", o.error,
-                  "stop when the estimated relMSE, mean of variance / (mean^2 + 0.01), is below this; looked at when the "
-                  "samples are 64, 128, 256 ... [none]; --error 0.001")
+      .add_option(
+          "--error", o.error,
+          "stop when the estimated relMSE, mean of variance / (mean^2 + 0.01), is below this; looked at when the "
+          "samples a pixel are 32, 40, 48, 56, 64, 72 ... in the mean, with --no-adaptive when they are 64, 128, 256 ... "
+          "[none]; --error 0.001")
       ->check(positive());
+  command.add_flag_function(
+      "--adaptive,!--no-adaptive", [&o](std::int64_t times) { o.adaptive = times > 0; },
+      "more samples where the error is, after 32 everywhere; --spp is then the most that a pixel gets [with "
+      "--error, else not]; --adaptive");
   command.add_option(
       "--slice", o.slice,
       "only the I-th of N slices of the samples, of which --spp is the number of all; tyndall merge adds them up to the "

@@ -36,6 +36,7 @@ struct RenderOptions {
   std::optional<int> spp, threads;
   std::optional<double> time, error, checkpoint, max_memory, preview_every;
   std::optional<std::uint64_t> seed;
+  std::optional<bool> adaptive;
   std::string reference, error_log, aovs, slice, frames, display, progress = "auto";
   bool reproducible = false, quiet = false, json = false, resume = false, denoise = false;
 

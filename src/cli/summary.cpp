@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <sys/resource.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 namespace tyndall::cli {
@@ -10,11 +11,27 @@ namespace {
 
 std::string mebibytes(std::size_t bytes) { return fmt::format("{:.1f} MiB", static_cast<double>(bytes) / (1 << 20)); }
 
+/// Where not all pixels have as many.
+std::string range_of_samples(const RenderReport& r) {
+  if (r.least_samples == r.most_samples) return {};
+  return fmt::format(" in the mean, {} to {}", r.least_samples, r.most_samples);
+}
+
+/// One sample a pixel tells no error.
+std::string estimated_error(const RenderReport& r) {
+  if (!std::isfinite(r.estimated_relmse)) return {};
+  return fmt::format("  error   estimated relMSE {:.3g}, in the worst part of the picture {:.3g}\n", r.estimated_relmse,
+                     r.worst_relmse);
+}
+
 std::string bad_samples(const RenderReport& r) {
   std::string text;
   for (const BadSample& b : r.bad_samples) text += fmt::format("  not finite: pixel {},{} sample {}\n", b.x, b.y, b.sample);
   return text;
 }
+
+/// Infinity is no number in JSON.
+nlohmann::json known(double value) { return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(); }
 
 }  // namespace
 
@@ -28,7 +45,8 @@ std::string as_text(const Summary& s) {
   const RenderReport& r = s.render;
   const double rays = static_cast<double>(r.rays + r.shadow_rays);
   std::string text;
-  text += fmt::format("{}: {}x{}, {} spp{}\n", s.output, s.width, s.height, r.samples, r.stopped ? ", stopped early" : "");
+  text += fmt::format("{}: {}x{}, {} spp{}{}\n", s.output, s.width, s.height, r.samples, range_of_samples(r),
+                      r.stopped ? ", stopped early" : "");
   text += fmt::format(
       "  time    read {:.2f}s, build {:.2f}s (geometry {:.2f}, volumes {:.2f}, lights {:.2f}), render {:.2f}s, write {:.2f}s\n",
       s.read_seconds, s.build_seconds, s.build.geometry_seconds, s.build.volume_seconds, s.build.light_seconds, r.seconds,
@@ -40,6 +58,7 @@ std::string as_text(const Summary& s) {
                       mebibytes(s.build.geometry_bytes), mebibytes(s.build.volume_bytes), mebibytes(s.build.light_bytes));
   text += fmt::format("  health  {} non-finite samples, {} majorant violations, {} caps hit, {} boundary parity errors\n",
                       r.non_finite, r.majorant_violations, r.caps_hit, r.parity_errors);
+  text += estimated_error(r);
   if (s.denoised) {
     text += fmt::format("  denoise {:.2f}s, estimated relMSE {:.3g} before and {:.3g} after; as rendered in noisy.R .G .B\n",
                         s.denoised->seconds, s.denoised->noisy_relmse, s.denoised->relmse);
@@ -59,7 +78,10 @@ std::string as_json(const Summary& s) {
   j["width"] = s.width;
   j["height"] = s.height;
   j["samples"] = r.samples;
+  j["least_samples"] = r.least_samples;
+  j["most_samples"] = r.most_samples;
   j["stopped"] = r.stopped;
+  j["relmse"] = {{"estimated", known(r.estimated_relmse)}, {"worst", known(r.worst_relmse)}};
   j["unrendered"] = r.unrendered;
   j["seconds"] = {{"read", s.read_seconds},
                   {"build", s.build_seconds},

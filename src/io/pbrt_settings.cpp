@@ -61,6 +61,7 @@ void read_own_options(State& state, ParamList& params) {
     if (!(*error > 0)) throw params.error("error", "error must be above 0; it is a relMSE, as 0.001");
     s.error = *error;
   }
+  if (params.find("adaptive", {ParamType::boolean})) s.adaptive = params.boolean("adaptive", false);
   if (params.find("candidates", {ParamType::integer})) s.candidates = at_least(params, "candidates", 0, 0);
   if (const auto splitting = params.maybe_number("splitting")) {
     if (!(*splitting >= 0 && *splitting <= 1)) throw params.error("splitting", "splitting must be from 0 to 1");

@@ -85,8 +85,8 @@ double estimated_relmse(const Image& image) {
   double sum = 0;
   for (std::size_t k = 0; k < means.size(); ++k) {
     for (std::size_t i = 0; i < means[k]->size(); ++i) {
-      const double mean = (*means[k])[i];
-      sum += (*variances[k])[i] / (mean * mean + kRelativeEps);
+      const double mean = (*means[k])[i], variance = (*variances[k])[i];
+      sum += variance / (std::max(mean * mean - variance, 0.0) + kRelativeEps);
     }
   }
   return sum / static_cast<double>(means.size() * means.front()->size());

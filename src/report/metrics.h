@@ -34,7 +34,8 @@ ErrorMetrics measure_error(const Image& image, const Image& reference, const std
 /// bad are among those left out.
 ErrorMetrics measure_error_without_noise(const Image& image, const Image& reference);
 
-/// relMSE of a render as estimated from its own noise: mean of Variance / (mean^2 + eps) over pixels and R, G, B.
+/// relMSE of a render as estimated from its own noise: mean of Variance / (mean^2 + eps) over pixels and R, G, B, mean^2
+/// less the Variance that is in it.
 double estimated_relmse(const Image& image);
 
 /// The channel `name`; throws Error (scene) when it is absent.

@@ -87,19 +87,21 @@ class Mixer {
   /// Not of several renders, whose variance is known with more degrees of freedom, nor of a filtered picture.
   bool has_halves() {
     const bool one_render = !image_.attributes.contains("tyndall/slices") && !image_.attributes.contains("tyndall/denoised");
-    return one_render && image_.attribute<int>("tyndall/samples") && values_of(image_, kReplicate + "SampleCount") &&
-           values_of(image_, kReplicate + suffix_) && complete(group_planes(kReplicate));
+    return one_render && (image_.attribute<int>("tyndall/samples") || image_.find("SampleCount")) &&
+           values_of(image_, kReplicate + "SampleCount") && values_of(image_, kReplicate + suffix_) &&
+           complete(group_planes(kReplicate));
   }
 
   /// As a render does: of the means m over n samples and e over k of them, that over the others differs from e by
   /// n (m - e) / (n - k), and the variance of m is that squared times k (n - k) / n^2.
   void measure_variance(std::vector<float>& variance) {
-    const double n = *image_.attribute<int>("tyndall/samples");
+    const int* everywhere = image_.attribute<int>("tyndall/samples");
+    const auto* each = values_of(image_, "SampleCount");
     const auto& all = *values_of(image_, suffix_);
     const auto& even = *values_of(image_, kReplicate + suffix_);
     const auto& counts = *values_of(image_, kReplicate + "SampleCount");
     for (std::size_t i = 0; i < variance.size(); ++i) {
-      const double k = counts[i], difference = double{all[i]} - even[i];
+      const double n = everywhere ? *everywhere : double{(*each)[i]}, k = counts[i], difference = double{all[i]} - even[i];
       variance[i] = static_cast<float>(n > k ? difference * difference * k / (n - k) : double{all[i]} * all[i]);
     }
   }

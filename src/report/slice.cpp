@@ -50,14 +50,22 @@ std::vector<SliceSource> parse_sources(const std::string& path, const std::strin
   return sources;
 }
 
+/// Of any pixel: "512", also where the header says "32..512".
+std::string most_samples(const std::string& path, const Image& header) {
+  if (const auto* range = header.attribute<std::string>("tyndall/samples")) {
+    const std::size_t dots = range->find("..");
+    if (dots != std::string::npos && header.find("SampleCount")) return range->substr(dots + 2);
+  }
+  return std::to_string(attribute<int>(path, header, "tyndall/samples"));
+}
+
 std::vector<SliceSource> sources_of(const std::string& path, const Image& header, const std::optional<SliceInfo>& part) {
   if (header.attributes.contains("tyndall/slices")) {
     return parse_sources(path, attribute<std::string>(path, header, "tyndall/slices"), header.data);
   }
   // A plain render, told in the words of a merged one.
   const std::string& seed = attribute<std::string>(path, header, "tyndall/seed");
-  const int samples = attribute<int>(path, header, "tyndall/samples");
-  std::istringstream text("seed " + seed + " samples " + std::to_string(samples) + " crop " + crop_text(header.data));
+  std::istringstream text("seed " + seed + " samples " + most_samples(path, header) + " crop " + crop_text(header.data));
   auto source = parse_source(text);
   if (source && part) source->first = part->range.first;
   if (!source) fail(path, "attributes tyndall/seed and tyndall/samples are damaged; render the slice again");

@@ -127,6 +127,7 @@ std::string encode_checkpoint(const CheckpointIdentity& identity, const Checkpoi
   out.put(static_cast<std::uint64_t>(sums.size()));
   out.put_raw(sums.high().data(), sums.high().size_bytes());
   out.put_raw(sums.low().data(), sums.low().size_bytes());
+  for (const std::uint64_t n : state.plan) out.put(n);
   return out.finish();
 }
 
@@ -161,12 +162,13 @@ CheckpointSummary peek_checkpoint(std::string_view bytes, const std::string& nam
 }
 
 CheckpointState decode_checkpoint(std::string_view bytes, const std::string& name, const CheckpointIdentity& identity,
-                                  FilmSums& sums) {
+                                  FilmSums& sums, std::size_t plan_size) {
   Reader body = body_of(bytes, name);
   require_same(body, identity);
   CheckpointState state = get_state(body);
   if (body.get<std::uint64_t>() != sums.size()) body.fail("is a checkpoint of another frame; remove it to begin anew");
   const std::string_view high = body.take(sums.high().size_bytes()), low = body.take(sums.low().size_bytes());
+  for (std::size_t i = 0; i < plan_size; ++i) state.plan.push_back(body.get<std::uint64_t>());
   if (!body.at_end()) body.fail("is a damaged checkpoint; remove it to begin anew");
   std::memcpy(sums.high().data(), high.data(), high.size());
   std::memcpy(sums.low().data(), low.data(), low.size());

@@ -19,16 +19,17 @@ struct CheckpointState {
   int samples = 0;  ///< a pixel
   double seconds = 0;
   Counters counters;
+  std::vector<std::uint64_t> plan{};  ///< SamplePlan::state(); empty: all pixels have as many
 };
 
 /// Ends in a hash of all that goes before it.
 std::string encode_checkpoint(const CheckpointIdentity& identity, const CheckpointState& state, const FilmSums& sums);
 
-/// The state; the film's sums go to `sums`, which are left alone on failure. `name` stands for the file in messages.
-/// Throws Error (scene) for bytes that are no checkpoint or damaged, and for a part of `identity` that differs, with both
-/// values.
+/// The state, with a plan of `plan_size` numbers; the film's sums go to `sums`, which are left alone on failure. `name` stands
+/// for the file in messages. Throws Error (scene) for bytes that are no checkpoint or damaged, and for a part of `identity`
+/// that differs, with both values.
 CheckpointState decode_checkpoint(std::string_view bytes, const std::string& name, const CheckpointIdentity& identity,
-                                  FilmSums& sums);
+                                  FilmSums& sums, std::size_t plan_size = 0);
 
 /// What a checkpoint says of itself, whatever it belongs to. Throws as decode_checkpoint does.
 struct CheckpointSummary {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "session/block_grid.h"
 #include "tyndall/lights.h"
 
 namespace tyndall {
@@ -35,7 +36,12 @@ std::size_t sums_of(Aov aov) {
 
 bool is_light(Aov aov) { return aov >= Aov::surface_direct && aov <= Aov::emission; }
 
-int even_of(int samples) { return samples - samples / 2; }
+/// E[(a-b)^2] = v/even + v/odd for a variance of v a sample, so the mean of all has (a-b)^2 even odd / samples^2.
+/// A single sample has no variance estimate; its square stands in as a pessimistic value.
+float variance_factor(int samples) {
+  const int even = even_of(samples), odd = samples - even;
+  return odd > 0 ? static_cast<float>(even) * odd / (static_cast<float>(samples) * samples) : 1.0f;
+}
 
 std::string sum_channel(std::size_t number, std::size_t part) {
   constexpr std::array kParts{".high", ".mid", ".low"};
@@ -160,7 +166,7 @@ void FilmBuffer::store_color(Image& image, const std::string& name, std::size_t 
   for (std::size_t i = 0; i < pixels; ++i) {
     const auto mean = [&](std::size_t k) {
       const double odd = halves == Halves::apart && !means.even_only ? sum(i, offset + kOdd + k) : 0;
-      return static_cast<float>((sum(i, offset + k) + odd) / means.samples);
+      return static_cast<float>((sum(i, offset + k) + odd) / means.count(i));
     };
     const Rgb c = to_film_space({mean(0), mean(1), mean(2)});
     for (int k = 0; k < 3; ++k) image.channels[first + k].values[i] = c[k];
@@ -177,22 +183,24 @@ void FilmBuffer::store_ratio(Image& image, const std::string& name, std::size_t 
   }
 }
 
+Rgb FilmBuffer::difference(std::size_t pixel, std::size_t offset, int samples) const {
+  const int even = even_of(samples), odd = samples - even;
+  Rgb difference;  // in double first: the halves are nearly equal
+  for (int k = 0; k < 3; ++k) {
+    difference[k] = static_cast<float>(sum(pixel, offset + kEven + static_cast<std::size_t>(k)) / even -
+                                       (odd > 0 ? sum(pixel, offset + kOdd + static_cast<std::size_t>(k)) / odd : 0.0));
+  }
+  return to_film_space(difference);
+}
+
 /// `offset`: of sums by halves.
-void FilmBuffer::store_variance(Image& image, const std::string& name, std::size_t offset, int samples) const {
+void FilmBuffer::store_variance(Image& image, const std::string& name, std::size_t offset, const SampleCounts& samples) const {
   const std::size_t first = image.channels.size();
   for (const char* suffix : {"R", "G", "B"}) image.add_channel("Variance." + name + suffix);
-  const int even = even_of(samples), odd = samples - even;
   const std::size_t pixels = image.channels[first].values.size();
   for (std::size_t i = 0; i < pixels; ++i) {
-    Rgb difference;  // in double first: the halves are nearly equal
-    for (int k = 0; k < 3; ++k) {
-      difference[k] = static_cast<float>(sum(i, offset + kEven + static_cast<std::size_t>(k)) / even -
-                                         (odd > 0 ? sum(i, offset + kOdd + static_cast<std::size_t>(k)) / odd : 0.0));
-    }
-    // E[(a-b)^2] = v/even + v/odd for a variance of v a sample, so the mean of all has (a-b)^2 even odd / samples^2.
-    // A single sample has no variance estimate; its square stands in as a pessimistic value.
-    const float factor = odd > 0 ? static_cast<float>(even) * odd / (static_cast<float>(samples) * samples) : 1.0f;
-    const Rgb d = to_film_space(difference);
+    const float factor = variance_factor(samples.of(i));
+    const Rgb d = difference(i, offset, samples.of(i));
     for (int k = 0; k < 3; ++k) image.channels[first + k].values[i] = d[k] * d[k] * factor;
   }
 }
@@ -216,9 +224,9 @@ void FilmBuffer::store_aov(Image& image, Aov aov, std::size_t offset, const Mean
   for (std::size_t i = 0; i < pixels; ++i) {
     const auto s = [&](std::size_t k) { return sum(i, offset + k); };
     if (aov == Aov::sample_count) {
-      image.channels[first].values[i] = static_cast<float>(means.samples);
+      image.channels[first].values[i] = static_cast<float>(means.samples.of(i));
     } else if (vector) {
-      const double count = aov == Aov::n ? means.samples : std::max(s(3), 1.0);
+      const double count = aov == Aov::n ? means.count(i) : std::max(s(3), 1.0);
       for (int k = 0; k < 3; ++k)
         image.channels[first + k].values[i] = static_cast<float>(s(static_cast<std::size_t>(k)) / count);
     } else {
@@ -260,21 +268,38 @@ void FilmBuffer::add_sums(const Image& image) {
   }
 }
 
-double FilmBuffer::estimated_relmse(int samples) const {
-  if (samples < 2) return kInfinity;
-  Image halves;
-  halves.data = crop_;
-  store_color(halves, "", kEven, {"", samples}, Halves::apart);
-  store_variance(halves, "", kEven, samples);
-  double total = 0;
-  const std::size_t pixels = halves.channels[0].values.size();
-  for (std::size_t i = 0; i < pixels; ++i) {
-    for (int k = 0; k < 3; ++k) {
-      const double mean = halves.channels[k].values[i];
-      total += halves.channels[3 + k].values[i] / (mean * mean + kRelativeEpsilon);
-    }
+double FilmBuffer::estimated_relmse(const SampleCounts& samples) const {
+  if (samples.least() < 2) return kInfinity;
+  const BlockGrid grid(crop_);
+  std::vector<BlockNoise> blocks;
+  for (std::size_t b = 0; b < grid.size(); ++b) {
+    const PixelBounds pixels = grid.pixels(b);
+    blocks.push_back(noise(pixels, samples.of(crop_.index(pixels.x0, pixels.y0))));
   }
-  return total / (3.0 * static_cast<double>(pixels));
+  return mean_error(blocks);
+}
+
+BlockNoise FilmBuffer::noise(const PixelBounds& block, int samples) const {
+  BlockNoise noise{.pixels = static_cast<double>(block.size()), .samples = samples};
+  for (int y = block.y0; y < block.y1; ++y) {
+    for (int x = block.x0; x < block.x1; ++x) noise.error += samples * estimated_relmse(crop_.index(x, y), samples);
+  }
+  return noise;
+}
+
+double FilmBuffer::estimated_relmse(std::size_t pixel, int samples) const {
+  const Rgb d = difference(pixel, kEven, samples);
+  Rgb sums;
+  for (std::size_t k = 0; k < 3; ++k)
+    sums[static_cast<int>(k)] = static_cast<float>((sum(pixel, kEven + k) + sum(pixel, kOdd + k)) / samples);
+  const Rgb mean = to_film_space(sums);
+  double total = 0;
+  for (int k = 0; k < 3; ++k) {
+    // E[mean^2] is larger than its square by the variance; left in, that would hide the error of dark pixels.
+    const double variance = double{d[k]} * d[k] * variance_factor(samples), square = double{mean[k]} * mean[k] - variance;
+    total += variance / (std::max(square, 0.0) + kRelativeEpsilon);
+  }
+  return total / 3;
 }
 
 void FilmBuffer::store_count(Image& image, const std::string& name, std::size_t offset) const {
@@ -310,7 +335,7 @@ void FilmBuffer::store_groups(Image& image, const Means& means) const {
   }
 }
 
-Image FilmBuffer::image(int samples) const {
+Image FilmBuffer::image(const SampleCounts& samples) const {
   Image image;
   image.data = crop_;
   image.display = {0, 0, film_.width, film_.height};
@@ -318,15 +343,15 @@ Image FilmBuffer::image(int samples) const {
   store_color(image, "", kEven, {"", samples}, Halves::apart);
   Channel& alpha = image.add_channel("A");
   for (std::size_t i = 0; i < alpha.values.size(); ++i) {
-    alpha.values[i] = static_cast<float>(sum(i, kAlpha) / samples);
+    alpha.values[i] = static_cast<float>(sum(i, kAlpha) / samples.of(i));
   }
   store_means(image, {"", samples});
   if (!replicate_) return image;
-  const Means even{"Replicate.", even_of(samples), true};
+  const Means even{"Replicate.", samples, true};
   store_color(image, "", kEven, even, Halves::apart);
   store_means(image, even);
   std::vector<float>& count = image.add_channel("Replicate.SampleCount").values;
-  std::fill(count.begin(), count.end(), static_cast<float>(even.samples));
+  for (std::size_t i = 0; i < count.size(); ++i) count[i] = static_cast<float>(even.count(i));
   return image;
 }
 

@@ -6,8 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "session/allocation.h"
 #include "session/aov.h"
 #include "session/film_sums.h"
+#include "session/sample_counts.h"
 #include "transport/path_record.h"
 #include "tyndall/image.h"
 #include "tyndall/scene.h"
@@ -49,11 +51,11 @@ class FilmBuffer {
   void restore(const PixelBounds& tile, const FilmSums& sums);
   void clear(const PixelBounds& tile);
 
-  /// Means of the `samples` samples that every pixel has received, in the film's colour space. Beside P and Z stands
+  /// Means of the `samples` that each pixel has received, in the film's colour space. Beside P and Z stands
   /// SurfaceCount, beside Zvol VolumeCount: over how many samples their means are, so that renders can be merged. With
   /// Aov::replicate each channel that is a mean comes a second time, as "Replicate.R" and so on: over the even samples. Light
   /// groups are "LightGroup.key.R" and so on, with Aov::variance "Variance.LightGroup.key.R".
-  Image image(int samples) const;
+  Image image(const SampleCounts& samples) const;
 
   /// The exact sums as channels "Sum.N.high", ".mid" and ".low", floats that add up to sum number N; and back, added to those
   /// here: of an image of the same crop that has_sums().
@@ -62,7 +64,9 @@ class FilmBuffer {
   void add_sums(const Image& image);
 
   /// Mean of variance / (mean^2 + 0.01) over pixels and channels, as the two replicates tell; infinity for samples < 2.
-  double estimated_relmse(int samples) const;
+  double estimated_relmse(const SampleCounts& samples) const;
+  /// Of a block of pixels with so many samples each, 2 or more.
+  BlockNoise noise(const PixelBounds& block, int samples) const;
 
  private:
   std::size_t first_of(int x, int y) const { return crop_.index(x, y) * stride_; }  ///< of a pixel's sums
@@ -73,8 +77,10 @@ class FilmBuffer {
   /// Which samples the channels of an image are means of.
   struct Means {
     std::string prefix;  ///< of the channels
-    int samples;
+    const SampleCounts& samples;
     bool even_only = false;
+
+    int count(std::size_t pixel) const { return even_only ? even_of(samples.of(pixel)) : samples.of(pixel); }
   };
   void store_means(Image& image, const Means& means) const;
   /// Sums at `offset`; light that is summed by halves has those of the odd samples after those of the even ones.
@@ -82,10 +88,14 @@ class FilmBuffer {
   void store_color(Image& image, const std::string& name, std::size_t offset, const Means& means, Halves halves) const;
   void store_ratio(Image& image, const std::string& name, std::size_t offset, const Means& means) const;
   void store_aov(Image& image, Aov aov, std::size_t offset, const Means& means) const;
-  void store_variance(Image& image, const std::string& name, std::size_t offset, int samples) const;
+  void store_variance(Image& image, const std::string& name, std::size_t offset, const SampleCounts& samples) const;
+  /// Of the means of even and odd samples, at `offset`; of a pixel with one sample, its mean.
+  Rgb difference(std::size_t pixel, std::size_t offset, int samples) const;
   void store_groups(Image& image, const Means& means) const;
   void store_count(Image& image, const std::string& name, std::size_t offset) const;
   void store_counts(Image& image, const Means& means) const;
+  /// Of a pixel that has 2 samples or more.
+  double estimated_relmse(std::size_t pixel, int samples) const;
   Rgb to_film_space(Rgb c) const;
 
   Film film_;

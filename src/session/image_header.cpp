@@ -3,6 +3,7 @@
 #include <charconv>
 #include <ctime>
 
+#include "session/resolved_settings.h"
 #include "session/scene_hash.h"
 #include "transport/suffix_reuse.h"
 #include "tyndall/version.h"
@@ -27,6 +28,7 @@ std::string options_text(const RenderSettings& settings) {
   if (settings.candidates) text += " --candidates " + std::to_string(*settings.candidates);
   if (settings.splitting) text += " --splitting " + exact(*settings.splitting);
   if (settings.shadow_rays) text += " --shadow-rays " + std::to_string(*settings.shadow_rays);
+  if (is_adaptive(settings)) text += " --adaptive";
   return text;
 }
 
@@ -58,7 +60,11 @@ void write_header(Image& image, const World::Parts& world, const RenderSettings&
   a["software"] = "Tyndall " + std::string(kVersion);
   a["tyndall/scene"] = world.built.scene.source;
   a["tyndall/sceneHash"] = scene_hash_text(world.scene_hash, settings);
-  a["tyndall/samples"] = report.samples;
+  if (report.least_samples == report.most_samples) {
+    a["tyndall/samples"] = report.samples;
+  } else {
+    a["tyndall/samples"] = std::to_string(report.least_samples) + ".." + std::to_string(report.most_samples);
+  }
   a["tyndall/seed"] = std::to_string(settings.seed);  // 64 bits do not fit an EXR integer
   a["tyndall/options"] = options_text(settings);
   if (!world.built.light_groups.empty()) a[kLightGroups] = joined(world.built.light_groups.names());

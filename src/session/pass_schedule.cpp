@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "session/sample_plan.h"
+
 namespace tyndall {
 namespace {
 
@@ -16,11 +18,21 @@ int samples_to_next_checkpoint(int samples) {
   return static_cast<int>(next) - samples;
 }
 
+/// Between looks at the error of an adaptive render, which has as many samples.
+int error_check_step(int samples) {
+  return std::max(static_cast<int>(std::bit_floor(static_cast<unsigned>(samples))) / 8, SamplePlan::kPilot / 4);
+}
+
 }  // namespace
 
+bool PassSchedule::is_error_check(int samples) const {
+  if (!settings_.error) return false;
+  if (!adaptive_) return samples >= kFirstErrorCheck && is_checkpoint(samples);
+  return samples >= SamplePlan::kPilot && samples % error_check_step(samples) == 0;
+}
+
 bool PassSchedule::good_enough(const RenderJob& job) const {
-  return settings_.error && job.samples() >= kFirstErrorCheck && is_checkpoint(job.samples()) &&
-         job.estimated_relmse() < *settings_.error;
+  return is_error_check(job.samples()) && job.estimated_relmse() < *settings_.error;
 }
 
 bool PassSchedule::complete(const RenderJob& job) const {
@@ -43,6 +55,7 @@ int PassSchedule::next_pass(const RenderJob& job) {
   }
   if (settings_.slice) pass = std::max(pass / 2 * 2, 2);  // replicates of as many samples in each
   if (checkpoints_ || settings_.error) pass = std::min(pass, samples_to_next_checkpoint(done));
+  if (settings_.error && adaptive_) pass = std::min(pass, error_check_step(done) - done % error_check_step(done));
   // The error falls like 1/samples: good enough to tell how long it will take.
   if (settings_.error && done >= 2 && is_checkpoint(done)) samples_needed_ = done * job.estimated_relmse() / *settings_.error;
   return std::min(pass, samples_wanted_ - done);
@@ -51,7 +64,9 @@ int PassSchedule::next_pass(const RenderJob& job) {
 double PassSchedule::fraction(double samples, double seconds) const {
   double fraction = samples / samples_wanted_;
   if (settings_.time) fraction = std::max(fraction, seconds / *settings_.time);
-  if (samples_needed_ > 0) fraction = std::max(fraction, samples / std::max<double>(samples_needed_, kFirstErrorCheck));
+  if (samples_needed_ > 0)
+    fraction =
+        std::max(fraction, samples / std::max<double>(samples_needed_, adaptive_ ? SamplePlan::kPilot : kFirstErrorCheck));
   return std::min(fraction, 1.0);
 }
 

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "session/resolved_settings.h"
 #include "tyndall/render.h"
 #include "tyndall/timer.h"
 
@@ -15,7 +16,10 @@ class PassSchedule {
  public:
   /// `checkpoints`: passes end at every power of two.
   PassSchedule(const RenderSettings& settings, bool checkpoints)
-      : settings_(settings), samples_wanted_(sample_range(settings).count), checkpoints_(checkpoints) {}
+      : settings_(settings),
+        samples_wanted_(sample_range(settings).count),
+        checkpoints_(checkpoints),
+        adaptive_(is_adaptive(settings)) {}
 
   static bool is_checkpoint(int samples) { return samples > 0 && (samples & (samples - 1)) == 0; }
 
@@ -29,6 +33,7 @@ class PassSchedule {
   std::optional<Progress> progress(const RenderJob& job, double pass_samples);
 
  private:
+  bool is_error_check(int samples) const;
   bool good_enough(const RenderJob& job) const;
   double fraction(double samples, double seconds) const;
 
@@ -43,7 +48,7 @@ class PassSchedule {
   int samples_wanted_;
   std::optional<Begun> begun_;
   Timer pass_timer_;
-  bool checkpoints_;
+  bool checkpoints_, adaptive_;
   double samples_needed_ = 0;  ///< for settings.error, as far as is known; 0: not known
   double last_report_ = -1;
 };

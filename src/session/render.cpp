@@ -10,10 +10,15 @@ namespace {
 /// A pass that would last longer than this after a stop is given up.
 constexpr double kLongestWait = 2;  // seconds
 
+RenderSettings decided(RenderSettings settings) {
+  settings.adaptive = is_adaptive(settings);
+  return settings;
+}
+
 class RenderLoop {
  public:
   RenderLoop(const World& world, const RenderSettings& settings, const RenderControl& control)
-      : control_(control), job_(world, settings), schedule_(settings, static_cast<bool>(control.checkpoint)) {}
+      : control_(control), job_(world, decided(settings)), schedule_(settings, static_cast<bool>(control.checkpoint)) {}
 
   Rendering run() {
     if (control_.begin) control_.begin(job_);

@@ -1,6 +1,3 @@
-#include <pmmintrin.h>
-#include <xmmintrin.h>
-
 #include <algorithm>
 #include <mutex>
 
@@ -8,32 +5,20 @@
 #include "session/build_id.h"
 #include "session/checkpoint.h"
 #include "session/film_buffer.h"
+#include "session/flush_denormals.h"
 #include "session/image_header.h"
 #include "session/pixel_block.h"
 #include "session/pixel_sample.h"
 #include "session/render_pass.h"
 #include "session/resolved_settings.h"
+#include "session/sample_plan.h"
 #include "session/scene_hash.h"
 #include "session/slice.h"
+#include "session/unrendered.h"
 #include "tyndall/timer.h"
 
 namespace tyndall {
 namespace {
-
-/// Flush denormals to zero while it lives, alike on every thread, whatever settings the thread came with.
-class FlushDenormals {
- public:
-  FlushDenormals() : saved_(_mm_getcsr()) {
-    _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
-    _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
-  }
-  ~FlushDenormals() { _mm_setcsr(saved_); }
-  FlushDenormals(const FlushDenormals&) = delete;
-  FlushDenormals& operator=(const FlushDenormals&) = delete;
-
- private:
-  unsigned int saved_;
-};
 
 PixelBounds full_crop(const Scene& scene, const RenderSettings& settings) {
   const PixelBounds frame{0, 0, scene.film.width, scene.film.height};
@@ -46,6 +31,23 @@ PixelBounds full_crop(const Scene& scene, const RenderSettings& settings) {
   }
   return crop;
 }
+
+RenderReport report_of(const Counters& counters) {
+  RenderReport r;
+  r.paths = counters.paths;
+  r.rays = counters.rays;
+  r.shadow_rays = counters.shadow_rays;
+  r.density_lookups = counters.tracking.lookups;
+  r.non_finite = counters.non_finite;
+  r.majorant_violations = counters.tracking.majorant_violations;
+  r.caps_hit = counters.tracking.caps_hit;
+  r.parity_errors = counters.parity_errors;
+  r.bad_samples = counters.bad_samples;
+  return r;
+}
+
+/// Of the time that samples take, as near as what is counted tells: a path and its ray, shadow rays, reads of media.
+std::uint64_t work_of(const Counters& c) { return 2 * (c.paths + c.rays + c.shadow_rays) + c.tracking.lookups; }
 
 }  // namespace
 
@@ -64,12 +66,29 @@ class RenderJob::Impl {
                         {.max_depth = settings_.max_depth,
                          .want_transmittance = film_.wants(Aov::transmittance),
                          .want_albedo = film_.wants(Aov::albedo)}},
-        pool_(settings.threads) {}
+        pool_(settings.threads) {
+    if (*settings_.adaptive) plan_.emplace(film_.crop(), settings_.spp);
+  }
 
   bool advance(int count, const PassWatch& watch, GivenUp if_given_up) {
+    if (!plan_) return run_pass(count, watch, if_given_up);
+    for (int done = 0; done < count;) {
+      if (plan_->is_open(samples_)) plan_->decide(samples_, block_noise());
+      const int part = std::min(count - done, plan_->round_end(samples_) - samples_);
+      PassWatch on_the_whole;
+      if (watch) on_the_whole = [&](double samples) { return watch(done + samples); };
+      if (!run_pass(part, on_the_whole, if_given_up)) return false;
+      done += part;
+    }
+    return true;
+  }
+
+  bool run_pass(int count, const PassWatch& watch, GivenUp if_given_up) {
     const Timer pass_timer;
     if (!searched_) search_film(watch);
     RenderPass pass(film_.crop(), count, watch);
+    if (plan_) pass.samples = plan_->total(samples_ + count) - plan_->total(samples_);
+    const std::optional<SamplePlan> plan_before = plan_;
     const bool first = samples_ == 0, undo = if_given_up == GivenUp::undone;
     const Counters counters_before = counters_;
     if (undo && !first) pass.before.resize(pass.tiles());
@@ -92,51 +111,60 @@ class RenderJob::Impl {
         if (pass.before[i].size() > 0) film_.restore(pass.tile(i), pass.before[i]);
       }
       counters_ = counters_before;
+      plan_ = plan_before;
     }
     return !pass.given_up;
   }
 
-  std::string save() const { return encode_checkpoint(identity(), {samples_, seconds_, counters_}, film_.sums()); }
+  std::string save() const {
+    return encode_checkpoint(identity(), {samples_, seconds_, counters_, plan_ ? plan_->state() : std::vector<std::uint64_t>()},
+                             film_.sums());
+  }
 
   void restore(std::string_view bytes, const std::string& name) {
-    CheckpointState state = decode_checkpoint(bytes, name, identity(), film_.sums());
+    CheckpointState state = decode_checkpoint(bytes, name, identity(), film_.sums(), plan_ ? plan_->state_size() : 0);
+    if (plan_) plan_->restore(state.plan);
     samples_ = state.samples;
     seconds_ = state.seconds;
     counters_ = std::move(state.counters);
   }
 
   Image image() const {
-    Image image = film_.image(samples_);
-    if (!unrendered_.empty()) mark_unrendered(image);
-    write_header(image, world_, settings_, report());
+    Image image = film_.image(counts());
+    if (!unrendered_.empty()) mark_unrendered(image, unrendered_, samples_);
+    write_header(image, world_, settings_, counted());
     if (settings_.slice) add_slice(image, film_, settings_, samples_);
     return image;
   }
 
-  double estimated_relmse() const { return film_.estimated_relmse(samples_); }
+  double estimated_relmse() const { return samples_ < 2 ? kInfinity : mean_error(block_noise()); }
   const PixelBounds& pixels() const { return film_.crop(); }
   int samples() const { return samples_; }
   double seconds() const { return seconds_; }
   double preparing_seconds() const { return preparing_seconds_; }
 
   RenderReport report() const {
-    RenderReport r;
-    r.samples = samples_;
-    r.seconds = seconds_;
-    r.paths = counters_.paths;
-    r.rays = counters_.rays;
-    r.shadow_rays = counters_.shadow_rays;
-    r.density_lookups = counters_.tracking.lookups;
-    r.non_finite = counters_.non_finite;
-    r.majorant_violations = counters_.tracking.majorant_violations;
-    r.caps_hit = counters_.tracking.caps_hit;
-    r.parity_errors = counters_.parity_errors;
-    r.bad_samples = counters_.bad_samples;
-    for (const PixelBounds& tile : unrendered_) r.unrendered += static_cast<std::uint64_t>(tile.width()) * tile.height();
+    RenderReport r = counted();
+    r.estimated_relmse = r.worst_relmse = kInfinity;
+    if (samples_ < 2) return r;
+    const std::vector<BlockNoise> blocks = block_noise();
+    r.estimated_relmse = mean_error(blocks);
+    r.worst_relmse = worst_error(blocks, BlockGrid(film_.crop()).across());
     return r;
   }
 
  private:
+  /// Without the error, which takes a look at all pixels.
+  RenderReport counted() const {
+    RenderReport r = report_of(counters_);
+    r.samples = samples_;
+    r.least_samples = counts().least();
+    r.most_samples = counts().most();
+    r.seconds = seconds_;
+    for (const PixelBounds& tile : unrendered_) r.unrendered += static_cast<std::uint64_t>(tile.width()) * tile.height();
+    return r;
+  }
+
   /// What depends on no sample.
   void search_film(const PassWatch& watch) {
     const Timer search_timer;
@@ -157,6 +185,26 @@ class RenderJob::Impl {
     return {film_points_.of(p.x, p.y), film_emitters_.of(p.x, p.y)};
   }
 
+  /// Of a pixel in a pass: [begin, end).
+  struct SampleSpan {
+    int begin, end;
+  };
+  SampleSpan samples_of(PixelPlace p, int count) const {
+    if (!plan_) return {samples_, samples_ + count};
+    const std::size_t block = plan_->grid().index(p.x, p.y);
+    return {plan_->samples(block, samples_), plan_->samples(block, samples_ + count)};
+  }
+  SampleCounts counts() const { return plan_ ? plan_->counts(samples_) : SampleCounts(samples_); }
+
+  std::vector<BlockNoise> block_noise() const {
+    const BlockGrid grid(film_.crop());
+    std::vector<BlockNoise> blocks(grid.size());
+    pool_.for_each(blocks.size(), 16, [&](std::size_t b) {
+      blocks[b] = film_.noise(grid.pixels(b), plan_ ? plan_->samples(b, samples_) : samples_);
+    });
+    return blocks;
+  }
+
   /// False: the pass was given up.
   bool render_tile(RenderPass& pass, const PixelBounds& pixels, Counters& counters) {
     const bool shares = settings_.reuse == ReuseStrategy::pixels;
@@ -164,12 +212,16 @@ class RenderJob::Impl {
     for (int y = pixels.y0; y < pixels.y1; y += PixelBlock::kSide - y % PixelBlock::kSide) {
       for (int x = pixels.x0; x < pixels.x1; x += PixelBlock::kSide - x % PixelBlock::kSide) {
         if (pass.given_up) return false;
+        const PixelBlock sharing(x, y, shares ? frame() : pixels);
+        const SampleSpan samples = samples_of({x, y}, pass.count);
+        const std::uint64_t before = work_of(counters);
         if (shares) {
-          render_shared(PixelBlock(x, y, frame()), pass.count, *group, counters);
+          render_shared(sharing, samples, *group, counters);
         } else {
-          render_apart(PixelBlock(x, y, pixels), pass.count, *group, counters);
+          render_apart(sharing, samples, *group, counters);
         }
-        pass.tell(static_cast<int>(PixelBlock(x, y, pixels).pixels().size()));
+        if (plan_) plan_->add_work(plan_->grid().index(x, y), work_of(counters) - before);
+        pass.tell(PixelBlock(x, y, pixels).pixels().size() * static_cast<std::size_t>(samples.end - samples.begin));
       }
     }
     return true;
@@ -178,10 +230,10 @@ class RenderJob::Impl {
   PixelBounds frame() const { return {0, 0, world_.built.scene.film.width, world_.built.scene.film.height}; }
   SampleKey key_of(PixelPlace p, int sample) const { return {settings_.seed, p.x, p.y, first_sample_ + sample}; }
 
-  void render_apart(const PixelBlock& block, int count, PixelGroup& group, Counters& counters) {
+  void render_apart(const PixelBlock& block, SampleSpan samples, PixelGroup& group, Counters& counters) {
     for (const PixelPlace p : block.pixels()) {
       const PixelFilm film = film_of(p);
-      for (int s = samples_; s < samples_ + count; ++s) {
+      for (int s = samples.begin; s < samples.end; ++s) {
         group.clear();
         group.add(sample_context_, key_of(p, s), film, counters);
         add_to_film(group, counters);
@@ -190,8 +242,8 @@ class RenderJob::Impl {
   }
 
   /// Whoever shares with a pixel that is rendered has its path as well, so that a crop has the same bits.
-  void render_shared(const PixelBlock& block, int count, PixelGroup& group, Counters& counters) {
-    for (int s = samples_; s < samples_ + count; ++s) {
+  void render_shared(const PixelBlock& block, SampleSpan samples, PixelGroup& group, Counters& counters) {
+    for (int s = samples.begin; s < samples.end; ++s) {
       group.clear();
       for (const PixelPlace p : block.pixels()) group.add(sample_context_, key_of(p, s), film_of(p), counters);
       add_to_film(group, counters);
@@ -229,29 +281,14 @@ class RenderJob::Impl {
     }
   }
 
-  void mark_unrendered(Image& image) const {
-    if (!image.find("SampleCount")) {
-      for (float& v : image.add_channel("SampleCount").values) v = static_cast<float>(samples_);
-    }
-    for (Channel& channel : image.channels) {
-      if (channel.name != "SampleCount" && channel.name != "Replicate.SampleCount") continue;
-      for (const PixelBounds& tile : unrendered_) {
-        for (int y = tile.y0; y < tile.y1; ++y) {
-          const auto row = static_cast<std::size_t>(y - image.data.y0) * static_cast<std::size_t>(image.width());
-          std::fill_n(channel.values.begin() + static_cast<std::ptrdiff_t>(row) + (tile.x0 - image.data.x0), tile.width(),
-                      0.0f);
-        }
-      }
-    }
-  }
-
   /// What must agree for a checkpoint to be taken up: everything that the bits of the picture depend on.
   CheckpointIdentity identity() const {
     const PixelBounds& c = film_.crop();
     std::string pixels;
     for (const int v : {c.x0, c.x1, c.y0, c.y1}) pixels += (pixels.empty() ? "" : ",") + std::to_string(v);
     return {{"scene", scene_hash_text(world_.scene_hash, settings_)},
-            {"options", options_text(settings_) + " --seed " + std::to_string(settings_.seed)},
+            {"options", options_text(settings_) + " --seed " + std::to_string(settings_.seed) +
+                            (plan_ ? " --spp " + std::to_string(settings_.spp) : "")},
             {"slice", slice_text(settings_)},
             {"crop", pixels},
             {"aov", aov_list(settings_.aovs)},
@@ -264,7 +301,8 @@ class RenderJob::Impl {
   int first_sample_;
   FilmBuffer film_;
   SampleContext sample_context_;
-  ThreadPool pool_;
+  std::optional<SamplePlan> plan_;
+  mutable ThreadPool pool_;
   bool searched_ = false;
   double preparing_seconds_ = 0;
   FilmPoints film_points_;

@@ -27,8 +27,11 @@ void check(const RenderSettings& settings) {
 
 }  // namespace
 
+bool is_adaptive(const RenderSettings& settings) { return settings.adaptive.value_or(settings.error.has_value()); }
+
 RenderSettings resolved(RenderSettings settings, const World::Parts& world) {
   check(settings);
+  settings.adaptive = settings.adaptive.value_or(false);
   world.built.lights.selector(settings.lights);  // throws when it was not built
   if (settings.emission == EmissionStrategy::lights && !world.built.has_volume_lights)
     throw Error(Failure::usage, "the world was not built for emission as lights; set BuildSettings::volume_lights");

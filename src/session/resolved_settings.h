@@ -8,4 +8,7 @@ namespace tyndall {
 /// Throws Error (usage) for settings that cannot be, or that the world was not built for.
 RenderSettings resolved(RenderSettings settings, const World::Parts& world);
 
+/// RenderSettings::adaptive of render(), also where it is not set.
+bool is_adaptive(const RenderSettings& settings);
+
 }  // namespace tyndall

@@ -1,5 +1,6 @@
 #include "session/slice.h"
 
+#include "session/resolved_settings.h"
 #include "tyndall/error.h"
 
 namespace tyndall {
@@ -22,6 +23,10 @@ SampleRange sample_range(const RenderSettings& settings) {
     throw Error(Failure::usage, "slice " + name +
                                     " cannot stop at an error, which only all slices together have; leave "
                                     "error out, and give it to merge");
+  if (settings.adaptive.value_or(false))
+    throw Error(Failure::usage, "slice " + name +
+                                    " cannot be adaptive: where the error is only all slices together tell; leave adaptive "
+                                    "out, or render without slices");
   const int first = begin_of(index - 1, count, settings.spp), end = begin_of(index, count, settings.spp);
   if (end <= first)
     throw Error(Failure::usage, "slice " + name + " of " + std::to_string(settings.spp) +
@@ -33,6 +38,7 @@ SampleRange sample_range(const RenderSettings& settings) {
 std::vector<Aov> film_aovs(const RenderSettings& settings) {
   std::vector<std::string> names = settings.aovs;
   if (settings.slice) names.push_back("Variance");
+  if (is_adaptive(settings)) names.push_back("SampleCount");
   return parse_aovs(names);
 }
 

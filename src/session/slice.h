@@ -6,7 +6,7 @@
 
 namespace tyndall {
 
-/// The AOVs that a film gathers: those asked for, and Variance in a slice.
+/// The AOVs that a film gathers: those asked for, Variance in a slice, and SampleCount where it differs.
 std::vector<Aov> film_aovs(const RenderSettings& settings);
 
 /// "3/16 of 1024", or "whole".

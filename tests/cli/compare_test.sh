@@ -78,8 +78,11 @@ expect 3 "$T" compare s.pbrt --reference absent.exr --resolution 24x16 -o r
 echo file >occupied
 expect 4 "$T" compare s.pbrt $small -o occupied
 
-# render: an error goal ends at a power of two from 64 on; the log has the same checkpoints as compare.
+# render: an error goal ends after 32 samples at the earliest, without decisions at a power of two from 64 on; the log has the same
+# checkpoints as compare.
 expect 0 "$T" render s.pbrt --resolution 24x16 --error 1000 --json -o goal.exr
+says '"samples": 32' out.txt
+expect 0 "$T" render s.pbrt --resolution 24x16 --error 1000 --no-adaptive --json -o goal.exr
 says '"samples": 64' out.txt
 expect 0 "$T" render s.pbrt --resolution 24x16 --max-depth 1 --spp 20 --reference ref.exr --error-log log.jsonl -o logged.exr
 [ "$(grep -c relmse_trimmed log.jsonl)" = 6 ] || fail "not a line at 1, 2, 4, 8, 16 and 20 samples: $(cat log.jsonl)"

@@ -1,0 +1,58 @@
+#!/usr/bin/env bash
+# `tyndall render --adaptive` as a user meets it: the same bytes however it is run, numbers of samples in the file, errors in words.
+. "$TYNDALL_SOURCE_DIR/tests/cli/support.bash"
+T=$TYNDALL_BIN
+rm -rf ./*.exr ./*.checkpoint
+small_scene >s.pbrt
+options="--resolution 96x64 --reproducible --aov Variance,Z --progress none"
+
+# An error is reached, with different numbers of samples, by any number of threads with the same bytes.
+expect 0 "$T" render s.pbrt $options --error 6e-6 --threads 1 -o one.exr --json
+grep -E 'one.exr: 96x64, [0-9]+ spp in the mean, [0-9]+ to [0-9]+$' err.txt >/dev/null || fail "the summary does not tell the numbers: $(cat err.txt)"
+grep -E 'estimated relMSE [0-9.e-]+, in the worst part of the picture' err.txt >/dev/null || fail "the summary does not tell the error: $(cat err.txt)"
+grep -E '"(least|most)_samples": [0-9]+' out.txt >/dev/null || fail "the summary in JSON does not tell the numbers"
+samples=$(sed -nE 's/.*"samples": ([0-9]+),/\1/p' out.txt)
+[ "$samples" -gt 48 ] || fail "the test shows nothing: $samples samples a pixel"
+expect 0 "$T" render s.pbrt $options --error 6e-6 --threads 3 --adaptive --spp 100000 -o three.exr
+cmp one.exr three.exr || fail "threads, or a limit that is not reached, change the picture"
+expect 0 "$T" info one.exr
+says '  SampleCount' out.txt
+grep -E 'tyndall/samples +[0-9]+\.\.[0-9]+$' out.txt >/dev/null || fail "the header does not tell the numbers"
+grep -E 'tyndall/options .* --adaptive$' out.txt >/dev/null || fail "the header does not tell that it is adaptive"
+
+# Cut off, and taken up again: the unbroken picture.
+expect 0 "$T" render s.pbrt $options --error 1e-6 -o whole.exr
+"$T" render s.pbrt $options --error 1e-6 --checkpoint 60 -o cut.exr 2>err.txt &
+sleep 1.3
+kill -INT $!
+wait $!
+[ $? = 130 ] || fail "an interrupted render does not exit with 130: $(cat err.txt)"
+expect 0 "$T" render s.pbrt $options --error 1e-6 --resume -o cut.exr
+says 'going on from' err.txt
+cmp cut.exr whole.exr || fail "the resumed picture is not the unbroken one"
+
+# What cannot be.
+expect 2 "$T" render s.pbrt --adaptive --resolution 8x8
+says '--adaptive says where samples go, not how many; give --error or --time with it' err.txt
+expect 2 "$T" render s.pbrt --adaptive --time 1 --slice 1/2 --spp 64 -o slice.exr
+says 'slice 1/2 cannot be adaptive' err.txt
+expect 0 "$T" render s.pbrt $options --adaptive --time 1 -o timed.exr
+"$T" info timed.exr | grep -E 'tyndall/samples +[0-9]+(\.\.[0-9]+)?$' >/dev/null || fail "a timed adaptive render does not tell its samples"
+
+# At the most samples all pixels have as many, and the picture is that of a render without decisions.
+expect 0 "$T" render s.pbrt $options --error 1e-9 --spp 80 -o most.exr
+expect 0 "$T" render s.pbrt $options --spp 80 -o even.exr
+expect 0 "$T" diff most.exr even.exr --exact --channels RGB,Variance,Z
+expect 0 "$T" render s.pbrt $options --error 1e9 --no-adaptive -o plain.exr
+"$T" info plain.exr | grep -E 'tyndall/samples +64$' >/dev/null || fail "--no-adaptive does not end at 64 samples"
+
+# Merged, each pixel weighs by its own number.
+expect 0 "$T" render s.pbrt $options --error 6e-6 --seed 1 -o other.exr
+expect 0 "$T" merge one.exr other.exr -o both.exr
+expect 0 "$T" info both.exr
+mean_count() { "$T" info "$1" | sed -nE '/^  SampleCount/,/values/s/.*mean ([0-9.]+)$/\1/p'; }
+awk "BEGIN { d = $(mean_count one.exr) + $(mean_count other.exr) - $(mean_count both.exr); exit !(d * d < 1e-3) }" ||
+  fail "samples of merged adaptive renders do not add up"
+expect 3 "$T" merge one.exr three.exr -o twice.exr
+says 'the same samples would count twice' err.txt
+finish

@@ -1,0 +1,114 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "support/sphere_scene.h"
+
+namespace tyndall {
+namespace {
+
+/// A lit sphere: noise in one part of the picture.
+World world() { return test::world_of(test::sphere_scene(60, 40), {.threads = 2}); }
+
+RenderSettings settings_of(int spp = 1 << 20, int threads = 2) {
+  RenderSettings s;
+  s.spp = spp;
+  s.threads = threads;
+  s.reproducible = true;
+  s.aovs = {"Variance", "Z", "N", "Replicate"};
+  s.adaptive = true;
+  return s;
+}
+
+bool same(const Image& a, const Image& b) {
+  bool equal = a.channels.size() == b.channels.size() && a.attributes == b.attributes;
+  for (std::size_t c = 0; equal && c < a.channels.size(); ++c) equal = a.channels[c].values == b.channels[c].values;
+  return equal;
+}
+
+TEST_CASE("an adaptive picture is the same however its samples are grouped, for any threads, and after a pause in a round") {
+  const World w = world();
+  RenderJob one(w, settings_of()), many(w, settings_of(1 << 20, 1)), paused(w, settings_of()), resumed(w, settings_of());
+  one.advance(107);
+  for (const int n : {1, 40, 3, 4, 1, 30, 28}) many.advance(n);
+  paused.advance(53);
+  resumed.restore(paused.save(), "a");
+  CHECK(resumed.samples() == 53);
+  resumed.advance(54);
+  CHECK(one.report().most_samples > one.report().least_samples);
+  CHECK(same(one.image(), many.image()));
+  CHECK(same(one.image(), resumed.image()));
+}
+
+TEST_CASE("a pass that is given up leaves an adaptive job as it was") {
+  const World w = world();
+  RenderJob whole(w, settings_of()), broken(w, settings_of());
+  whole.advance(100);
+  broken.advance(50);
+  int calls = 0;
+  CHECK_FALSE(broken.advance(
+      10, [&](double) { return ++calls < 4; }, RenderJob::GivenUp::undone));
+  broken.advance(100 - broken.samples());
+  CHECK(same(whole.image(), broken.image()));
+  CHECK(whole.report().paths == broken.report().paths);
+}
+
+TEST_CASE("each pixel is the mean of its own samples, and the header tells how many these are") {
+  const World w = world();
+  RenderJob job(w, settings_of());
+  job.advance(96);
+  const Image image = job.image();
+  const std::vector<float>& counts = image.find("SampleCount")->values;
+  const auto [least, most] = std::minmax_element(counts.begin(), counts.end());
+  CHECK(*least >= 32);
+  CHECK(*most > *least);
+  CHECK(std::accumulate(counts.begin(), counts.end(), 0.0) / static_cast<double>(counts.size()) ==
+        doctest::Approx(96).epsilon(0.02));
+  CHECK(job.report().least_samples == static_cast<int>(*least));
+  CHECK(job.report().most_samples == static_cast<int>(*most));
+  const std::string range = std::to_string(job.report().least_samples) + ".." + std::to_string(job.report().most_samples);
+  CHECK(*image.attribute<std::string>("tyndall/samples") == range);
+
+  // A pixel with as many samples as the least is that of a uniform render.
+  RenderSettings uniform = settings_of();
+  uniform.adaptive = false;
+  RenderJob even(w, uniform);
+  even.advance(static_cast<int>(*least));
+  const Image expected = even.image();
+  for (const std::string name : {"R", "G", "A", "Variance.R", "Z", "N.X", "Replicate.G", "Replicate.SampleCount"}) {
+    const auto &here = image.find(name)->values, &there = expected.find(name)->values;
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+      if (counts[i] != *least) continue;
+      REQUIRE(here[i] == there[i]);
+    }
+  }
+}
+
+TEST_CASE("an error goal ends an adaptive render near the error; at the most samples all pixels have as many") {
+  const World w = world();
+  RenderSettings s = settings_of();
+  s.adaptive.reset();
+  RenderJob even(w, s);
+  even.advance(32);
+  s.error = even.estimated_relmse() / 3;
+  const RenderReport report = render(w, s).report;
+  CHECK(report.most_samples > report.least_samples);
+  CHECK(report.estimated_relmse < *s.error);
+  CHECK(report.estimated_relmse > 0.7 * *s.error);
+  CHECK(report.worst_relmse > report.estimated_relmse);
+  s.error = 1e-12;
+  s.spp = 70;
+  const RenderReport most = render(w, s).report;
+  CHECK(most.samples == 70);
+  CHECK(most.least_samples == 70);
+  CHECK(most.most_samples == 70);
+  s.slice = SliceChoice{1, 2};
+  s.error.reset();
+  s.adaptive = true;
+  CHECK_THROWS_AS(RenderJob(w, s), Error);
+}
+
+}  // namespace
+}  // namespace tyndall
