@@ -76,11 +76,13 @@ void PixelGroup::run(const SampleContext& context, Counters& counters) {
   std::array<Path*, kMostSharing> sharing;
   std::size_t count = 0;
   for (std::size_t i = 0; i < size_; ++i) {
-    Path* path = slots_[i]->path();
-    if (path && path->run_until_offer()) sharing[count++] = path;
+    Path* const path = slots_[i]->path();
+    if (!path) continue;
+    path->run_until_offer();
+    sharing[count++] = path;
   }
   for (std::size_t i = 0; i < count; ++i) {
-    if (sharing[i]->offer().at) sharing[i]->complete_offer();
+    if (sharing[i]->offers() && sharing[i]->offer().at) sharing[i]->complete_offer();
   }
   share_suffixes({context.world.built, context.settings.transmittance, counters}, {sharing.data(), count});
 }

@@ -43,18 +43,16 @@ void Path::run() {
 
 PathRecord Path::result() { return beyond_ ? Path(*this, *beyond_).run_beyond(beyond_->trace) : record_; }
 
-PathOffer* Path::run_until_offer() {
+void Path::run_until_offer() {
   ++context_.counters.paths;
   sharing_ = Sharing::offering;
   auto vertex = follow(next_vertex());
-  if (!offer_) return nullptr;
-  if (!vertex) return &*offer_;
+  if (!offer_ || !vertex) return;
   offer_->at.emplace(std::move(*vertex));
   offer_->arrived = beta_;
   offer_->flown = flown_;
   context_.sampler.begin_step(kSharingStep);
   offer_->rng = context_.sampler.stream();
-  return &*offer_;
 }
 
 void Path::complete_offer() {
@@ -76,19 +74,31 @@ void Path::complete_offer() {
   GroupedLight::add(offer_->arrived, groups->own, groups->found);
 }
 
-void Path::take(Rgb factor, const Path& finder) {
-  add(factor * finder.offer_->radiance, 2);
+/// Not where a path draws numbers for its vertex: others must not.
+PathOffer* Path::behind() {
+  if (behind_ || !segment_ || !segment_->end()) return behind_ ? &*behind_ : nullptr;
+  const SurfaceHit& hit = *segment_->end();
+  if (context_.world.materials.is_dispersive(context_.world.material_of(hit))) return nullptr;
+  const Span& span = segment_->span();
+  const Vertex vertex = surface_vertex(hit, -span.ray.d, span.end);
+  context_.bounce = 0;
+  return may_share(vertex) ? &behind_.emplace(context_, vertex, Rgb(1.0f)) : nullptr;
+}
+
+void Path::take(Rgb factor, const Path& finder, Received where) {
+  (where == Received::on_surface ? record_.surface_indirect : record_.volume_indirect) += factor * finder.offer_->radiance;
   if (context_.groups) GroupedLight::add(factor, finder.context_.groups->find, context_.groups->found);
 }
 
 bool Path::completes_collision() const { return sharing_ == Sharing::completing && !offer_->at->on_surface(); }
 
+bool Path::may_offer(const Vertex& first) const {
+  return sharing_ == Sharing::offering && depth_ == 1 && !channel_ && may_share(first);
+}
+
 /// Not where dispersion has left a single channel: others want them all. Nor where they could not tell how likely the path
 /// went where it did.
-bool Path::may_offer(const Vertex& first) const {
-  return sharing_ == Sharing::offering && depth_ == 1 && limits_.max_depth > 1 && first.has_smooth() && first.has_exact_pdf() &&
-         !channel_;
-}
+bool Path::may_share(const Vertex& first) const { return limits_.max_depth > 1 && first.has_smooth() && first.has_exact_pdf(); }
 
 /// What the surface sends back must not depend on which of the paths looks at it. Of a collision's light only that of the
 /// next bounce and later is shared.
@@ -207,13 +217,12 @@ std::optional<Vertex> Path::arrive(const Trace& trace) {
   }
   add_surface_emission(*trace.hit);
   if (depth_ > 0 && depth_ >= limits_.max_depth) return std::nullopt;  // follow() would end the path there
-  Vertex vertex = surface_vertex(*trace.hit);
+  Vertex vertex = surface_vertex(*trace.hit, -ray_.d, media_);
   if (depth_ == 0 && limits_.want_albedo) record_.albedo += seen_.value_or(beta_) * vertex.albedo();
   return vertex;
 }
 
-Vertex Path::surface_vertex(const SurfaceHit& hit) {
-  const Vec3 wo = -ray_.d;
+Vertex Path::surface_vertex(const SurfaceHit& hit, Vec3 wo, const MediaState& media) {
   const Materials& materials = context_.world.materials;
   const MaterialId material = context_.world.material_of(hit);
   SurfaceQuery query{.p = hit.p,
@@ -227,7 +236,7 @@ Vertex Path::surface_vertex(const SurfaceHit& hit) {
   if (materials.is_dispersive(material)) query.channel = narrow_to_channel();
   Vertex::Surface surface{hit, materials.bsdf(material, query)};
   if (materials.bends_normals(material)) surface.hit.ns = surface.bsdf.normal();  // what lights are chosen by
-  return Vertex(surface, wo, media_);
+  return Vertex(surface, wo, media);
 }
 
 /// Every hit takes the camera's footprint, reduced as pbrt reduces it for 64 samples a pixel and more: a picture must not

@@ -1,6 +1,7 @@
 /// One path from the camera: the transport that makes the picture.
 #pragma once
 
+#include "transport/camera_segment.h"
 #include "transport/grouped_light.h"
 #include "transport/joint_light.h"
 #include "transport/path_offer.h"
@@ -28,15 +29,24 @@ class Path {
   void run();
 
   /// In place of run(), where paths share what they find beyond their first bounce (suffix_reuse.h): the path goes until it
-  /// ends, or stands at a vertex that others may see as well. Its offer; nothing: it shares with nobody.
-  PathOffer* run_until_offer();
+  /// ends, or stands at a vertex that others may see as well.
+  void run_until_offer();
+  bool offers() const { return offer_.has_value(); }  ///< else it has nothing to offer
   PathOffer& offer() { return *offer_; }
   const PathOffer& offer() const { return *offer_; }
+  /// Where it may receive what others offer, besides: along the camera's ray through media; and on the surface behind them,
+  /// which a path that remained there has nothing to offer of. Null: there is none.
+  CameraSegment* segment() { return segment_ ? &*segment_ : nullptr; }
+  PathOffer* behind();
   /// The rest of a path whose offer has a find: the light that is scattered there. What others may count too counts only as it
   /// is handed out, by take().
   void complete_offer();
+  enum class Received { on_surface, in_medium };
+  static Received received_at(const Vertex& first) { return first.on_surface() ? Received::on_surface : Received::in_medium; }
   /// What of a find, its own or another's, the path counts: `factor` times the find's radiance.
-  void take(Rgb factor, const Path& finder);
+  void take(Rgb factor, const Path& finder, Received where);
+  /// The factor of its own find, were it not shared.
+  Rgb own_share() const { return offer_->arrived * offer_->scattered; }
   /// What the ended path has found.
   PathRecord result();
 
@@ -62,6 +72,8 @@ class Path {
 
   std::optional<Vertex> follow(std::optional<Vertex> vertex);
   bool may_offer(const Vertex& first) const;
+  bool may_share(const Vertex& first) const;
+  const Span& receive_along(Span span, const Trace& trace);
   bool is_offered(const Vertex& second) const;
   bool completes_collision() const;
   std::optional<Vertex> next_vertex();
@@ -76,7 +88,7 @@ class Path {
   void dim(const Span& span);
   Rgb light_at(const Directions& directions, Rgb beta);
   float scattering_mis_weight(LightId id, float light_pdf) const;
-  Vertex surface_vertex(const SurfaceHit& hit);
+  Vertex surface_vertex(const SurfaceHit& hit, Vec3 wo, const MediaState& media);
   SurfaceDetail surface_detail(const SurfaceHit& hit) const;
   int narrow_to_channel();
   void add_environment();
@@ -122,6 +134,8 @@ class Path {
   enum class Sharing { none, offering, completing };
   Sharing sharing_ = Sharing::none;  ///< whether an offer is still ahead, or what it is worth is being found
   std::optional<PathOffer> offer_;
+  std::optional<CameraSegment> segment_;
+  std::optional<PathOffer> behind_;
 
   std::optional<Beyond> beyond_;  ///< what this path, which collided, leaves to another
 };

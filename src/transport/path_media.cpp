@@ -1,6 +1,7 @@
 /// A path through media: free flight, collisions, and what lies behind.
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "transport/media/collision_place.h"
 #include "transport/path.h"
@@ -12,6 +13,8 @@ namespace {
 
 /// Probability of evaluating what is behind media, over the transmittance of the clearest channel.
 constexpr float kSeenMore = 2;
+/// The step beyond all others whose numbers receiving takes.
+constexpr int kReceivingStep = (1 << 30) + 1;
 
 Rgb tracked_transmittance(const LightContext& context, const Span& span, Rng& rng) {
   Rgb T(1.0f);
@@ -57,7 +60,9 @@ std::optional<Vertex> Path::collide_untraced() {
 /// Go through the media before the ray's end. A vertex: the path collides there; else it arrives with its weight in
 /// beta_.
 std::optional<Vertex> Path::pass_media(const Trace& trace) {
-  const Span span = make_span(context_.world.media_context(), media_, ray_, trace, context_.counters.parity_errors);
+  const bool receives = depth_ == 0 && sharing_ == Sharing::offering;
+  Span made = make_span(context_.world.media_context(), media_, ray_, trace, context_.counters.parity_errors);
+  const Span& span = receives && !made.empty() ? receive_along(std::move(made), trace) : made;
   if (depth_ == 0 && limits_.want_transmittance) record_transmittance(span);
   media_ = span.end;
   if (span.empty()) return std::nullopt;
@@ -70,6 +75,7 @@ std::optional<Vertex> Path::pass_media(const Trace& trace) {
   gather(span);
   const auto seen = seen_beyond(span, trace);
   auto collision = fly(span, trace);
+  if (segment_ && depth_ == 0) segment_->collide(collision_t_);
   if (!collision) {
     seen_ = seen;
   } else if (seen && !is_black(*seen)) {
@@ -93,6 +99,13 @@ std::optional<Rgb> Path::seen_beyond(const Span& span, const Trace& trace) {
   if (!(chance > 0)) return Rgb();
   // Many bits: behind fog of optical depth 17 the probability is below the steps of a float's number. The step is gather()'s.
   return context_.sampler.next_wide() < chance ? T * (1 / chance) : Rgb();
+}
+
+/// What receiving draws does not depend on what becomes of the path.
+const Span& Path::receive_along(Span span, const Trace& trace) {
+  context_.sampler.begin_step(kReceivingStep);
+  const float u = context_.sampler.next_1d();
+  return segment_.emplace(std::move(span), trace.hit, u, context_.sampler.stream()).span();
 }
 
 bool Path::lit_at_collisions(const Span& span) const {

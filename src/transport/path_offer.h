@@ -1,11 +1,15 @@
 /// What a path offers to the paths of neighbouring pixels.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 
 #include "transport/directions.h"
 
 namespace tyndall {
+
+/// Most paths that share.
+inline constexpr std::size_t kMostSharing = 64;
 
 /// What the path met after its first bounce, a diffuse surface or a collision, and the light that is scattered there.
 struct PathOffer {

@@ -8,9 +8,9 @@
 #include "transport/joint_ray.h"
 #include "transport/light_counts.h"
 #include "transport/media/scattering.h"
+#include "transport/media/transmittance_walk.h"
 #include "transport/resampling.h"
 #include "volume/coarse.h"
-#include "volume/phase/phase.h"
 
 namespace tyndall {
 namespace {
@@ -110,34 +110,10 @@ Pairs chosen_lights(const LightContext& context, const SpanSearch& search, const
   return pairs;
 }
 
-/// Transmittance from the span's origin to distances that are asked for in increasing order, in one pass.
-class TransmittanceWalk {
- public:
-  TransmittanceWalk(const LightContext& context, const Span& span, Sampler& sampler)
-      : context_(context), span_(span), rng_(sampler.stream()) {}
-
-  Rgb to(float t) {
-    for (const SpanPart& part : span_.parts) {
-      const float t0 = std::max(part.t0, passed_), t1 = std::min(part.t1, t);
-      if (!(t0 < t1) || is_black(T_)) continue;
-      T_ *= transmittance(span_method(context_), part.view(), span_.ray, t0, t1, rng_, context_.counters.tracking);
-    }
-    passed_ = t;
-    return T_;
-  }
-
- private:
-  const LightContext& context_;
-  const Span& span_;
-  Rng rng_;
-  Rgb T_{1.0f};
-  float passed_ = 0;
-};
-
 Rgb evaluate(const LightContext& context, const Span& span, const Pairs& pairs, Survivors survivors, Sampler& sampler) {
   std::sort(survivors.begin(), survivors.end(),
             [&](const Survivor& a, const Survivor& b) { return pairs[a.index].t < pairs[b.index].t; });
-  TransmittanceWalk walk(context, span, sampler);
+  TransmittanceWalk walk(span_method(context), span, sampler.stream(), context.counters.tracking);
   Rgb sum;
   for (const Survivor& s : survivors) {
     const Pair& pair = pairs[s.index];
@@ -174,19 +150,6 @@ bool tracks(const LightContext& context) {
 /// Many for single scattering, with its many pairs; where paths go on most error is of later bounces (docs/measurements.md).
 SpanProfile::Bins bins_of_profile(const LightContext& context) {
   return is_single_scattering(context) ? SpanProfile::Bins::many : SpanProfile::Bins::few;
-}
-
-/// Of all media along the span.
-float mean_cosine(const Span& span) {
-  float sum = 0, weight = 0;
-  for (const SpanPart& part : span.parts) {
-    for (const ParticipatingMedium* medium : part.media) {
-      if (!medium->scatters()) continue;
-      sum += mean_cosine(medium->phase());
-      weight += 1;
-    }
-  }
-  return weight > 0 ? sum / weight : 0.0f;
 }
 
 }  // namespace

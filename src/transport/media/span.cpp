@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cassert>
 
+#include "volume/phase/phase.h"
+
 namespace tyndall {
 
 const SpanPart& Span::part_at(float t) const {
@@ -12,6 +14,18 @@ const SpanPart& Span::part_at(float t) const {
     if (part.t0 <= t) found = &part;
   }
   return *found;
+}
+
+float mean_cosine(const Span& span) {
+  float sum = 0, weight = 0;
+  for (const SpanPart& part : span.parts) {
+    for (const ParticipatingMedium* medium : part.media) {
+      if (!medium->scatters()) continue;
+      sum += mean_cosine(medium->phase());
+      weight += 1;
+    }
+  }
+  return weight > 0 ? sum / weight : 0.0f;
 }
 
 Span make_span(const SpanWalk::Context& context, const MediaState& start, const Ray& ray, const Trace& trace,

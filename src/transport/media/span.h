@@ -32,6 +32,9 @@ bool homogeneous_throughout(const Parts& parts) {
   return std::all_of(parts.begin(), parts.end(), [](const Interval& part) { return all_homogeneous(part.view()); });
 }
 
+/// Mean cosine of the phase functions along a span, roughly: of all media alike.
+float mean_cosine(const Span& span);
+
 /// Walks the ray once, from where `start` is the membership. Adds what does not pair up to `parity_errors`.
 Span make_span(const SpanWalk::Context& context, const MediaState& start, const Ray& ray, const Trace& trace,
                std::uint64_t& parity_errors);
