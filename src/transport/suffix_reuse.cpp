@@ -9,7 +9,7 @@
 namespace tyndall {
 namespace {
 
-/// Finds for each path, at most on average.
+/// Finds for each path, at most on average. What is received along its ray and behind it has half of them each.
 constexpr double kMostFinds = 16;
 
 /// What the find brings its own path, which is of the order of what it brings others. Zero: there is nothing to share. What is
@@ -40,10 +40,10 @@ class Roulette {
 
 /// Of the `finders`, whose finds `receivers` can receive. A find of worth c that a of n receive costs a connections, and the
 /// variance of leaving it to chance is spread over as many: c^2 / a is least for a given cost where chances go with c / a. With
-/// n c / (a sum c) times kMostFinds each gets that many, at most; where few finds have nearly all, as where rays pass a flame
+/// n c / (a sum c) times `most` each gets that many, at most; where few finds have nearly all, as where rays pass a flame
 /// by chance, fewer.
 template <typename Shares>
-void share_among(Shares& shares, std::span<Path* const> finders, std::size_t receivers) {
+void share_among(Shares& shares, std::span<Path* const> finders, std::size_t receivers, double most = kMostFinds) {
   std::array<float, kMostSharing> worth;
   double total = 0;
   for (std::size_t j = 0; j < finders.size(); ++j) total += worth[j] = worth_of(*finders[j]);
@@ -52,7 +52,7 @@ void share_among(Shares& shares, std::span<Path* const> finders, std::size_t rec
   Roulette roulette(finders[static_cast<std::size_t>(first - worth.begin())]->offer().rng.uniform() + 0x1p-25);
   for (std::size_t j = 0; j < finders.size(); ++j) {
     if (!(worth[j] > 0)) continue;
-    double chance = kMostFinds * worth[j] / total;
+    double chance = most * worth[j] / total;
     if (chance < 1) chance *= static_cast<double>(receivers) / static_cast<double>(shares.sharers(*finders[j]));
     chance = std::min(1.0, chance);
     if (roulette.survives(chance)) shares.share(*finders[j], static_cast<float>(1 / chance));
@@ -68,21 +68,20 @@ void share_suffixes(const Between& between, std::span<Path* const> paths) {
   auto* const end = std::copy_if(paths.begin(), paths.end(), finders.begin(), [](const Path* path) { return path->offers(); });
   auto* const middle = std::stable_partition(finders.begin(), end, [](Path* path) { return path->offer().first.on_surface(); });
   const std::span<Path*const> on_surface(finders.begin(), middle), in_medium(middle, end);
-  const bool along_rays = SegmentShares::pay(paths);
-
   VertexShares surfaces(between);
-  for (Path* path : along_rays ? paths : on_surface) along_rays ? surfaces.add_behind(*path) : surfaces.add_arrived(*path);
-  share_among(surfaces, on_surface, along_rays ? paths.size() : on_surface.size());
-
-  if (along_rays) {
-    SegmentShares segments(between, paths);
-    share_among(segments, in_medium, paths.size());
-    segments.hand_out();
-  } else {
+  if (!SegmentShares::pay(paths)) {
+    for (Path* path : on_surface) surfaces.add_arrived(*path);
+    share_among(surfaces, on_surface, on_surface.size());
     VertexShares collisions(between);
     for (Path* path : in_medium) collisions.add_arrived(*path);
     share_among(collisions, in_medium, in_medium.size());
+    return;
   }
+  for (Path* path : paths) surfaces.add_behind(*path);
+  share_among(surfaces, on_surface, paths.size(), kMostFinds / 2);
+  SegmentShares segments(between, paths);
+  share_among(segments, in_medium, paths.size(), kMostFinds / 2);
+  segments.hand_out();
 }
 
 }  // namespace tyndall
