@@ -69,6 +69,7 @@ class FilmBuffer {
   BlockNoise noise(const PixelBounds& block, int samples) const;
 
  private:
+  static constexpr std::size_t kEven = 0, kOdd = 3;                                 ///< where the sums of a half begin
   std::size_t first_of(int x, int y) const { return crop_.index(x, y) * stride_; }  ///< of a pixel's sums
   double sum(std::size_t pixel, std::size_t offset) const { return sums_.value(pixel * stride_ + offset); }
   void add3(std::size_t first, float x, float y, float z, float weight);

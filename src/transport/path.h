@@ -46,7 +46,7 @@ class Path {
   /// What of a find, its own or another's, the path counts: `factor` times the find's radiance.
   void take(Rgb factor, const Path& finder, Received where);
   /// The factor of its own find, were it not shared.
-  Rgb own_share() const { return offer_->arrived * offer_->scattered; }
+  Rgb own_factor() const { return offer_->arrived * offer_->scattered; }
   /// What the ended path has found.
   PathRecord result();
 

@@ -61,7 +61,7 @@ bool is_own(const Collision& collision, double others) { return !(double{collisi
 }  // namespace
 
 /// Of a find's light at a place of the receiver's ray, before visibility.
-struct SegmentShares::Arrival {
+struct SegmentShares::Candidate {
   const Find* find;
   float t;
   Collision collision;
@@ -134,29 +134,29 @@ void SegmentShares::hand_out() {
   for (const std::size_t k : receivers_) receive(k);
   for (const Find& find : finds_) {
     if (!find.path->segment()->profile())
-      find.path->take(find.path->own_share() * find.scale, *find.path, Path::Received::in_medium);
+      find.path->take(find.path->own_factor() * find.scale, *find.path, Path::Received::in_medium);
   }
 }
 
 void SegmentShares::receive(std::size_t k) {
   CameraSegment& segment = *paths_[k]->segment();
-  std::vector<Arrival> arrivals;
+  std::vector<Candidate> candidates;
   float u = segment.u();
   for (const Find& find : finds_) {
     u += u < 1 - kGolden ? kGolden : kGolden - 1;
     if (find.path == paths_[k]) {
       take_own(find, k);
-    } else if (const auto arrival = arrive(find, k, u)) {
-      arrivals.push_back(*arrival);
+    } else if (const auto candidate = draw(find, k, u)) {
+      candidates.push_back(*candidate);
     }
   }
-  if (arrivals.empty()) return;
-  std::sort(arrivals.begin(), arrivals.end(), [](const Arrival& a, const Arrival& b) { return a.t < b.t; });
+  if (candidates.empty()) return;
+  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) { return a.t < b.t; });
   TransmittanceWalk walk({between_.transmittance, kSpacing}, segment.span(), segment.rng(), between_.counters.tracking);
-  for (const Arrival& arrival : arrivals) {
-    const Rgb T = walk.to(arrival.t);
+  for (const Candidate& candidate : candidates) {
+    const Rgb T = walk.to(candidate.t);
     if (is_black(T)) return;
-    link(arrival, *paths_[k], T);
+    link(candidate, *paths_[k], T);
   }
 }
 
@@ -171,10 +171,10 @@ void SegmentShares::take_own(const Find& find, std::size_t k) const {
     const float others = static_cast<float>(find.made_sum - double{find.made[k]}) * drawn;
     if (own > 0 && std::isfinite(own + others)) share = own / (own + others);
   }
-  find.path->take(find.path->own_share() * (find.scale * share), *find.path, Path::Received::in_medium);
+  find.path->take(find.path->own_factor() * (find.scale * share), *find.path, Path::Received::in_medium);
 }
 
-std::optional<SegmentShares::Arrival> SegmentShares::arrive(const Find& find, std::size_t k, float u) const {
+std::optional<SegmentShares::Candidate> SegmentShares::draw(const Find& find, std::size_t k, float u) const {
   CameraSegment& segment = *paths_[k]->segment();
   const PathOffer& offer = find.path->offer();
   const auto made = static_cast<float>(find.made_sum - double{find.made[k]});
@@ -184,11 +184,11 @@ std::optional<SegmentShares::Arrival> SegmentShares::arrive(const Find& find, st
   const Collision collision(segment, t, offer);
   if (t < collision.part->t0 || t > collision.part->t1 || is_black(collision.f)) return std::nullopt;
   if (!(collision.pdf > 0) || is_own(collision, (find.might_sum - double{find.might[k]}) * double{drawn})) return std::nullopt;
-  return Arrival{&find, t, collision, made * drawn};
+  return Candidate{&find, t, collision, made * drawn};
 }
 
-void SegmentShares::link(const Arrival& arrival, Path& receiver, Rgb T) const {
-  const auto& [find, t, collision, others] = arrival;
+void SegmentShares::link(const Candidate& candidate, Path& receiver, Rgb T) const {
+  const auto& [find, t, collision, others] = candidate;
   const Vertex vertex(Vertex::InMedium{collision.p, collision.scattering.phase}, collision.wo, collision.part->state);
   const auto passage = Link(between_, vertex, find->path->offer()).pass(Rgb(1.0f));
   if (!passage) return;

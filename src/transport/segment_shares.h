@@ -44,13 +44,13 @@ class SegmentShares {
     float likely = 0;  ///< chance of its flight, by white light
     Rgb flight;        ///< what its flight weighs, over the chance of it
   };
-  struct Arrival;
+  struct Candidate;
 
   Find consider(Path& finder) const;
   void receive(std::size_t k);
   void take_own(const Find& find, std::size_t k) const;
-  std::optional<Arrival> arrive(const Find& find, std::size_t k, float u) const;
-  void link(const Arrival& arrival, Path& receiver, Rgb T) const;
+  std::optional<Candidate> draw(const Find& find, std::size_t k, float u) const;
+  void link(const Candidate& candidate, Path& receiver, Rgb T) const;
 
   const Between& between_;
   std::span<Path* const> paths_;

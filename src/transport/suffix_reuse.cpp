@@ -17,9 +17,9 @@ constexpr double kMostFinds = 16;
 float worth_of(Path& path) {
   const PathOffer& find = path.offer();
   if (!find.at || is_black(find.radiance)) return 0;
-  const Rgb own = path.own_share() * find.radiance;
+  const Rgb own = path.own_factor() * find.radiance;
   if (is_finite(own)) return mean(own);
-  path.take(path.own_share(), path, Path::received_at(find.first));
+  path.take(path.own_factor(), path, Path::received_at(find.first));
   return 0;
 }
 

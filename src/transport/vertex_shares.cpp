@@ -86,7 +86,7 @@ void VertexShares::share(Path& finder, float scale) {
     const auto density = static_cast<float>(linked[k].own + (sum - linked[k].made));
     const bool shares = linked[k].own > 0 && std::isfinite(density);
     if (receiver.path == &finder) {
-      finder.take(finder.own_share() * (scale * (shares ? linked[k].own / density : 1.0f)), finder, where);
+      finder.take(finder.own_factor() * (scale * (shares ? linked[k].own / density : 1.0f)), finder, where);
     } else if (shares && !is_black(flight)) {
       receiver.path->take(receiver.throughput * linked[k].f * flight * (scale / density), finder, where);
     }
