@@ -60,6 +60,8 @@ class Draine {
   PhaseSample sample(Vec3 wo, Vec2 u) const;
   float mean_cosine() const;
   std::array<float, 2> parameters() const { return {hg_.g, alpha_}; }
+  float g() const { return hg_.g; }
+  float alpha() const { return alpha_; }
 
  private:
   HenyeyGreenstein hg_;
@@ -76,6 +78,10 @@ class Mie {
   PhaseSample sample(Vec3 wo, Vec2 u) const;
   float mean_cosine() const;
   std::array<float, 1> parameters() const { return {diameter_}; }
+  // (1 - rest_share()) peak() + rest_share() rest()
+  const HenyeyGreenstein& peak() const { return peak_; }
+  const Draine& rest() const { return rest_; }
+  float rest_share() const { return rest_share_; }
 
  private:
   float diameter_;

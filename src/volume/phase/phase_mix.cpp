@@ -28,6 +28,13 @@ float PhaseMix::lobe_mass(const Lobe& lobe, Rgb beta) const {
   return std::abs(beta.r) * s.r + std::abs(beta.g) * s.g + std::abs(beta.b) * s.b;
 }
 
+float PhaseMix::chance(std::size_t lobe, Rgb beta) const {
+  if (lobes_.size() == 1) return 1;
+  float mass = 0;
+  for (const Lobe& l : lobes_) mass += lobe_mass(l, beta);
+  return mass > 0 ? lobe_mass(lobes_[lobe], beta) / mass : 0;
+}
+
 Rgb PhaseMix::eval(Vec3 wo, Vec3 wi) const {
   Rgb sum;
   for (const Lobe& lobe : lobes_) sum += share(lobe.sigma_s, total_) * tyndall::pdf(*lobe.phase, wo, wi);

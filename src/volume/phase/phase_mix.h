@@ -25,6 +25,9 @@ class PhaseMix {
   void add(Rgb sigma_s, const Phase&& phase) = delete;
   bool empty() const { return lobes_.empty(); }
   std::size_t lobe_count() const { return lobes_.size(); }
+  const Phase& phase(std::size_t lobe) const { return *lobes_[lobe].phase; }
+  /// Probability that sample() chooses it; 0 of all where it gives nothing.
+  float chance(std::size_t lobe, Rgb beta) const;
 
   /// Value per channel, 1/sr. A channel that does not scatter gives 0.
   Rgb eval(Vec3 wo, Vec3 wi) const;
