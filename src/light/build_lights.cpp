@@ -1,5 +1,6 @@
 // From the scene's descriptions to Lights: places every light, loads its images, and sets up the choice among them.
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "light/instance_runs.h"
@@ -47,6 +48,7 @@ class Builder {
   void add_selectors_of_surfaces(SelectionInput input);
   void count(const SelectionInput& input);
   void enclose();
+  void gather_far();
 
   std::unique_ptr<Lights::Parts> parts_;
   LightBuildOptions options_;
@@ -287,6 +289,24 @@ void Builder::enclose() {
   }
 }
 
+void Builder::gather_far() {
+  Lights::Far& far = parts_->far;
+  for (const DistantEmitter& d : parts_->distants) {
+    const DeltaArrival a = d.arrival();
+    const auto E = static_cast<float>(strength(a.L));
+    if (E > 0 && std::isfinite(E)) far.suns.push_back({DirectionCone::around(a.wi), a.wi, E, E});
+  }
+  for (const Environment& e : parts_->environments) {
+    double rest = strength(e.mean_radiance()) * 4 * double{kPi};
+    if (const auto sun = e.peak()) {
+      rest -= double{sun->fluence};
+      far.suns.push_back(*sun);
+    }
+    far.rest += static_cast<float>(std::max(rest, 0.0));
+  }
+  std::stable_sort(far.suns.begin(), far.suns.end(), [](const FarCone& a, const FarCone& b) { return a.fluence > b.fluence; });
+}
+
 void Builder::add_selector(LightStrategy strategy, SelectionInput input) {
   const Timer watch;
   parts_->selectors.push_back(make_selector(strategy, std::move(input)));
@@ -311,6 +331,7 @@ Lights Builder::finish(const Bounds3& scene_bounds) {
   SelectionInput input = selection_input();
   count(input);
   enclose();
+  gather_far();
   add_selectors_of_surfaces(input);
   const auto& strategies = options_.strategies;
   for (std::size_t i = 0; i + 1 < strategies.size(); ++i) add_selector(strategies[i], input);

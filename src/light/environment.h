@@ -40,6 +40,7 @@ class Environment {
   Rgb mean_radiance() const { return mean_; }  ///< over all directions
   bool even() const { return !has_excess_; }   ///< nothing exceeds the mean: sample() with an MIS partner gives nothing
   std::vector<FarCone> cones() const;          ///< one an octant
+  std::optional<FarCone> peak() const;         ///< the sun of a map: narrow, with a good part of all its light
   std::size_t memory_bytes() const;
 
  private:

@@ -60,6 +60,7 @@ Lights& Lights::operator=(Lights&&) noexcept = default;
 
 std::size_t Lights::size() const { return parts_->lights.size() + parts_->instanced_lights; }
 std::size_t Lights::sought() const { return size() - parts_->even_skies; }
+const Lights::Far& Lights::far() const { return parts_->far; }
 const LightStats& Lights::stats() const { return parts_->stats; }
 double Lights::power(LightId light) const { return parts_->power(light); }
 const Bounds3& Lights::near_box() const { return parts_->near_box; }

@@ -99,6 +99,14 @@ class Lights {
   /// Radiance that leaves the emitter at `hit` along `wo`. Opacity is not in it: a hit has passed that test.
   Rgb emitted(LightId light, const EmitterHit& hit, Vec3 wo) const;
 
+  /// Narrow sources at infinity, the brightest first: distant lights, and suns of maps. And, in fluence, what else comes from
+  /// infinity but through portals.
+  struct Far {
+    std::vector<FarCone> suns;
+    float rest = 0;
+  };
+  const Far& far() const;
+
   std::span<const LightId> infinite() const;             ///< lights that rays leaving the scene see
   Rgb environment(LightId light, const Ray& ray) const;  ///< radiance arriving at the ray's origin from its direction
   /// 1/sr, of sample() at the ray's origin giving its direction.

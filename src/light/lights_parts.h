@@ -41,6 +41,7 @@ struct Lights::Parts {
   std::vector<LightId> first_light;  ///< of each emitter shape
   std::vector<LightId> infinite;
   std::size_t even_skies = 0;
+  Lights::Far far;
   std::vector<VolumeEmitter> volumes;
   InstancedEmitters instanced;
   std::size_t instanced_lights = 0;

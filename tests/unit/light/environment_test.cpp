@@ -235,5 +235,21 @@ TEST_CASE("the cones add up to the map, and each holds the light of its part") {
   }
 }
 
+TEST_CASE("the sun of a map is found where it is, and none where the sky is clouded") {
+  const test::ScratchMap bright("sun", 64, 32, [](int x, int y) { return x == 40 && y == 9 ? Rgb(4000) : Rgb(1); });
+  const test::ScratchMap overcast("no sun", 16, 16, [](int x, int y) { return sky(x, y, true); });
+  const Transform turned = Transform::rotate(40, 1, 2, 3);
+  const auto sun = Environment(map_light(bright.path(), turned), {}).peak();
+  REQUIRE(sun);
+  const double phi = 2 * kPi * 40.5 / 64, theta = kPi * 9.5 / 32;
+  const Vec3 there = turned.vector({static_cast<float>(std::sin(theta) * std::cos(phi)),
+                                    static_cast<float>(std::sin(theta) * std::sin(phi)), static_cast<float>(std::cos(theta))});
+  CHECK(length(sun->directions.axis - normalize(there)) < 0.02);
+  const double around = 2 * kPi * 0.01, texel = texel_solid_angle(9, 64, 32);
+  CHECK(sun->fluence == doctest::Approx(mean(Rgb{2, 1, 0.5f}) * (4000 * texel + around - texel)).epsilon(0.01));
+  CHECK(!Environment(map_light(overcast.path()), {}).peak());
+  CHECK(!Environment(InfiniteLight{}, {}).peak());
+}
+
 }  // namespace
 }  // namespace tyndall

@@ -123,6 +123,23 @@ TEST_CASE("ids run through the scene's lights, then the primitives of the shapes
   CHECK(!selector_of(lights_of({})).select(PointQuery{}, 0.5));
 }
 
+TEST_CASE("suns come the brightest first, and apart from the sky's even light") {
+  Scene scene;
+  scene.lights = {{DistantLight{{0, 0, -1}, Rgb(2)}, {}},
+                  {PointLight{{0, 0, 5}, Rgb(1)}, {}},
+                  {InfiniteLight{}, {}},
+                  {DistantLight{{-1, 0, 0}, Rgb(5)}, {}},
+                  {DistantLight{{0, 1, 0}, Rgb(0)}, {}}};
+  const Lights lights = build_lights(scene, {}, {{-1, -1, -1}, {1, 1, 1}});
+  const Lights::Far& far = lights.far();
+  REQUIRE(far.suns.size() == 2);
+  CHECK(far.suns[0].directions.axis == Vec3{1, 0, 0});
+  CHECK(far.suns[0].fluence == doctest::Approx(5));
+  CHECK(far.suns[1].fluence == doctest::Approx(2));
+  CHECK(far.rest == doctest::Approx(4 * kPi));
+  CHECK(Lights().far().suns.empty());
+}
+
 TEST_CASE("one-sided emitters emit to the side of their normal, two-sided ones on both") {
   std::vector<Shape> shapes{emissive(quad(1, 0), Rgb(1))};
   const Vec3 above{0.1f, 0.2f, 1}, below{0.1f, 0.2f, -1};
