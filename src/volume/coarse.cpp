@@ -55,6 +55,22 @@ double depth_of(const MediumData& medium, const Ray& ray, double t0, double t1, 
   return sum * step;
 }
 
+/// Steps from one block, growing by kGrowth.
+double nearby_depth_of(const MediumData& medium, const Ray& ray, double t1, double most) {
+  constexpr double kGrowth = 1.25;
+  if (medium.kind != MediumData::Kind::grid) return depth_of(medium, ray, 0, t1, 1);
+  const GridRay local(medium.density.to_local, ray);
+  const auto [begin, end] = local.clip(medium.clip, 0, t1);
+  double sum = 0, step = BlockMeans::kCells / std::max(local.speed(), 1e-300);
+  for (double t = begin; t < end && sum < most; t += step, step *= kGrowth) {
+    const double length = std::min(step, end - t);
+    GridVec p = local.at(t + 0.5 * length);
+    for (int axis = 0; axis < 3; ++axis) p[axis] = std::clamp(p[axis], medium.clip.lo[axis], medium.clip.hi[axis]);
+    sum += double{optics_around(medium, p).sigma_t} * length;
+  }
+  return sum;
+}
+
 }  // namespace
 
 CoarseRay::CoarseRay(MediaView media, const Ray& ray) {
@@ -81,6 +97,12 @@ float coarse_optical_depth(MediaView media, const Ray& ray, float t0, float t1, 
   double sum = 0;
   if (t0 < t1)
     for (const ParticipatingMedium* medium : media) sum += depth_of(medium->data(), ray, t0, t1, taps);
+  return static_cast<float>(sum);
+}
+
+float nearby_optical_depth(MediaView media, const Ray& ray, float t1, float most) {
+  double sum = 0;
+  for (const ParticipatingMedium* medium : media) sum += nearby_depth_of(medium->data(), ray, t1, most);
   return static_cast<float>(sum);
 }
 

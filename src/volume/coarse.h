@@ -47,6 +47,9 @@ class CoarseRay {
 /// more than `taps` points, evenly in the part of the ray inside it.
 float coarse_optical_depth(MediaView media, const Ray& ray, float t0, float t1, int taps);
 
+/// The same from the ray's origin, where it is looked at closely, up to t1 and no further than a value of `most`.
+float nearby_optical_depth(MediaView media, const Ray& ray, float t1, float most);
+
 /// The part of [t0, t1] where the media can be anything but empty, rounded outward: the hull over the media.
 std::optional<std::pair<float, float>> coarse_extent(MediaView media, const Ray& ray, float t0, float t1);
 

@@ -202,6 +202,25 @@ TEST_CASE("homogeneous media have a closed form, at any length") {
         doctest::Approx(9 * 3.3 + coarse_optical_depth(MediaView(both).subspan(1), ray, 0, 9, 32)));
 }
 
+TEST_CASE("the depth up close is that of the blocks, and is sought no further than asked") {
+  const auto fog = test::homogeneous({{0.1f, 0.2f, 0.6f}, {1, 2, 6}, 0.5f}), smoke = hills({Rgb{2.0f}, Rgb{7.0f}, 0});
+  const ParticipatingMedium *a[] = {&fog}, *b[] = {&smoke}, *both[] = {&fog, &smoke};
+  CHECK(nearby_optical_depth(a, {{-3, 0.1f, 0.2f}, {1, 0, 0}}, 2.5f, 99) == doctest::Approx(2.5 * 3.3));
+  CHECK(nearby_optical_depth(b, {{-3, 2, 0}, {1, 0, 0}}, kInfinity, 99) == 0);
+  Rng rng(8);
+  double squares = 0;
+  for (int i = 0; i < 400; ++i) {
+    Ray ray = random_ray(smoke.bounds(), rng);
+    ray.o = ray.at(2);  // among the smoke
+    const float dense = coarse_optical_depth(b, ray, 0, kInfinity, 400), found = nearby_optical_depth(b, ray, kInfinity, 99);
+    CHECK(std::abs(found - dense) < 0.1f + 0.2f * dense);
+    squares += double{found - dense} * (found - dense) / (0.01 + double{dense} * dense);
+    CHECK(nearby_optical_depth(both, ray, 2, 99) == doctest::Approx(6.6 + nearby_optical_depth(b, ray, 2, 99)));
+    if (dense > 2) CHECK(nearby_optical_depth(b, ray, kInfinity, 1) < found);
+  }
+  CHECK(std::sqrt(squares / 400) < 0.08);
+}
+
 TEST_CASE("nothing is found in an empty grid or beside one") {
   const auto empty = test::grid({8, -1, 1}, {Rgb{1.0f}, Rgb{1.0f}, 0}, [](int) { return 0.0f; });
   const auto smoke = hills({Rgb{1.0f}, Rgb{1.0f}, 0});
