@@ -72,6 +72,10 @@ bool ParticipatingMedium::scatters() const {
 }
 
 bool ParticipatingMedium::homogeneous() const { return data_->kind == MediumData::Kind::homogeneous; }
+float ParticipatingMedium::albedo() const {
+  const float s = mean(data_->optics.sigma_s), all = s + mean(data_->optics.sigma_a);
+  return all > 0 ? s / all : 0.0f;
+}
 const Phase& ParticipatingMedium::phase() const { return data_->optics.phase; }
 Bounds3 ParticipatingMedium::bounds() const { return data_->bounds; }
 

@@ -52,6 +52,7 @@ class ParticipatingMedium {
   bool scatters() const;  ///< false: sigma_s is 0 everywhere
   bool homogeneous() const;
   const Phase& phase() const;
+  float albedo() const;  ///< of single scattering, mean of the channels; of grids with channels where those are alike
   /// World-space box around all non-zero density: infinite for a homogeneous medium, empty for an empty grid.
   Bounds3 bounds() const;
   /// Largest extinction coefficient of any channel anywhere, 1/world unit.
