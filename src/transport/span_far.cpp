@@ -113,6 +113,13 @@ bool lights_keep_distance(const LightContext& context, const Ray& ray, const Par
   return approach.deep(enough_depth(parts) * (later ? kDeepShareLater : 1));
 }
 
+/// A few reads may pass by what is dense on later spans through a grid. Pairs then draw their distances elsewhere, and make
+/// fireflies (docs/measurements.md).
+template <typename Parts>
+bool may_be_missed(const LightContext& context, const Parts& parts) {
+  return context.bounce > 0 && !homogeneous_throughout(parts);
+}
+
 template <typename Parts>
 bool suffice(const LightContext& context, const Ray& ray, const Parts& parts) {
   const RenderSettings& settings = context.settings;
@@ -121,7 +128,7 @@ bool suffice(const LightContext& context, const Ray& ray, const Parts& parts) {
   if (is_single_scattering(context)) return false;  // it draws many pairs
   const Bounds3& lights = context.world.lights.near_box();
   if (context.bounce > 0 && opaque_among(lights, ray, parts)) return true;
-  if (far_from(lights, ray, parts.front().t0, parts.back().t1)) return deep(ray, parts);
+  if (far_from(lights, ray, parts.front().t0, parts.back().t1)) return may_be_missed(context, parts) || deep(ray, parts);
   return lights_keep_distance(context, ray, parts);
 }
 

@@ -7,7 +7,8 @@
 namespace tyndall {
 
 /// Whether choosing lights at the collision that the path draws anyhow suffices:
-/// - all lights are so far that they illuminate all of the segment alike, and its media so dense that many rays collide; or
+/// - all lights are so far that they illuminate all of the segment alike, and its media so dense that many rays collide, or
+///   after the first bounce such that they are known by reads alone; or
 /// - no light comes close to where such media scatter before they are opaque, and after the first bounce not very close; or
 /// - after the path's first collision, its media are nearly opaque within the size of the lights' box.
 /// With the default settings of media and distance only. Deterministic, from a few reads of the media (docs/measurements.md).

@@ -5,6 +5,7 @@
 #include "light/lights.h"
 #include "session/world_parts.h"
 #include "support/sphere_scene.h"
+#include "support/test_media.h"
 
 namespace tyndall {
 namespace {
@@ -17,8 +18,17 @@ class Asked {
 
   /// A segment of `length` from there on, in two parts.
   bool suffice(float sigma_s, float length = 2, const RenderSettings& settings = {}, int bounce = 1) {
+    return suffice_in(fog(sigma_s * world_.parts().unit), length, settings, bounce);
+  }
+  /// In a grid that is hardly anything in places.
+  bool suffice_in_grid(float sigma_s, int bounce) {
+    const auto half_empty = [](int i) { return i % 8 < 4 ? 1.0f : 1e-3f; };
     const float unit = world_.parts().unit;
-    const ParticipatingMedium medium = fog(sigma_s * unit);
+    return suffice_in(test::grid({8, -9, 9}, {{}, Rgb(sigma_s * unit), 0}, half_empty), 2, {}, bounce);
+  }
+
+  bool suffice_in(const ParticipatingMedium& medium, float length, const RenderSettings& settings, int bounce) {
+    const float unit = world_.parts().unit;
     Span span;
     span.ray = {world_.parts().to_user.inverse().point({0, 0, -1}), {0, 0, 1}};
     span.t_end = length / unit;
@@ -72,6 +82,12 @@ TEST_CASE("collisions suffice in dense segments, all lights far from them") {
   CHECK_FALSE(Asked(std::string(kSun) + kPoint + kPointWithin).suffice(2));
   CHECK(Asked("Translate 0 0 30\nAreaLightSource \"diffuse\"\nShape \"sphere\" \"float radius\" 10\n").suffice(2));
   CHECK_FALSE(Asked("Translate 0 0 11\nAreaLightSource \"diffuse\"\nShape \"sphere\" \"float radius\" 10\n").suffice(2));
+}
+
+TEST_CASE("collisions suffice on later segments through grids, however thin, all lights far from them") {
+  CHECK(Asked(kSun).suffice_in_grid(0.01f, 1));
+  CHECK_FALSE(Asked(kSun).suffice_in_grid(0.01f, 0));
+  CHECK_FALSE(Asked(kPointWithin).suffice_in_grid(0.01f, 1));
 }
 
 TEST_CASE("a segment without end is near every light but those at infinity") {
