@@ -18,6 +18,8 @@ constexpr float kGolden = 0.618034f;
 /// few rays collide, passing and colliding are told apart with little noise anyway (docs/measurements.md).
 constexpr std::size_t kLooks = 4;
 constexpr float kCloser = 4, kLeastColliding = 0.25f;
+/// Mean free paths between two rays, a third of the block apart, beyond which sharing is more noise than it takes away.
+constexpr float kApart = 2;
 
 /// About how far light goes along the segment from one collision to the next.
 float free_path(CameraSegment& segment) {
@@ -58,6 +60,16 @@ struct Collision {
 /// who might receive it there.
 bool is_own(const Collision& collision, double others) { return !(double{collision.pdf} < others); }
 
+/// Of a block's rays a few tell: those that pass media that scatter.
+SmallVector<CameraSegment*, kLooks> looks(std::span<Path* const> paths) {
+  SmallVector<CameraSegment*, kLooks> found;
+  for (std::size_t i = 0; i < kLooks; ++i) {
+    CameraSegment* const segment = paths[i * (paths.size() - 1) / (kLooks - 1)]->segment();
+    if (segment && segment->profile()) found.push_back(segment);
+  }
+  return found;
+}
+
 }  // namespace
 
 /// Of a find's light at a place of the receiver's ray, before visibility.
@@ -68,19 +80,27 @@ struct SegmentShares::Candidate {
   float others;  ///< density with which others made the find, and the receiver drew the place
 };
 
-/// Of a block's rays a few tell.
 bool SegmentShares::pay(std::span<Path* const> paths) {
   CameraSegment* before = nullptr;
   float colliding = 0;
-  for (std::size_t i = 0; i < kLooks; ++i) {
-    CameraSegment* const segment = paths[i * (paths.size() - 1) / (kLooks - 1)]->segment();
-    if (!segment || !segment->profile()) continue;
+  for (CameraSegment* const segment : looks(paths)) {
     if (!homogeneous_throughout(segment->span().parts)) return false;
     if (before && kCloser * gap(*before, *segment) > free_path(*segment)) return false;
     colliding += 1 - segment->chance_of_passing();
     before = segment;
   }
   return colliding >= kLeastColliding * kLooks;
+}
+
+bool SegmentShares::near_each_other(std::span<Path* const> paths) {
+  CameraSegment* before = nullptr;
+  float gaps = 0, free_paths = 0;
+  for (CameraSegment* const segment : looks(paths)) {
+    if (homogeneous_throughout(segment->span().parts)) return true;
+    if (before) gaps += gap(*before, *segment), free_paths += free_path(*segment);
+    before = segment;
+  }
+  return gaps <= kApart * free_paths;
 }
 
 SegmentShares::SegmentShares(const Between& between, std::span<Path* const> paths) : between_(between), paths_(paths) {

@@ -12,6 +12,12 @@ namespace {
 /// Finds for each path, at most on average. What is received along its ray and behind it has half of them each.
 constexpr double kMostFinds = 16;
 
+/// Counts what the path has found where it is alone.
+void keep(Path& path) {
+  const PathOffer& find = path.offer();
+  if (find.at) path.take(path.own_factor(), path, Path::received_at(find.first));
+}
+
 /// What the find brings its own path, which is of the order of what it brings others. Zero: there is nothing to share. What is
 /// not a number stays with its path, where it is counted once.
 float worth_of(Path& path) {
@@ -19,7 +25,7 @@ float worth_of(Path& path) {
   if (!find.at || is_black(find.radiance)) return 0;
   const Rgb own = path.own_factor() * find.radiance;
   if (is_finite(own)) return mean(own);
-  path.take(path.own_factor(), path, Path::received_at(find.first));
+  keep(path);
   return 0;
 }
 
@@ -59,6 +65,16 @@ void share_among(Shares& shares, std::span<Path* const> finders, std::size_t rec
   }
 }
 
+void share_collisions(const Between& between, std::span<Path* const> finders, bool near_each_other) {
+  if (!near_each_other) {
+    for (Path* path : finders) keep(*path);
+    return;
+  }
+  VertexShares collisions(between);
+  for (Path* path : finders) collisions.add_arrived(*path);
+  share_among(collisions, finders, finders.size());
+}
+
 }  // namespace
 
 /// Finders on surfaces and in media are not mixed: what they find is found so differently that it is not worth connecting.
@@ -72,9 +88,7 @@ void share_suffixes(const Between& between, std::span<Path* const> paths) {
   if (!SegmentShares::pay(paths)) {
     for (Path* path : on_surface) surfaces.add_arrived(*path);
     share_among(surfaces, on_surface, on_surface.size());
-    VertexShares collisions(between);
-    for (Path* path : in_medium) collisions.add_arrived(*path);
-    share_among(collisions, in_medium, in_medium.size());
+    share_collisions(between, in_medium, SegmentShares::near_each_other(paths));
     return;
   }
   for (Path* path : paths) surfaces.add_behind(*path);
