@@ -28,8 +28,9 @@ enum class DistanceStrategy { automatic, tracking, equiangular, both, profile };
 /// takes longer.
 enum class EmissionStrategy { paths, lights };
 /// Where paths go from the first surface, and from later ones where media emit: as it scatters, or also toward grids and clouds
-/// that scatter or emit much light, with MIS. `automatic`: the latter with MediaStrategy::product, the former with what stands
-/// for other programs' methods. Not toward homogeneous media, and not in single scattering.
+/// that scatter or emit much light, with MIS; and from collisions toward what suns spread around them in media that scatter
+/// forward. `automatic`: the latter with MediaStrategy::product, the former with what stands for other programs' methods. Not
+/// toward homogeneous media, and not in single scattering.
 enum class GuidingStrategy { automatic, off, media };
 /// Whether rays are also drawn close to point and spot lights in media, with MIS: a collision draws the next one near lights
 /// that reach it, and a pinhole's pixel takes film positions near the images of those that its filter covers. The pixel also

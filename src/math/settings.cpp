@@ -108,7 +108,8 @@ const std::vector<StrategyAxis>& strategy_axes() {
       axis<kDistances, &RenderSettings::distance>("distance", "how the distance along a segment is sampled"),
       axis<kEmissions, &RenderSettings::emission>("emission", "how volume emission is found"),
       axis<kGuidings, &RenderSettings::guiding>(
-          "guiding", "whether the surface that a path meets first also sends it toward grids and clouds"),
+          "guiding",
+          "whether the surface that a path meets first also sends it toward grids and clouds, and collisions toward suns"),
       axis<kJoints, &RenderSettings::joint>("joint",
                                             "whether collisions in media and pixels also draw rays close to point and spot "
                                             "lights, and pixels toward small emissive surfaces"),

@@ -141,6 +141,7 @@ BuiltWorld::BuiltWorld(Scene unit_scene, const BuildSettings& settings, std::siz
   light_distances = tyndall::light_distances(media, geometry.groups(), scene.camera.medium, lights, volume_lights);
   bright_media =
       BrightMedia(media, {geometry.groups(), scene.camera.medium, lights, volume_lights, scene_bounds(geometry, media)});
+  if (!media.empty()) aureoles = Aureoles(lights);
   for (std::string& note : volume_lights.notes(scene.media)) summary.notes.push_back(std::move(note));
   light_groups = light_groups_of(*this, emitters.shapes);
   first_light.assign(geometry.placed().size(), kNone);

@@ -7,6 +7,7 @@
 #include "surface/geometry.h"
 #include "surface/material.h"
 #include "texture/textures.h"
+#include "transport/aureoles.h"
 #include "transport/bright_media.h"
 #include "transport/camera_ray.h"
 #include "transport/filter_cells.h"
@@ -41,6 +42,7 @@ struct BuiltWorld {
   Lights lights;
   LightDistances light_distances;    ///< empty where all media are unbounded, or all lights are far
   BrightMedia bright_media;          ///< empty where all media are homogeneous
+  Aureoles aureoles;                 ///< empty where no sun shines
   LightGroups light_groups;          ///< empty where the scene names none
   std::vector<LightId> first_light;  ///< by placed shape; kNone where it does not emit
   CameraRays camera;

@@ -19,9 +19,16 @@ bool guides(const LightContext& context, const Vertex& vertex) {
   return (context.bounce == 0 || all) && !is_last_bounce(context) && vertex.on_surface() && vertex.has_smooth();
 }
 
+/// What goes on from the last bounce finds lights alone, which is what next-event estimation is for.
+bool follows_suns(const LightContext& context, const Vertex& vertex) {
+  return context.settings.guiding != GuidingStrategy::off && !context.world.aureoles.empty() && !vertex.on_surface() &&
+         !is_last_bounce(context);
+}
+
 }  // namespace
 
 Directions::Directions(const LightContext& context, const Vertex& vertex) : vertex_(vertex) {
+  if (follows_suns(context, vertex)) aureole_ = context.world.aureoles.at(context.world, vertex);
   if (!guides(context, vertex)) return;
   toward_media_.emplace(context.world.bright_media, vertex.light_query());
   if (toward_media_->share() == 0) toward_media_.reset();
@@ -29,13 +36,20 @@ Directions::Directions(const LightContext& context, const Vertex& vertex) : vert
 
 float Directions::pdf(Vec3 wi, Rgb beta) const {
   const float scattered = vertex_.pdf(wi, beta);
+  if (aureole_) return scattered * aureole_->radiance(wi) / aureole_->scattered(vertex_.medium()->phase, vertex_.wo(), beta);
   return toward_media_ ? mixed(toward_media_->pdf(wi), scattered) : scattered;
+}
+
+std::optional<ScatterSample> Directions::sample(Rgb beta, Sampler& sampler) const {
+  const float uc = sampler.next_1d();
+  const Vec2 u = sampler.next_2d();
+  if (aureole_) return toward_aureole(beta, sampler.stream());
+  return toward_media_ ? mixed_sample(beta, uc, u) : vertex_.sample(beta, uc, u);
 }
 
 /// Densities of coated materials are approximate, but above 0: the weight that sampling gives already has the true one, and is
 /// scaled by the scattering's share of the mixture.
-std::optional<ScatterSample> Directions::sample(Rgb beta, float uc, Vec2 u) const {
-  if (!toward_media_) return vertex_.sample(beta, uc, u);
+std::optional<ScatterSample> Directions::mixed_sample(Rgb beta, float uc, Vec2 u) const {
   const float share = toward_media_->share();
   if (uc < share) return toward_media(beta, uc / share, u);
   auto s = vertex_.sample(beta, std::min((uc - share) / (1 - share), kOneMinusEpsilon), u);
@@ -61,6 +75,20 @@ std::optional<ScatterSample> Directions::toward_media(Rgb beta, float u, Vec2 on
   // eta stays 1: roulette of what goes through rough glass is off by its square, which is no bias.
   return ScatterSample{
       .wi = wi, .weight = f / pdf, .pdf = pdf, .specular = false, .guided_pdf_ratio = guided_pdf_ratio(pdf, scattered)};
+}
+
+/// Radiance over what is scattered is the ratio to the phase function's density, whatever that is.
+std::optional<ScatterSample> Directions::toward_aureole(Rgb beta, Rng rng) const {
+  const PhaseMix& phase = vertex_.medium()->phase;
+  const Vec3 wi = aureole_->sample(phase, vertex_.wo(), beta, rng);
+  const float scattered = phase.pdf(vertex_.wo(), wi, beta);
+  const float ratio = aureole_->radiance(wi) / aureole_->scattered(phase, vertex_.wo(), beta), pdf = scattered * ratio;
+  if (!(pdf > 0)) return std::nullopt;
+  return ScatterSample{.wi = wi,
+                       .weight = phase.eval(vertex_.wo(), wi) / pdf,
+                       .pdf = pdf,
+                       .specular = false,
+                       .guided_pdf_ratio = guided_pdf_ratio(pdf, scattered)};
 }
 
 }  // namespace tyndall

@@ -1,4 +1,5 @@
-/// The direction of a path at a vertex: by the scattering function, and at the first surface also guided toward bright media.
+/// The direction of a path at a vertex: by the scattering function, at the first surface also guided toward bright media, and
+/// at collisions toward the aureoles of suns.
 #pragma once
 
 #include <optional>
@@ -6,6 +7,7 @@
 #include "transport/light_context.h"
 #include "transport/media_directions.h"
 #include "transport/vertex.h"
+#include "volume/aureole.h"
 
 namespace tyndall {
 
@@ -18,16 +20,21 @@ class Directions {
   const Vertex& vertex() const { return vertex_; }
   /// 1/sr, of sample(); `beta` as for a Vertex.
   float pdf(Vec3 wi, Rgb beta) const;
-  std::optional<ScatterSample> sample(Rgb beta, float uc, Vec2 u) const;
+  std::optional<ScatterSample> sample(Rgb beta, Sampler& sampler) const;
+  /// At a collision: what guides there.
+  const std::optional<Aureole>& aureole() const { return aureole_; }
 
  private:
   float mixed(float guided, float scattered) const {
     return (1 - toward_media_->share()) * scattered + toward_media_->share() * guided;
   }
+  std::optional<ScatterSample> mixed_sample(Rgb beta, float uc, Vec2 u) const;
   std::optional<ScatterSample> toward_media(Rgb beta, float u, Vec2 on_cone) const;
+  std::optional<ScatterSample> toward_aureole(Rgb beta, Rng rng) const;
 
   const Vertex& vertex_;
   std::optional<MediaDirections> toward_media_;
+  std::optional<Aureole> aureole_;
 };
 
 }  // namespace tyndall

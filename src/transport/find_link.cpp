@@ -24,7 +24,10 @@ bool has_all_channels(Rgb c) { return c.r != 0 && c.g != 0 && c.b != 0; }
 Connection scattered_back(const PathOffer& find, Vec3 w) {
   if (const auto* medium = find.at->medium()) {
     const Rgb phase = medium->phase.eval(-w, find.wi);
-    return {phase, has_all_channels(phase) ? medium->phase.pdf(-w, find.wi, Rgb(1.0f)) : 0.0f};
+    if (!has_all_channels(phase)) return {phase, 0};
+    float pdf = medium->phase.pdf(-w, find.wi, Rgb(1.0f));
+    if (find.aureole) pdf *= find.aureole->radiance(find.wi) / find.aureole->scattered(medium->phase, -w, Rgb(1.0f));
+    return {phase, pdf};
   }
   const SurfaceHit& hit = find.at->surface()->hit;
   if (!same_side(hit.ng, -w, find.at->wo()) || !same_side(hit.ns, -w, find.at->wo())) return {};

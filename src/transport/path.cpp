@@ -163,11 +163,11 @@ bool Path::scatter(const Vertex& vertex) {
   if (joint) add_estimate(beta_, joint_light(context_, vertex, *joint), depth_ + 1);
 
   begin(Step::scatter);
-  const float uc = context_.sampler.next_1d();
-  const auto s = directions.sample(beta_, uc, context_.sampler.next_2d());
+  const auto s = directions.sample(beta_, context_.sampler);
   if (!s) return false;
   if (offered) {
     offer_->wi = s->wi;
+    offer_->aureole = directions.aureole();
     offer_->scattered = s->weight;
   }
   light_sampled_ = !s->specular && vertex.has_smooth();

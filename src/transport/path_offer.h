@@ -28,9 +28,10 @@ struct PathOffer {
 
   /// An estimate: of what a surface scatters to all on the side of `first`; of what comes to a collision from `wi`.
   Rgb radiance;
-  Vec3 wi;              ///< where the path went on from a collision
-  Rgb scattered{1.0f};  ///< phase function toward `first`, over its density
-  Rgb own;              ///< light that a collision scatters toward `first` and that only the path itself counts
+  Vec3 wi;                         ///< where the path went on from a collision
+  std::optional<Aureole> aureole;  ///< by which that was drawn
+  Rgb scattered{1.0f};             ///< phase function toward `first`, over its density
+  Rgb own;                         ///< light that a collision scatters toward `first` and that only the path itself counts
 };
 
 }  // namespace tyndall

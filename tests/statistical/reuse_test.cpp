@@ -194,6 +194,15 @@ TEST_CASE("sharing changes the noise alone: smoke that leaves some ways open, fr
   check_agree("smoke", camera(5) + room() + uniform_grid("m", smoke, grid) + medium_box("m", "", grid.bounds), {}, 1.3);
 }
 
+// Finds in media are scattered toward neighbours with the density of the direction that the sun's aureole drew.
+TEST_CASE("sharing changes the noise alone: a cloud under a sun") {
+  const Coefficients drops{.sigma_a = {0.02f, 0.05f, 0.1f}, .sigma_s = {3, 2, 1.5f}, .g = 0.8f};
+  Grid grid{{{-1.5f, -1.7f, -1.5f}, {0.6f, 1, 1.5f}}, 4, 4, 4, {}};
+  for (int i = 0; i < 64; ++i) grid.density.push_back(0.2f * float(i % 11));
+  const std::string light = distant_light({1, -2, 1}, 3) + environment(0.2f);
+  check_agree("cloud", camera(12) + light + uniform_grid("m", drops, grid) + medium_box("m", "", grid.bounds), {}, 0.7);
+}
+
 // Variances of sums over pixels are bounded by what sharing can make of them: no more false alarms than are stated.
 TEST_CASE("renders that share are compared without false alarms, and a bias is found") {
   Subject subject(camera(3) + room(), {.reuse = ReuseStrategy::pixels});

@@ -1,0 +1,73 @@
+#include "transport/aureoles.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "transport/built_world.h"
+#include "volume/coarse.h"
+
+namespace tyndall {
+namespace {
+
+/// Suns with less of the brightest one's light are not worth a look at the media before them.
+constexpr float kLeastSun = 0.1f;
+/// Of a direction e^-4 is left after this many turns of the mean cosine each: behind more, all light is even.
+constexpr float kTurns = 4;
+
+float power_nearby(const Lights& lights) {
+  double power = 0;
+  for (LightId id = 0; id < lights.size(); ++id) {
+    const double p = lights.place(id).center ? lights.power(id) : 0;
+    if (std::isfinite(p)) power += p;
+  }
+  return static_cast<float>(power);
+}
+
+/// Mean albedo of single scattering.
+float albedo_of(const ActiveMedia& media) {
+  float sum = 0, count = 0;
+  for (const ParticipatingMedium* medium : media) {
+    if (!medium->scatters()) continue;
+    sum += medium->albedo(), count += 1;
+  }
+  return count > 0 ? sum / count : 0.0f;
+}
+
+}  // namespace
+
+Aureoles::Aureoles(const Lights& lights) : rest_(lights.far().rest) {
+  for (const FarCone& sun : lights.far().suns) {
+    const bool seen = suns_.size() < Aureole::kMostSources && (suns_.empty() || sun.fluence >= kLeastSun * suns_[0].fluence);
+    if (seen) {
+      suns_.push_back(sun);
+    } else {
+      rest_ += sun.fluence;
+    }
+  }
+  if (suns_.empty() || lights.near_box().empty()) return;
+  near_ = lights.near_box();
+  near_power_ = power_nearby(lights);
+}
+
+std::optional<Aureole> Aureoles::at(const BuiltWorld& world, const Vertex& vertex) const {
+  const auto& groups = world.geometry.groups();
+  const ActiveMedia media = vertex.media().active(groups, world.media);
+  const Bounds3 box = vertex.media().bounds(groups);
+  const Vec3 p = vertex.p();
+  float rest = rest_;
+  if (near_power_ > 0) {
+    const float half = 0.5f * length(near_.extent());
+    rest += near_power_ / (4 * kPi * std::max(length_squared(p - near_.center()), half * half));
+  }
+  const float g = vertex.medium()->phase.mean_cosine(), deepest = kTurns / std::max(1 - g, 0.05f);
+  Aureole aureole({g, albedo_of(media)}, rest);
+  for (const FarCone& sun : suns_) {
+    const Ray ray{p, sun.directions.axis};
+    if (!world.geometry.trace_shadow(ray, 0, kInfinity)) continue;
+    const float depth = nearby_optical_depth({media.data(), media.size()}, ray, exit_distance(box, ray), deepest);
+    aureole.add({ray.d, sun.fluence, std::min(length(sun.mean), 1.0f), depth});
+  }
+  return aureole.shows() ? std::optional(aureole) : std::nullopt;
+}
+
+}  // namespace tyndall
