@@ -20,8 +20,8 @@
 
 namespace tyndall {
 
-/// Served from a thread of its own, which reads what is shown here and nothing else: no file, no scene. Pictures are made
-/// while somebody looks, which costs the render an image every other second.
+/// Served from a thread of its own, which reads what is shown here and nothing else: no file, no scene. While
+/// somebody looks, pictures are wanted every other second.
 ///
 ///   GET /                        the page
 ///   GET /state[/VIEWER/VERSION]  where the render stands, as JSON; VERSION: of the state that the viewer shows
