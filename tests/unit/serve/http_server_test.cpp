@@ -132,17 +132,29 @@ TEST_CASE("server: who trickles is hung up on, however steadily") {
   CHECK(sent < 10000);
 }
 
-TEST_CASE("server: what is large goes to a few at once, and to nobody who does not take it") {
-  Echo echo({.request_seconds = 1, .large_answers = 2});
+TEST_CASE("server: what is large goes to a few at once") {
+  Echo echo({.large_answers = 2});
   std::deque<HttpClient> asleep;
   for (int i = 0; i < 2; ++i) CHECK(asleep.emplace_back(echo.port()).send(request_for("/large")));
   while (echo.asked() < 2) std::this_thread::yield();
   CHECK(test::status_of(test::ask(echo.port(), "GET", "/large")) == 503);
   CHECK(test::status_of(test::ask(echo.port(), "GET", "/small")) == 200);
+  asleep.pop_front();
   std::string answer;
-  do answer = test::ask(echo.port(), "GET", "/large");  // until the sleepers are hung up on
+  do answer = test::ask(echo.port(), "GET", "/large");
   while (test::status_of(answer) == 503);
   CHECK(test::body_of(answer).size() == (32 << 20) + 1);
+}
+
+TEST_CASE("server: who does not take an answer is hung up on") {
+  Echo echo({.idle_seconds = 3600, .request_seconds = 0.5, .large_answers = 1});
+  HttpClient asleep(echo.port());
+  CHECK(asleep.send(request_for("/large")));
+  while (echo.asked() < 1) std::this_thread::yield();
+  std::string answer;
+  do answer = test::ask(echo.port(), "GET", "/large");
+  while (test::status_of(answer) != 200);
+  CHECK(asleep.read_all().size() < 32 << 20);
 }
 
 TEST_CASE("server: an answer that cannot be made costs its connection, not the server") {
