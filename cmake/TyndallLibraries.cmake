@@ -15,4 +15,6 @@ find_package(nlohmann_json REQUIRED)
 find_path(NANOVDB_INCLUDE_DIR nanovdb/NanoVDB.h REQUIRED)
 find_path(STB_INCLUDE_DIR stb/stb_image.h REQUIRED)
 find_library(BLOSC_LIBRARY blosc REQUIRED)  # compressed .nvdb files
-mark_as_advanced(NANOVDB_INCLUDE_DIR STB_INCLUDE_DIR BLOSC_LIBRARY)
+find_path(MICROHTTPD_INCLUDE_DIR microhttpd.h REQUIRED)
+find_library(MICROHTTPD_LIBRARY microhttpd REQUIRED)
+mark_as_advanced(NANOVDB_INCLUDE_DIR STB_INCLUDE_DIR BLOSC_LIBRARY MICROHTTPD_INCLUDE_DIR MICROHTTPD_LIBRARY)

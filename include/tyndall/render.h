@@ -136,6 +136,8 @@ class RenderJob {
   /// relMSE that the two replicates of each pixel predict: mean of variance / (mean^2 + 0.01) over pixels and
   /// channels, mean^2 without its own noise. Infinity below 2 samples.
   double estimated_relmse() const;
+  /// The same for each pixel, row by row: that of its block of 8 x 8, pooled with those around it. Empty below 2 samples.
+  std::vector<float> estimated_errors() const;
   RenderReport report() const;
   Image image() const;  ///< of at least 1 sample
 
@@ -153,12 +155,16 @@ struct RenderControl {
   const std::atomic<bool>* stop = nullptr;
   /// Called at 1, 2, 4, 8 ... samples; may be empty. The time it takes is not the render's.
   std::function<void(const RenderJob&)> checkpoint{};
+  /// Called at every pass end, which is where a picture can be had; may be empty. The time it takes is not the render's.
+  std::function<void(const RenderJob&)> pass_end{};
   /// Called at the first pass end `save_seconds` after the start or the last call, and at the end of a render that is
   /// stopped; may be empty. For RenderJob::save.
   std::function<void(const RenderJob&)> save{};
   double save_seconds = 60;
   /// Called before the first pass; may be empty. For RenderJob::restore.
   std::function<void(RenderJob&)> begin{};
+  /// Called after the last pass; may be empty.
+  std::function<void(const RenderJob&)> end{};
 };
 
 struct Rendering {

@@ -55,7 +55,8 @@ bool says_options(const Image& header, const RenderSettings& settings) {
 
 }  // namespace
 
-PictureRender::PictureRender(const RenderOptions& options, Scene& scene) : options_(options), checkpoint_(std::string()) {
+PictureRender::PictureRender(const RenderOptions& options, Scene& scene, LivePage* page)
+    : options_(options), checkpoint_(std::string()) {
   apply(options, scene);
   asked_aovs_ = scene.settings.aovs;
   if (options.denoise) denoiser_.emplace(options, scene.settings);
@@ -68,6 +69,7 @@ PictureRender::PictureRender(const RenderOptions& options, Scene& scene) : optio
   pixels_ = pixels_of(scene);
   memory_ = memory_for_render(options, scene);
   if (!options.reference.empty()) reference_ = read_reference(options.reference);
+  if (page) page_.emplace(*page, denoiser_ ? &*denoiser_ : nullptr);
   if (!options.display.empty()) viewer_ = std::make_unique<ViewerLink>(options.display, output_);
 }
 
@@ -135,6 +137,7 @@ Rendering PictureRender::render_with(const World& world, const std::function<voi
   RenderControl control{.progress = progress, .stop = &stop_requested()};
   const bool previews = denoiser_ && denoiser_->previews();
   if (errors_ || previews || viewer_) control.checkpoint = [&](const RenderJob& job) { look_at(job); };
+  if (page_) page_->join(control);
   if (options_.resume) control.begin = [&](RenderJob& job) { resume(job); };
   if (options_.keeps_checkpoints()) control.save = [&](const RenderJob& job) { checkpoint_.save(job); };
   // --resume alone: at a stop
@@ -174,6 +177,7 @@ Summary PictureRender::run(const World& world, const std::string& command_line,
                            const std::function<void(const Progress&)>& progress) {
   if (reference_) reference_->require_fit(world, settings_, {settings_.seed});
   if (reference_) errors_.emplace(std::move(*reference_), options_.error_log);
+  if (page_) page_->begin("rendering", output_);
   Rendering rendering = render_with(world, progress);
   if (settings_.slice) finish_slice(rendering, command_line);
   Summary summary;
@@ -181,8 +185,11 @@ Summary PictureRender::run(const World& world, const std::string& command_line,
   summary.render = rendering.report;
   summary.width = rendering.image.width();
   summary.height = rendering.image.height();
+  if (denoiser_ && page_) page_->begin("denoising", output_);
   if (denoiser_) summary.denoised = denoise_finished(rendering);
   if (viewer_) viewer_->show(rendering.image);
+  if (page_) page_->show(rendering);
+  if (page_) page_->begin("writing", output_);
   Timer watch;
   save(rendering);
   summary.write_seconds = watch.lap();

@@ -9,6 +9,7 @@
 #include "cli/checkpoint_file.h"
 #include "cli/denoiser.h"
 #include "cli/error_log.h"
+#include "cli/page_feed.h"
 #include "cli/render_options.h"
 #include "cli/summary.h"
 #include "cli/viewer_link.h"
@@ -19,7 +20,8 @@ namespace tyndall::cli {
 class PictureRender {
  public:
   /// Applies `options` to `scene`, and looks whether what comes out can be written. `options` must outlive this. Throws Error.
-  PictureRender(const RenderOptions& options, Scene& scene);
+  /// `page`: shows the render as it goes; null: there is none.
+  PictureRender(const RenderOptions& options, Scene& scene, LivePage* page = nullptr);
 
   const std::string& output() const { return output_; }
   /// Whether the output is this picture already, complete, of a scene with this hash_scene(). Not for slices.
@@ -55,6 +57,7 @@ class PictureRender {
   std::optional<Reference> reference_;
   std::optional<ErrorLog> errors_;
   std::unique_ptr<ViewerLink> viewer_;  ///< null: not asked for
+  std::optional<PageFeed> page_;
 };
 
 }  // namespace tyndall::cli

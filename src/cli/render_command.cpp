@@ -6,6 +6,7 @@
 #include "cli/progress_display.h"
 #include "cli/render_options.h"
 #include "cli/render_sequence.h"
+#include "cli/serve.h"
 #include "cli/stop_signal.h"
 #include "tyndall/io.h"
 #include "tyndall/timer.h"
@@ -14,15 +15,17 @@ namespace tyndall::cli {
 namespace {
 
 int run_render(const RenderOptions& options, const std::string& command_line) {
+  const std::unique_ptr<LivePage> page = serve(options);
   Timer watch;
   SceneFile file = read_scene(options.scene);
-  PictureRender picture(options, file.scene);
+  PictureRender picture(options, file.scene, page.get());
   const double read_seconds = watch.lap();
   const World world = picture.build(std::move(file.scene), nullptr);
   const double build_seconds = watch.lap();
   if (!options.quiet) log_text(notes_text(options.scene, file.warnings, world.summary()));
   if (picture.is_slice_there(world)) {
     if (!options.quiet) log("{}: this slice is there already; nothing to do\n", picture.output());
+    if (page) page->end(picture.output() + " is there already");
     return 0;
   }
 
@@ -36,7 +39,9 @@ int run_render(const RenderOptions& options, const std::string& command_line) {
   if (!options.quiet) log_text(as_text(summary));
   picture.require_log_written();
   if (options.json) print("{}\n", as_json(summary));
-  return summary.render.stopped ? stop_exit_code() : 0;
+  const int exit_code = summary.render.stopped ? stop_exit_code() : 0;
+  if (page) page->end(outcome_text(summary));
+  return exit_code;
 }
 
 }  // namespace

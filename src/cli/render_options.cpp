@@ -210,6 +210,11 @@ void declare(CLI::App& command, RenderOptions& o) {
       "--display", o.display,
       "HOST:PORT of a viewer that speaks tev's protocol: it is shown the picture at 1, 2, 4 ... samples and at the "
       "end [none]; --display 127.0.0.1:14158");
+  command
+      .add_option("--serve", o.serve,
+                  "PORT or HOST:PORT of a page that shows the render as it goes to browsers of this machine, or of those that "
+                  "reach HOST [none; without a port one that is free]; --serve 8080")
+      ->expected(0, 1);
   auto* reference = command.add_option("--reference", o.reference,
                                        "image that the error is measured against for --error-log; --reference best.exr");
   auto* log = command.add_option("--error-log", o.error_log,

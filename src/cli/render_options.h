@@ -38,6 +38,7 @@ struct RenderOptions {
   std::optional<std::uint64_t> seed;
   std::optional<bool> adaptive;
   std::string reference, error_log, aovs, slice, frames, display, progress = "auto";
+  std::optional<std::string> serve;  ///< "": where there is room
   bool reproducible = false, quiet = false, json = false, resume = false, denoise = false;
 
   bool keeps_checkpoints() const { return checkpoint || resume; }

@@ -10,6 +10,7 @@
 #include "cli/print.h"
 #include "cli/sequence_progress.h"
 #include "cli/sequence_summary.h"
+#include "cli/serve.h"
 #include "cli/stop_signal.h"
 #include "session/scene_hash.h"
 #include "tyndall/frames.h"
@@ -34,6 +35,7 @@ class Sequence {
       : options_(options),
         command_line_(command_line),
         frames_(frames_in(options.frames)),
+        page_(serve(options)),
         progress_(options.quiet ? "none" : options.progress, frames_.size()) {}
 
   int run() {
@@ -93,7 +95,8 @@ class Sequence {
     const bool whole = next_ || !outline_;
     SceneFile file = scene_of(frame);
     const RenderOptions options = options_of(frame, file.scene);
-    PictureRender picture(options, file.scene);
+    PictureRender picture(options, file.scene, page_.get());
+    if (page_) page_->begin("building", picture.output());
     if (options_.resume && picture.is_finished(hash_of(file.scene, whole))) {
       if (whole && outline_) put_back(std::move(file));
       return skip(frame, picture);
@@ -138,13 +141,15 @@ class Sequence {
     summary_.files_kept = kept_.reused();
     if (!options_.quiet) log_text(as_text(summary_));
     if (options_.json) print("{}\n", as_json(summary_));
+    if (page_) page_->end(outcome_text(summary_));
     return stopped_ || summary_.missing() > 0 ? stop_exit_code() : 0;
   }
 
   const RenderOptions& options_;
   const std::string& command_line_;
   std::vector<int> frames_;
-  std::string pattern_;  ///< of the output
+  std::unique_ptr<LivePage> page_;  ///< null: not asked for
+  std::string pattern_;             ///< of the output
   KeptFiles kept_;
   std::optional<SceneFile> next_;  ///< read, and not built yet
   std::optional<Scene> outline_;   ///< of a scene that all frames share

@@ -10,16 +10,19 @@ namespace {
 
 // Signal handlers can reach nothing but globals.
 std::atomic<bool> requested{false};
-volatile std::sig_atomic_t signal_number = 0;
-const char* volatile what_to_say = "";
+std::atomic<int> signal_number{0};
+std::atomic<const char*> what_to_say{nullptr};
+
+void say(const char* text) {
+  if (write(STDERR_FILENO, text, std::strlen(text)) < 0) return;
+}
 
 void on_signal(int signal) {
   signal_number = signal;
-  requested.store(true, std::memory_order_relaxed);
+  requested = true;
   std::signal(SIGINT, SIG_DFL);
   std::signal(SIGTERM, SIG_DFL);
-  const char* const text = what_to_say;
-  if (write(STDERR_FILENO, text, std::strlen(text)) < 0) return;
+  say(what_to_say);
 }
 
 }  // namespace
@@ -28,6 +31,14 @@ void catch_stop_signals(const char* message) {
   what_to_say = message;
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
+}
+
+void request_stop(const char* message) {
+  if (what_to_say == nullptr) std::raise(SIGINT);
+  if (requested) return;
+  signal_number = SIGINT;
+  requested = true;
+  say(message);
 }
 
 const std::atomic<bool>& stop_requested() { return requested; }

@@ -106,16 +106,18 @@ std::string text_of(const ordered_json& results, const char* key) {
 struct PageText {
   std::string title;
   std::string_view own_script;  ///< the part that lays out this kind of page
+  std::string nonce{};          ///< of its script
 };
 
 std::string page(const PageText& text, const ordered_json& results, const std::vector<PagePicture>& pictures) {
   const std::string script = joined({"dom.js", "format.js", "pictures.js", "tone.js", "view.js", "viewer.js", "viewer_wipe.js",
                                      "viewer_input.js", "viewer_controls.js", "table.js", "plot_axes.js", "plot.js", "sheet.js",
-                                     "facts.js", "theme.js", text.own_script});
+                                     "facts.js", "theme.js", "live_picture.js", text.own_script});
   return fill(part("page.html"), {{"title", escape_html(text.title)},
-                                  {"style", joined({"page.css", "viewer.css", "print.css"})},
+                                  {"style", joined({"page.css", "viewer.css", "live.css", "print.css"})},
                                   {"results", embedded_json(results)},
                                   {"pictures", embedded_pictures(pictures)},
+                                  {"nonce", text.nonce.empty() ? "" : " nonce=\"" + escape_html(text.nonce) + "\""},
                                   {"script", script}});
 }
 
@@ -127,6 +129,10 @@ std::string compare_page(const ordered_json& results, const std::vector<PagePict
 
 std::string regress_page(const ordered_json& results, const std::vector<PagePicture>& pictures) {
   return page({"Tyndall: " + text_of(results, "suite"), "regress.js"}, results, pictures);
+}
+
+std::string live_page(const ordered_json& start, const std::string& nonce) {
+  return page({"Tyndall: " + text_of(start, "title"), "live.js", nonce}, start, {});
 }
 
 }  // namespace tyndall

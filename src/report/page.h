@@ -24,4 +24,8 @@ std::string compare_page(const nlohmann::ordered_json& results, const std::vecto
 /// The page of a regression suite: failures first, the tests and the pictures of each case. Otherwise as compare_page.
 std::string regress_page(const nlohmann::ordered_json& results, const std::vector<PagePicture>& pictures);
 
+/// The page of a render that goes on, which asks its server for state and pictures. `start` holds its "title" and the "token"
+/// of requests that change something. `nonce`: of the script, for a content security policy.
+std::string live_page(const nlohmann::ordered_json& start, const std::string& nonce);
+
 }  // namespace tyndall

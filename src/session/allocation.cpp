@@ -68,11 +68,16 @@ double mean_error(std::span<const BlockNoise> blocks) {
   return error / pixels;
 }
 
-double worst_error(std::vector<BlockNoise> blocks, int across) {
+std::vector<double> errors_around(std::vector<BlockNoise> blocks, int across) {
   for (BlockNoise& b : blocks) b.error /= b.samples;
-  double worst = 0;
-  for (std::size_t i = 0; i < blocks.size(); ++i) worst = std::max(worst, pooled_error(blocks, across, static_cast<int>(i)));
-  return worst;
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < blocks.size(); ++i) errors.push_back(pooled_error(blocks, across, static_cast<int>(i)));
+  return errors;
+}
+
+double worst_error(std::vector<BlockNoise> blocks, int across) {
+  const std::vector<double> errors = errors_around(std::move(blocks), across);
+  return *std::max_element(errors.begin(), errors.end());
 }
 
 double pooled_error(std::span<const BlockNoise> blocks, int across, int at) {

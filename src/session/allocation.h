@@ -16,7 +16,9 @@ struct BlockNoise {
 
 /// Over all pixels, of the relative variance with the samples that they have.
 double mean_error(std::span<const BlockNoise> blocks);
-/// The largest of a block with those around it.
+/// The same of each block with those around it, as pooled_error() weights them.
+std::vector<double> errors_around(std::vector<BlockNoise> blocks, int across);
+/// The largest of these.
 double worst_error(std::vector<BlockNoise> blocks, int across);
 
 /// The mean over a block, number `at`, and the eight around it, weighted 4, 2 and 1 by distance, of the relative variance of

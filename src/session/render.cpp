@@ -27,12 +27,14 @@ class RenderLoop {
       given_up = !run_pass(count);
       report_progress(0);
       if (!given_up && control_.checkpoint && PassSchedule::is_checkpoint(job_.samples())) control_.checkpoint(job_);
+      if (!given_up && control_.pass_end) control_.pass_end(job_);
       if (stop_requested()) break;
       if (control_.save && since_save_.seconds() >= control_.save_seconds) save();
     }
     RenderReport report = job_.report();
     report.stopped = stop_requested() && (given_up || !schedule_.complete(job_));
     if (report.stopped && report.unrendered == 0 && control_.save) save();
+    if (control_.end) control_.end(job_);
     Image image = job_.image();
     if (report.stopped) mark_stopped(image);
     return {std::move(image), std::move(report)};

@@ -138,6 +138,16 @@ class RenderJob::Impl {
   }
 
   double estimated_relmse() const { return samples_ < 2 ? kInfinity : mean_error(block_noise()); }
+  std::vector<float> estimated_errors() const {
+    if (samples_ < 2 || !unrendered_.empty()) return {};
+    const BlockGrid grid(film_.crop());
+    const std::vector<double> of_block = errors_around(block_noise(), grid.across());
+    std::vector<float> errors;
+    for (int y = grid.crop().y0; y < grid.crop().y1; ++y) {
+      for (int x = grid.crop().x0; x < grid.crop().x1; ++x) errors.push_back(static_cast<float>(of_block[grid.index(x, y)]));
+    }
+    return errors;
+  }
   const PixelBounds& pixels() const { return film_.crop(); }
   int samples() const { return samples_; }
   double seconds() const { return seconds_; }
@@ -330,6 +340,7 @@ int RenderJob::samples() const { return impl_->samples(); }
 double RenderJob::seconds() const { return impl_->seconds(); }
 double RenderJob::preparing_seconds() const { return impl_->preparing_seconds(); }
 double RenderJob::estimated_relmse() const { return impl_->estimated_relmse(); }
+std::vector<float> RenderJob::estimated_errors() const { return impl_->estimated_errors(); }
 RenderReport RenderJob::report() const { return impl_->report(); }
 Image RenderJob::image() const { return impl_->image(); }
 

@@ -20,7 +20,8 @@ BEGIN {
   allow("report", "")  # io and session through include/tyndall
   allow("farm", "report")  # how words are quoted for a shell
   allow("example", "math")  # writes files through include/tyndall
-  allow("cli", "farm report denoise io session example")
+  allow("serve", "report")  # the page and how it has its pictures
+  allow("cli", "serve farm report denoise io session example")
 
   # A library as its include lines begin, and the files that may see it.
   door("^(openvdb|nanovdb)/", "^src/volume/vdb_")
@@ -31,13 +32,14 @@ BEGIN {
   # report: a page carries its pictures deflated, for the browser; that is no file format of io.
   door("^zlib\\.h", "^src/(io/|volume/vdb_|report/page_picture\\.cpp$)")
   door("^blosc\\.h", "^src/volume/vdb_")
-  door("^(nlohmann|fmt)/", "^src/(report|farm|cli)/")
+  door("^(nlohmann|fmt)/", "^src/(report|farm|serve|cli)/")
+  door("^microhttpd\\.h$", "^src/serve/http_server\\.cpp$")
   door("^(CLI|spdlog)/", "^src/cli/")
   # Not libraries: the compiler and the operating system.
   door("^[a-z]*intrin\\.h$", "^src/")
   door("^(elf|link)\\.h$", "^src/session/build_id\\.cpp$")
   door("^sys/platform/x86\\.h$", "^src/cli/cpu_")
-  door("^netdb\\.h$", "^src/cli/viewer_link\\.cpp$")
+  door("^netdb\\.h$", "^src/(cli/viewer_link|serve/listener)\\.cpp$")
   door("^experimental/simd$", "^src/math/simd\\.h$")
   door("^(unistd\\.h|fcntl\\.h|fnmatch\\.h|signal\\.h|sys/[a-z]*\\.h)$", "^src/")
 }

@@ -52,19 +52,25 @@ function errorColor(t) {
 
 const ERROR_TABLE = Array.from({length: 256}, (_, i) => errorColor(i / 255));
 
-/** The picture's relative squared error, mean over the channels, in false colour. */
-function errorMap(picture, reference, eps) {
-  const a = picture.halves, b = reference.halves;
+/** error(i) of each pixel in false colour. */
+function falseColors(picture, error) {
   const [low, high] = ERROR_DECADES;
   return paintedCanvas(picture, (data, pixels) => {
     for (let i = 0, o = 0; i < pixels; ++i, o += 4) {
-      let sum = 0;
-      for (let j = i; j < 3 * pixels; j += pixels) sum += relativeSquaredError(HALF_TO_FLOAT[a[j]], HALF_TO_FLOAT[b[j]], eps);
-      const t = (Math.log10(Math.max(sum / 3, 1e-30)) - low) / (high - low);
-      const color = Number.isFinite(sum) ? ERROR_TABLE[Math.round(255 * Math.min(Math.max(t, 0), 1))] : NOT_FINITE;
-      data.set(color, o);
+      const value = error(i), t = (Math.log10(Math.max(value, 1e-30)) - low) / (high - low);
+      data.set(Number.isFinite(value) ? ERROR_TABLE[Math.round(255 * Math.min(Math.max(t, 0), 1))] : NOT_FINITE, o);
       data[o + 3] = 255;
     }
+  });
+}
+
+/** The picture's relative squared error, mean over the channels, in false colour. */
+function errorMap(picture, reference, eps) {
+  const a = picture.halves, b = reference.halves, pixels = picture.width * picture.height;
+  return falseColors(picture, (i) => {
+    let sum = 0;
+    for (let j = i; j < 3 * pixels; j += pixels) sum += relativeSquaredError(HALF_TO_FLOAT[a[j]], HALF_TO_FLOAT[b[j]], eps);
+    return sum / 3;
   });
 }
 

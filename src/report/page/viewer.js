@@ -75,7 +75,9 @@ class Viewer {
   painted(picture, kind) {
     const key = kind === 'error' ? 'error' : this.stops, kept = this.cache.get(picture);
     if (kept?.key === key) return kept.canvas;
-    const canvas = kind === 'error' ? errorMap(picture, this.reference, this.eps) : toned(picture, toneTable(this.stops));
+    const canvas = kind === 'error' ? errorMap(picture, this.reference, this.eps) :
+        picture.holdsErrors         ? falseColors(picture, (i) => HALF_TO_FLOAT[picture.halves[i]]) :
+                                      toned(picture, toneTable(this.stops));
     this.cache.set(picture, {key, canvas});
     return canvas;
   }

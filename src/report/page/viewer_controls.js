@@ -26,7 +26,8 @@ function pictureTabs(viewer) {
 
 function pixelText(viewer, picture) {
   const {x, y} = viewer.pixel;
-  const color = picture.color(x, y), values = color.map((c) => (Number.isFinite(c) ? formatNumber(c) : String(c)));
+  const color = picture.color(x, y), shown = color.slice(0, picture.planes ?? 3);
+  const values = shown.map((c) => (Number.isFinite(c) ? formatNumber(c) : String(c)));
   const text = `${picture.name}  ${values.join('  ')}`;
   if (!viewer.reference?.halves || picture === viewer.reference) return text;
   const target = viewer.reference.color(x, y);
@@ -44,8 +45,9 @@ function readout(viewer) {
     if (viewer.pixel)
       for (const picture of wanted) picture.load();
     const shown = viewer.pixel ? wanted.filter((picture) => picture.halves) : [];
-    const place = viewer.pixel ? `x ${viewer.pixel.x}, y ${viewer.pixel.y}` :
-                                 'Point at a pixel to read its linear R, G, B and its relative squared error.';
+    const place = viewer.pixel ?
+        `x ${viewer.pixel.x}, y ${viewer.pixel.y}` :
+        `Point at a pixel to read its linear R, G, B${viewer.reference ? ' and its relative squared error' : ''}.`;
     out.replaceChildren(
         element('span', {class: 'place'}, place), ...shown.map((picture) => element('span', {}, pixelText(viewer, picture))));
   });
@@ -87,8 +89,9 @@ const KEY_HELP = [
   ['\\', 'reset it'], ['+ −', 'zoom (or wheel, pinch)'], ['f', 'fit'], ['arrows', 'move, or the line of the wipe']
 ];
 
-function keyHelp() {
-  return element('p', {class: 'keys'}, KEY_HELP.map(([key, does]) => element('span', {}, element('kbd', {}, key), ` ${does}`)));
+function keyHelp(viewer) {
+  const keys = KEY_HELP.filter(([key]) => viewer.reference || !['0', 'e'].includes(key));
+  return element('p', {class: 'keys'}, keys.map(([key, does]) => element('span', {}, element('kbd', {}, key), ` ${does}`)));
 }
 
 function viewerControls(viewer) {
@@ -97,9 +100,9 @@ function viewerControls(viewer) {
   const legend = errorLegend();
   viewer.listeners.push(() => {
     modes.press(viewer.mode);
-    legend.hidden = viewer.mode !== 'error';
+    legend.hidden = viewer.mode !== 'error' && !viewer.current.holdsErrors;
   });
   return element(
       'div', {class: 'controls'}, modes.group, exposureControl(viewer), zoomButtons(viewer), wipeControl(viewer), legend,
-      keyHelp());
+      keyHelp(viewer));
 }

@@ -39,6 +39,11 @@ TEST_CASE("the error of a picture is the mean over pixels, its worst part a bloc
   blocks[7] = {.error = 64 * 41, .pixels = 64, .samples = 20};
   CHECK(mean_error(blocks) == doctest::Approx((19 * 0.1 + 41.0 / 20) / 20));
   CHECK(worst_error(blocks, 5) == doctest::Approx((4 * 41.0 / 20 + 12 * 0.1) / 16));
+  const std::vector<double> around = errors_around(blocks, 5);
+  REQUIRE(around.size() == 20);
+  CHECK(around[7] == doctest::Approx(worst_error(blocks, 5)));
+  CHECK(around[6] == doctest::Approx((2 * 41.0 / 20 + 14 * 0.1) / 16));
+  CHECK(around[19] == doctest::Approx(0.1));
 }
 
 TEST_CASE("samples go as the root of error over work, and no other division has less error for its work") {

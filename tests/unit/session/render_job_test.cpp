@@ -117,6 +117,26 @@ TEST_CASE("the estimated error is what the variance channels say") {
   CHECK(job.estimated_relmse() == doctest::Approx(expected));
 }
 
+TEST_CASE("estimated errors are those of blocks, and the worst of them is the report's") {
+  const World world = world_of();
+  RenderJob job(world, settings_of(1));
+  job.advance(1);
+  CHECK(job.estimated_errors().empty());
+  job.advance(7);
+  const std::vector<float> errors = job.estimated_errors();
+  REQUIRE(errors.size() == 24 * 16);
+  CHECK(*std::max_element(errors.begin(), errors.end()) == doctest::Approx(job.report().worst_relmse));
+  const auto block_at = [&](int x, int y) { return errors[static_cast<std::size_t>(y * 24 + x)]; };
+  bool differ = false;
+  for (int y = 0; y < 16; ++y) {
+    for (int x = 0; x < 24; ++x) {
+      CHECK(block_at(x, y) == block_at(x / 8 * 8, y / 8 * 8));
+      differ = differ || block_at(x, y) != block_at(0, 0);
+    }
+  }
+  CHECK(differ);
+}
+
 TEST_CASE("an error goal ends a uniform render at a power of two from 64 on, at the first that is good enough") {
   const World world = world_of();
   RenderJob job(world, settings_of(1));
@@ -148,6 +168,24 @@ TEST_CASE("checkpoints come at every power of two, and change nothing") {
       render(world, settings_of(21), {.checkpoint = [&](const RenderJob& j) { seen.push_back(j.samples()); }});
   CHECK(seen == std::vector<int>{1, 2, 4, 8, 16});
   CHECK(same_pixels(with.image, render(world, settings_of(21)).image));
+}
+
+TEST_CASE("every pass end is told of, then the end, and it changes nothing") {
+  const World world = world_of();
+  std::vector<int> seen;
+  int at_end = 0;
+  RenderControl control;
+  control.pass_end = [&](const RenderJob& job) { seen.push_back(job.samples()); };
+  control.end = [&](const RenderJob& job) {
+    CHECK(at_end == 0);
+    at_end = job.samples();
+  };
+  const Rendering looked_at = render(world, settings_of(20), control);
+  REQUIRE(seen.size() > 1);
+  CHECK(std::is_sorted(seen.begin(), seen.end()));
+  CHECK(seen.back() == 20);
+  CHECK(at_end == 20);
+  CHECK(same_pixels(looked_at.image, render(world, settings_of(20)).image));
 }
 
 TEST_CASE("one world serves several light strategies, and refuses those it was not built for") {
