@@ -174,8 +174,12 @@ TEST_CASE("light and opacity of smoke come from the depth where they arise") {
   const std::string scene = view({.eye = {0, 0, -4}, .look = {}, .resolution = 8, .max_depth = 1}) +
                             distant_light({0, -1, 0}, static_cast<float>(E)) + homogeneous("m", smoke) +
                             medium_box("m", "", kBox);
-  for (const Variant& variant :
-       {Variant{}, Variant{.media = MediaStrategy::vertex}, Variant{.distance = DistanceStrategy::tracking}}) {
+  const std::vector<Variant> variants{{},
+                                      {.media = MediaStrategy::vertex},
+                                      {.media = MediaStrategy::integral},  // by pairs alone
+                                      {.distance = DistanceStrategy::equiangular},
+                                      {.distance = DistanceStrategy::tracking}};
+  for (const Variant& variant : variants) {
     const Rendering rendering = Shot(scene, variant).render(fewer(4000), kBins);
     const ByBin found = by_bin(*rendering.deep, 3, 5, kBins);
     const auto passed = [&](double s) { return (1 - std::exp(-sigma_t * s)); };
@@ -212,9 +216,9 @@ TEST_CASE("emission comes from the depth where it is emitted, of even media and 
 TEST_CASE("what pixels share comes from the depths where it does without sharing") {
   constexpr int kBins = 4;
   const int renders = fewer(24);
-  const Coefficients smoke{.sigma_a = Rgb(0.1f), .sigma_s = Rgb(1.5f), .g = 0.2f};
-  const std::string scene = view({.eye = {0, 0, -4}, .look = {}, .fov_degrees = 8, .resolution = 16, .max_depth = 5}) +
-                            point_light({0, 1.6f, 0}, 4) + diffuse_plane(0.9f, 5, 0.8f) + homogeneous("m", smoke) +
+  const Coefficients smoke{.sigma_a = Rgb(0.05f), .sigma_s = Rgb(0.9f), .g = 0.2f};
+  const std::string scene = view({.eye = {0, 0, -4}, .look = {}, .fov_degrees = 1, .resolution = 16, .max_depth = 5}) +
+                            point_light({0, 1.1f, -0.9f}, 4) + diffuse_plane(0.9f, 5, 0.8f) + homogeneous("m", smoke) +
                             medium_box("m", "", kBox);
   const Shot shared(scene, {.reuse = ReuseStrategy::pixels}), alone(scene, {});
   std::array<std::vector<Moments>, 2> light;
