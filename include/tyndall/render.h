@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "tyndall/deep_image.h"
 #include "tyndall/image.h"
 #include "tyndall/scene.h"
 #include "tyndall/settings.h"
@@ -140,6 +141,8 @@ class RenderJob {
   std::vector<float> estimated_errors() const;
   RenderReport report() const;
   Image image() const;  ///< of at least 1 sample
+  /// The same in depth, where RenderSettings::deep_bins asks for it; flatten() gives R G B A of image(), to rounding.
+  std::optional<DeepImage> deep_image() const;
 
  private:
   class Impl;
@@ -170,6 +173,7 @@ struct RenderControl {
 struct Rendering {
   Image image;
   RenderReport report;
+  std::optional<DeepImage> deep{};  ///< as RenderJob::deep_image
 };
 
 /// Render `world`. What a scene file asks for is in its Scene::settings: pass these, changed as you like; the light

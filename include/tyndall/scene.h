@@ -254,6 +254,7 @@ struct Shape {
   std::optional<BoundaryId> boundary{};  ///< set when the media on the two sides differ
   std::optional<TextureId> alpha{};      ///< opacity, [0,1]
   Location where{};
+  std::string name{};  ///< of the object that it is of, for mattes (cryptomatte.h); empty: it goes by its Object, or its place
 };
 struct Object {
   std::string name;

@@ -46,6 +46,9 @@ enum class ReuseStrategy { automatic, off, pixels };
 /// Estimator of transmittance along shadow rays.
 enum class TransmittanceStrategy { residual, ratio, delta, raymarch };
 
+/// Of RenderSettings::deep_bins.
+inline constexpr int kMostDeepBins = 256;
+
 struct RenderSettings {
   int spp = 64;                  ///< samples a pixel, >= 1
   std::optional<double> time{};  ///< seconds; stops at the first pass end after it, if spp have not been reached before
@@ -78,6 +81,9 @@ struct RenderSettings {
   ReuseStrategy reuse = ReuseStrategy::automatic;
   TransmittanceStrategy transmittance = TransmittanceStrategy::raymarch;
   std::vector<std::string> aovs{};  ///< names from aov_names()
+  /// A deep image is made beside the flat one (deep_image.h), with so many bins in depth through the media, 1 to 256. A of the
+  /// flat one is then what was marched, as in the deep one. Unset: none is made.
+  std::optional<int> deep_bins{};
   std::optional<PixelBounds> crop{};
   /// Of the samples only these, to be merged with the other slices. `spp` are those of all slices; `time` is that of each.
   std::optional<SliceChoice> slice{};

@@ -12,6 +12,7 @@
 namespace tyndall {
 
 class World;
+struct DeepImage;
 struct RenderSettings;
 
 /// Samples [first, first + count) of every pixel.
@@ -78,6 +79,8 @@ class SliceSum {
   /// Channels and windows as a render of all these samples would have given, bit for bit. Attributes are the caller's.
   /// `with_variance`: Variance and SampleCount are there whether they were asked for or not.
   Image image(bool with_variance) const;
+  /// Where the slices have what it takes (RenderSettings::deep_bins); without attributes.
+  std::optional<DeepImage> deep_image() const;
 
  private:
   class Impl;

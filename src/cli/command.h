@@ -15,6 +15,8 @@ void add_render(CLI::App& app, int& exit_code, const std::string& command_line);
 void add_compare(CLI::App& app, int& exit_code, const std::string& command_line);
 void add_denoise(CLI::App& app, int& exit_code);
 void add_relight(CLI::App& app, int& exit_code);
+void add_matte(CLI::App& app, int& exit_code);
+void add_flatten(CLI::App& app, int& exit_code);
 void add_status(CLI::App& app, int& exit_code);
 void add_farm(CLI::App& app, int& exit_code);
 void add_example(CLI::App& app, int& exit_code);

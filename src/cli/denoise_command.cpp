@@ -44,7 +44,9 @@ int run_denoise(const DenoiseOptions& o) {
   check_options(o);
   const ImageFormat format = image_format(o.format, o.output);
   limit_image_threads(o.settings.threads);
-  const Denoised denoised = denoise(read_image(o.image), o.settings, o.image);
+  const Image image = read_image(o.image);
+  require_fit(format, image, o.image);
+  const Denoised denoised = denoise(image, o.settings, o.image);
   save_image(denoised.image, o.output, format);
   if (!o.quiet) {
     for (const std::string& missing : denoised.report.missing) log("{}: has no {}\n", o.image, missing);

@@ -5,6 +5,7 @@
 
 #include "cli/log.h"
 #include "cli/save.h"
+#include "tyndall/cryptomatte.h"
 #include "tyndall/error.h"
 #include "tyndall/io.h"
 
@@ -19,6 +20,7 @@ const std::string kReplicate = "Replicate.";
 /// "Albedo.R" is of Albedo, "SurfaceCount" of Z and P.
 bool is_of(const std::string& channel, const std::string& aov) {
   if (channel == aov || channel.starts_with(aov + ".")) return true;
+  if (is_matte_channel(channel) && channel.starts_with(aov)) return true;
   return (channel == "SurfaceCount" && (aov == "Z" || aov == "P")) || (channel == "VolumeCount" && aov == "Zvol");
 }
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "cli/validators.h"
+#include "tyndall/cryptomatte.h"
 #include "tyndall/error.h"
 #include "tyndall/io.h"
 
@@ -70,6 +71,13 @@ ImageFormat image_format(const ImageOptions& o, const std::string& path) {
   format.png = {.exposure = static_cast<float>(o.exposure.value_or(0)),
                 .view = chosen(o.view, view_names(), DisplayView::srgb)};
   return format;
+}
+
+void require_fit(const ImageFormat& format, const Image& image, const std::string& path) {
+  const bool lossy = format.exr.compression == ExrCompression::dwaa || format.exr.compression == ExrCompression::dwab;
+  const auto& channels = image.channels;
+  if (lossy && std::any_of(channels.begin(), channels.end(), [](const Channel& c) { return is_matte_channel(c.name); }))
+    throw Error(Failure::usage, path + ": has mattes, ids that lossy --compression would change; leave it out");
 }
 
 void require_image_name(const std::string& path, const std::string& option) {

@@ -34,6 +34,8 @@ int run(int argc, char** argv) {
   tyndall::cli::add_merge(app, exit_code);
   tyndall::cli::add_denoise(app, exit_code);
   tyndall::cli::add_relight(app, exit_code);
+  tyndall::cli::add_matte(app, exit_code);
+  tyndall::cli::add_flatten(app, exit_code);
   tyndall::cli::add_status(app, exit_code);
   tyndall::cli::add_farm(app, exit_code);
   tyndall::cli::add_compare(app, exit_code, command_line(argc, argv));

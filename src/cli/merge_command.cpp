@@ -11,6 +11,7 @@
 #include "cli/merge_inputs.h"
 #include "cli/merge_report.h"
 #include "cli/output_paths.h"
+#include "cli/render_options.h"
 #include "cli/save.h"
 #include "cli/stop_signal.h"
 #include "cli/validators.h"
@@ -24,7 +25,7 @@ namespace {
 
 struct MergeOptions {
   std::vector<std::string> slices;
-  std::string output, frames;
+  std::string output, deep, frames;
   MergeSettings settings;
   std::optional<double> error, watch;
   bool quiet = false;
@@ -48,7 +49,10 @@ void report(const Merged& merged, const MergeOptions& options) {
 
 Merged merge_once(const MergeOptions& options, const std::vector<std::string>& files) {
   Merged merged = merge_slices(files, options.settings);
+  if (!options.deep.empty() && !merged.deep)
+    throw Error(Failure::usage, "--deep is for slices that were rendered with --deep, all of one render; leave it out");
   save_image(merged.image, options.output);
+  if (!options.deep.empty()) save_deep_image(*merged.deep, options.deep);
   report(merged, options);
   return merged;
 }
@@ -82,6 +86,10 @@ int merge_one(const MergeOptions& options) {
     throw Error(Failure::usage, "output " + options.output + " is not understood; give a name that ends in .exr");
   }
   check_writable(options.output);
+  if (!options.deep.empty()) {
+    require_deep_name(options.deep, options.output);
+    check_writable(options.deep, "--deep");
+  }
   if (options.watch) return merge_again_and_again(options);
   const bool complete = merge_once(options, merge_inputs(options.slices, options.output).paths).complete();
   return complete ? 0 : static_cast<int>(Failure::incomplete);
@@ -92,11 +100,13 @@ int run_merge(const MergeOptions& options) {
   if (options.frames.empty()) return merge_one(options);
   if (options.watch) throw Error(Failure::usage, "--watch is for one picture; leave it or --frames out");
   require_frame_place(options.output, "-o");
+  if (!options.deep.empty()) require_frame_place(options.deep, "--deep");
   int exit_code = 0;
   for (const int frame : frames_in(options.frames)) {
     MergeOptions one = options;
     for (std::string& name : one.slices) name = with_frame(name, frame);
     one.output = with_frame(options.output, frame);
+    one.deep = with_frame(options.deep, frame);
     const int code = merge_one(one);
     if (exit_code == 0) exit_code = code;
   }
@@ -119,6 +129,9 @@ void add_merge(CLI::App& app, int& exit_code) {
   command->add_option("slices", options->slices, "images that tyndall render or merge wrote, .exr, and folders of them")
       ->required();
   command->add_option("-o,--output", options->output, "image to write, .exr; -o whole.exr")->required();
+  command->add_option(
+      "--deep", options->deep,
+      "deep image to write as well, .exr, of slices that were rendered with --deep [none]; --deep whole.deep.exr");
   declare_frames(*command, options->frames);
   command->add_flag("--fill-black", options->settings.fill_black,
                     "pixels that no slice holds become black, with SampleCount 0, instead of an error");

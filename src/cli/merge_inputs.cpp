@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "tyndall/deep_image.h"
 #include "tyndall/error.h"
 
 namespace tyndall::cli {
@@ -16,7 +17,8 @@ std::vector<std::string> images_in(const std::string& folder, const std::string&
   for (fs::directory_iterator file(folder, problem), end; !problem && file != end; file.increment(problem)) {
     const fs::path& path = file->path();
     const bool hidden = path.filename().string().starts_with(".");  // being written
-    if (path.extension() == ".exr" && !hidden && !fs::equivalent(path, output, ignored)) images.push_back(path.string());
+    if (path.extension() != ".exr" || hidden || fs::equivalent(path, output, ignored)) continue;
+    if (!is_deep_exr(path.string())) images.push_back(path.string());
   }
   if (problem) throw Error(Failure::scene, folder + ": cannot be read: " + problem.message());
   std::sort(images.begin(), images.end());

@@ -13,6 +13,7 @@
 #include "cli/stop_signal.h"
 #include "session/image_header.h"
 #include "session/scene_hash.h"
+#include "tyndall/cryptomatte.h"
 #include "tyndall/io.h"
 #include "tyndall/slice.h"
 #include "tyndall/timer.h"
@@ -27,6 +28,7 @@ void check_outputs(const RenderOptions& options, const Scene& scene, const std::
   check_writable(output);
   require_room(output, scene, options.keeps_checkpoints());
   if (!options.error_log.empty()) check_writable(options.error_log);
+  if (!options.deep.empty()) check_writable(options.deep, "--deep");
 }
 
 /// What the denoiser takes is not the render's.
@@ -76,7 +78,8 @@ PictureRender::PictureRender(const RenderOptions& options, Scene& scene, LivePag
 bool PictureRender::holds_all_channels(const Image& header) const {
   const auto holds = [&](const std::string& name) {
     return std::any_of(header.channels.begin(), header.channels.end(),
-                       [&](const Channel& c) { return c.name == name || c.name.starts_with(name + "."); });
+                       [&](const Channel& c) { return c.name == name || c.name.starts_with(name + "."); }) ||
+           has_mattes(header, name);
   };
   return std::all_of(asked_aovs_.begin(), asked_aovs_.end(), holds) && (!options_.denoise || holds("noisy"));
 }
@@ -84,6 +87,7 @@ bool PictureRender::holds_all_channels(const Image& header) const {
 bool PictureRender::is_finished(std::uint64_t scene_hash) const {
   std::error_code absent;
   if (settings_.slice || !fs::exists(output_, absent) || fs::exists(checkpoint_.path(), absent)) return false;
+  if (!options_.deep.empty() && !fs::exists(options_.deep, absent)) return false;
   try {
     const Image header = read_exr_header(output_);
     const bool open_end = settings_.time || settings_.error;  // it ended where these say
@@ -111,6 +115,7 @@ World PictureRender::build(Scene scene, KeptFiles* kept) const {
 bool PictureRender::is_slice_there(const World& world) const {
   std::error_code absent;
   if (!options_.resume || !settings_.slice || !fs::exists(output_, absent)) return false;
+  if (!options_.deep.empty() && !fs::exists(options_.deep, absent)) return false;
   try {
     return holds_slice(read_image(output_), world, settings_);
   } catch (const Error&) {
@@ -166,6 +171,7 @@ void PictureRender::save(const Rendering& rendering) const {
   std::function<void()> remove_checkpoint;
   if (options_.keeps_checkpoints() && !rendering.report.stopped) remove_checkpoint = [&] { checkpoint_.remove(); };
   save_image(rendering.image, output_, image_format(options_.image, output_), remove_checkpoint);
+  if (rendering.deep) save_deep_image(*rendering.deep, options_.deep);
   if (remove_checkpoint) remove_checkpoint();
 }
 

@@ -15,8 +15,8 @@
 #include "report/page.h"
 #include "report/regress.h"
 #include "report/regress_results.h"
-#include "report/utf8.h"
 #include "tyndall/io.h"
+#include "tyndall/utf8.h"
 
 namespace tyndall::cli {
 namespace {

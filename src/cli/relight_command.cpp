@@ -36,7 +36,9 @@ int run_relight(const RelightOptions& o) {
   const ImageFormat format = image_format(o.format, o.output);
   std::vector<GroupFactor> factors;
   for (const std::string& text : o.factors) factors.push_back(parse_group_factor(text));
-  const Relit relit = relight(read_image(o.image), factors, o.image);
+  Image image = read_image(o.image);
+  require_fit(format, image, o.image);
+  const Relit relit = relight(std::move(image), factors, o.image);
   save_image(relit.image, o.output, format);
   if (o.quiet) return 0;
   for (const std::string& channel : relit.left_out)

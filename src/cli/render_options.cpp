@@ -7,11 +7,14 @@
 
 #include "cli/frame_list.h"
 #include "cli/validators.h"
+#include "tyndall/cryptomatte.h"
 #include "tyndall/denoise.h"
 #include "tyndall/io.h"
 
 namespace tyndall::cli {
 namespace {
+
+constexpr int kUsualDeepBins = 16;
 
 std::string join(const std::vector<std::string_view>& names, const char* separator) {
   std::string text;
@@ -40,7 +43,7 @@ std::vector<int> integers(const std::string& text, char separator) {
   return values;
 }
 
-/// AOVs by name; "Denoise" is all that the denoiser takes.
+/// AOVs by name; "Denoise" is all that the denoiser takes, "Cryptomatte" all mattes.
 std::vector<std::string> aovs_in(const std::string& list) {
   std::vector<std::string> names;
   std::istringstream stream(list);
@@ -48,6 +51,8 @@ std::vector<std::string> aovs_in(const std::string& list) {
     if (name == "Denoise") {
       const auto all = denoise_aovs();
       names.insert(names.end(), all.begin(), all.end());
+    } else if (name == "Cryptomatte") {
+      names.insert(names.end(), kMatteLayers.begin(), kMatteLayers.end());
     } else if (!name.empty()) {
       names.push_back(name);
     }
@@ -167,7 +172,7 @@ void declare_task(CLI::App& command, RenderOptions& o) {
   declare(command, o.methods);
   command.add_option("--aov", o.aovs,
                      "extra channels, comma-separated: " + join(aov_names(), ", ") +
-                         "; Denoise: all that tyndall denoise takes [none]; --aov Albedo,N");
+                         "; Denoise: all that tyndall denoise takes; Cryptomatte: all mattes [none]; --aov Albedo,N");
   command
       .add_option_function<std::string>("--light-group",
                                         [](const std::string&) {
@@ -198,6 +203,14 @@ void declare(CLI::App& command, RenderOptions& o) {
       "--slice", o.slice,
       "only the I-th of N slices of the samples, of which --spp is the number of all; tyndall merge adds them up to the "
       "same image, bit for bit [all samples]; --slice 3/16");
+  auto* deep = command.add_option("--deep", o.deep,
+                                  "deep image to write as well, .exr: light and opacity by depth, for compositing in smoke "
+                                  "[none]; --deep plume.deep.exr");
+  command
+      .add_option("--deep-bins", o.deep_bins,
+                  "of equal depth through the media, in which the deep image tells their light apart [16]; --deep-bins 64")
+      ->check(CLI::Range(1, kMostDeepBins))
+      ->needs(deep);
   auto* denoise = command.add_flag("--denoise", o.denoise,
                                    "take the noise away at the end; the picture as rendered is kept in noisy.R .G .B");
   command
@@ -264,6 +277,7 @@ void apply(const RenderOptions& o, Scene& scene) {
   if (o.seed) s.seed = *o.seed;
   s.reproducible = s.reproducible || o.reproducible;
   set_slice(o, s);
+  if (!o.deep.empty()) s.deep_bins = o.deep_bins.value_or(kUsualDeepBins);
   apply(o.methods, s);
   apply(o.picture, scene);
   if (!o.aovs.empty()) s.aovs = aovs_in(o.aovs);
@@ -285,7 +299,23 @@ void require_exact(const ImageOptions& image, const std::string& path) {
     throw Error(Failure::usage, "--slice keeps exact sums, in one part; leave --half, --parts and lossy --compression out");
 }
 
+/// Ids are names, of which every bit counts.
+void require_exact_mattes(const ImageOptions& image, const std::string& path, const std::vector<std::string>& aovs) {
+  const bool mattes = std::any_of(aovs.begin(), aovs.end(), [](const std::string& aov) {
+    return std::find(kMatteLayers.begin(), kMatteLayers.end(), aov) != kMatteLayers.end();
+  });
+  const ExrCompression packing = image_format(image, path).exr.compression;
+  if (mattes && (packing == ExrCompression::dwaa || packing == ExrCompression::dwab))
+    throw Error(Failure::usage, "mattes are ids, which lossy --compression would change; leave it, or Crypto of --aov, out");
+}
+
 }  // namespace
+
+void require_deep_name(const std::string& deep, const std::string& output) {
+  if (std::filesystem::path(deep).extension() != ".exr") bad("--deep", deep, "a name that ends in .exr");
+  if (std::filesystem::path(deep).lexically_normal() == std::filesystem::path(output).lexically_normal())
+    throw Error(Failure::usage, "--deep " + deep + " is the flat image's name too; give another");
+}
 
 std::string output_path(const RenderOptions& options, const Scene& scene) {
   namespace fs = std::filesystem;
@@ -300,6 +330,8 @@ std::string output_path(const RenderOptions& options, const Scene& scene) {
   require_image_name(path, "output");
   image_format(options.image, path);  // throws for what does not fit
   if (scene.settings.slice) require_exact(options.image, path);
+  require_exact_mattes(options.image, path, scene.settings.aovs);
+  if (!options.deep.empty()) require_deep_name(options.deep, path);
   return path;
 }
 

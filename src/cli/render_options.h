@@ -33,11 +33,11 @@ struct RenderOptions {
   MethodOptions methods;
   PictureOptions picture;
   ImageOptions image;
-  std::optional<int> spp, threads;
+  std::optional<int> spp, threads, deep_bins;
   std::optional<double> time, error, checkpoint, max_memory, preview_every;
   std::optional<std::uint64_t> seed;
   std::optional<bool> adaptive;
-  std::string reference, error_log, aovs, slice, frames, display, progress = "auto";
+  std::string reference, error_log, aovs, slice, frames, display, deep, progress = "auto";
   std::optional<std::string> serve;  ///< "": where there is room
   bool reproducible = false, quiet = false, json = false, resume = false, denoise = false;
 
@@ -60,5 +60,7 @@ void apply(const RenderOptions& options, Scene& scene);
 /// Where the image goes: --output, else what the scene's Film names, else the scene's name with .exr, in the
 /// current folder. Throws Error (usage) for an ending that no image is written with, and for image options that do not fit.
 std::string output_path(const RenderOptions& options, const Scene& scene);
+/// Throws Error (usage) for a name of the deep image that none can have beside `output`.
+void require_deep_name(const std::string& deep, const std::string& output);
 
 }  // namespace tyndall::cli

@@ -64,6 +64,7 @@ class Sequence {
     pattern_ = output_path(options_, scene);
     require_frame_place(pattern_, "-o");
     if (!options_.error_log.empty()) require_frame_place(options_.error_log, "--error-log");
+    if (!options_.deep.empty()) require_frame_place(options_.deep, "--deep");
   }
 
   /// Noise is another one in each frame: that of one seed would stand still before what moves.
@@ -72,6 +73,7 @@ class Sequence {
     options.output = with_frame(pattern_, frame);
     options.reference = with_frame(options_.reference, frame);
     options.error_log = with_frame(options_.error_log, frame);
+    options.deep = with_frame(options_.deep, frame);
     if (!options_.seed) options.seed = scene.settings.seed + static_cast<std::uint64_t>(frame);
     return options;
   }

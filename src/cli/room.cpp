@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "cli/checkpoint_file.h"
+#include "tyndall/cryptomatte.h"
 #include "tyndall/error.h"
 #include "tyndall/io.h"
 
@@ -17,8 +18,15 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kHeader = 1 << 16;
 
-/// R G B A, and at most as many for each AOV.
-std::uint64_t channels_of(const Scene& scene) { return 4 + 4 * scene.settings.aovs.size(); }
+/// R G B A, and at most as many for each AOV, but for mattes.
+std::uint64_t channels_of(const Scene& scene) {
+  std::uint64_t channels = 4;
+  for (const std::string& aov : scene.settings.aovs) {
+    const bool matte = std::find(kMatteLayers.begin(), kMatteLayers.end(), aov) != kMatteLayers.end();
+    channels += matte ? 2 * kMatteRanks : 4;
+  }
+  return channels;
+}
 
 std::uint64_t largest_image(const Scene& scene, const std::string& path) {
   if (fs::path(path).extension() == ".png") return 3 * pixels_of(scene) + kHeader;

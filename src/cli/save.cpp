@@ -92,6 +92,10 @@ void save_image(const Image& image, const std::string& path, const ImageFormat& 
       "image", path, [&](const std::string& to) { write_image(image, to, format); }, make_room);
 }
 
+void save_deep_image(const DeepImage& image, const std::string& path) {
+  save("deep image", path, [&](const std::string& to) { write_deep_exr(image, to); }, {});
+}
+
 void save_report(const std::string& folder, const std::function<void(const std::string& folder)>& write) {
   fs::path name = folder;
   if (!name.has_filename()) name = name.parent_path();  // "report/"

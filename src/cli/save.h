@@ -4,6 +4,7 @@
 #include <functional>
 #include <string>
 
+#include "tyndall/deep_image.h"
 #include "tyndall/image.h"
 #include "tyndall/image_format.h"
 
@@ -15,6 +16,9 @@ namespace tyndall::cli {
 /// is.
 void save_image(const Image& image, const std::string& path, const ImageFormat& format = {},
                 const std::function<void()>& make_room = {});
+
+/// The same for a deep image, without `make_room`.
+void save_deep_image(const DeepImage& image, const std::string& path);
 
 /// The same for a report: `write` puts it into the folder that it is given, which it makes, and throws Error when it cannot.
 void save_report(const std::string& folder, const std::function<void(const std::string& folder)>& write);

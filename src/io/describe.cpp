@@ -7,6 +7,7 @@
 #include "io/exr.h"
 #include "io/file_text.h"
 #include "io/image_decode.h"
+#include "tyndall/deep_image.h"
 #include "tyndall/io.h"
 #include "tyndall/volume_io.h"
 
@@ -79,9 +80,24 @@ Description describe_picture(const std::string& path) {
   return result;
 }
 
+/// The channels are of what its samples make together.
+Description describe_deep(const std::string& path) {
+  Description result{path, "deep OpenEXR image", {}};
+  const DeepImage image = read_deep_exr(path);
+  const auto most = std::max_element(image.counts.begin(), image.counts.end());
+  result.properties.push_back({"image", "deep samples", std::to_string(image.samples.size())});
+  result.properties.push_back({"image", "in a pixel", "at most " + std::to_string(*most)});
+  std::vector<float> depths;
+  for (const DeepPixelSample& sample : image.samples) depths.push_back(sample.z);
+  result.properties.push_back({"image", "depth", statistics_text(depths)});
+  add_image(flatten(image), {}, result);
+  return result;
+}
+
 Description describe_image(const std::string& path) {
   Description result{path, "image", {}};
   if (!std::filesystem::is_regular_file(path) || !is_exr(path)) return describe_picture(path);
+  if (is_deep_exr(path)) return describe_deep(path);
   const ExrFile file = read_exr(path);
   result.kind = "OpenEXR image";
   result.properties.push_back({"image", "compression", file.compression});

@@ -88,6 +88,23 @@ void require_plausible(const std::string& path, const std::vector<const Imf::Hea
   }
 }
 
+void require_plausible_deep(const std::string& path, const Imf::Header& header) {
+  const Declared d = declared_by(path, header);
+  if (d.width > kMaxExrSide || d.height > kMaxExrSide || d.pixels() > kMaxBytes / sizeof(std::uint32_t))
+    fail_exr(path, "declares " + size_text(d) + ", more than are read");
+  if (std::filesystem::file_size(path) < sizeof(std::uint32_t) * d.pixels() / kMaxRatio)
+    fail_exr(path, "is damaged: it is too short for the " + size_text(d) + " it declares");
+}
+
+void require_plausible_samples(const std::string& path, std::uint64_t samples, const Imf::Header& header) {
+  const Declared d = declared_by(path, header);
+  if (samples > kMaxBytes / (sizeof(float) * d.channels))
+    fail_exr(path, "declares " + std::to_string(samples) + " deep samples, more than the " + std::to_string(kMaxBytes >> 30) +
+                       " GiB that are read");
+  if (std::filesystem::file_size(path) < d.stored * samples / kMaxRatio)
+    fail_exr(path, "is damaged: it is too short for the " + std::to_string(samples) + " deep samples it declares");
+}
+
 void read_attributes(const Imf::Header& header, Image& image) {
   const auto built_in = [](const std::string& name) {
     return name == "pixelAspectRatio" || name == "screenWindowWidth" || name == "type" || name == "name" || name == "version" ||

@@ -4,6 +4,7 @@
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfPixelType.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,10 @@ PixelBounds to_bounds(const Imath::Box2i& box);
 /// Sizes that the headers of the parts declare against limits and against the file's own size, before any pixel memory is
 /// asked for. Throws Error (scene).
 void require_plausible(const std::string& path, const std::vector<const Imf::Header*>& parts);
+
+/// The same of a deep file, before its samples are counted, and after.
+void require_plausible_deep(const std::string& path, const Imf::Header& header);
+void require_plausible_samples(const std::string& path, std::uint64_t samples, const Imf::Header& header);
 
 /// Attributes and chromaticities, without those that OpenEXR itself needs.
 void read_attributes(const Imf::Header& header, Image& image);

@@ -20,7 +20,7 @@ bool is_multi_part(const std::string& path) {
   if (!std::filesystem::exists(path, none)) fail_exr(path, "file not found");
   bool tiled = false, deep = false, multi_part = false;
   if (!Imf::isOpenExrFile(path.c_str(), tiled, deep, multi_part)) fail_exr(path, "is not an OpenEXR file");
-  if (deep) fail_exr(path, "holds deep pixels, which are not read; flatten it");
+  if (deep) fail_exr(path, "holds deep pixels, which are not read; flatten it by tyndall flatten");
   return multi_part;
 }
 

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "tyndall/cryptomatte.h"
+
 namespace tyndall {
 namespace {
 
@@ -28,6 +30,7 @@ float rounded_to_half(float value) {
 bool is_half_channel(const std::string& name) {
   for (const char* statistic : {"Variance.", "Mse.", "Dof.", "Replicate.", "Sum."})
     if (name.starts_with(statistic)) return false;
+  if (is_matte_channel(name)) return false;                   // ids
   const std::string last = name.substr(name.rfind('.') + 1);  // npos + 1 = 0
   return last == "R" || last == "G" || last == "B" || last == "A";
 }

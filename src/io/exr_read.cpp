@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "io/exr.h"
+#include "io/exr_guard.h"
 #include "io/exr_header.h"
 #include "io/exr_input.h"
 #include "tyndall/error.h"
@@ -61,29 +62,6 @@ bool holds(const std::string& path, const Image& image, bool same_values) {
   return true;
 }
 
-/// Runs `read` with the library's limits set and its exceptions turned into ours.
-template <class Read>
-auto guarded(const std::string& path, const Read& read) {
-  static const bool kLimited = [] {
-    Imf::Header::setMaxImageSize(kMaxExrSide, kMaxExrSide);
-    Imf::Header::setMaxTileSize(kMaxExrSide / 8, kMaxExrSide / 8);
-    return true;
-  }();
-  static_cast<void>(kLimited);
-  try {
-    return read();
-  } catch (const Error&) {
-    throw;
-  } catch (const std::bad_alloc&) {
-    fail_exr(path, "needs more memory than there is");
-  } catch (const std::exception& error) {
-    const std::string reason = error.what();
-    if (reason.find("Early end of file") != std::string::npos)
-      fail_exr(path, "ends too early; it may have been cut off while it was written or copied");
-    fail_exr(path, "cannot be read as OpenEXR: " + tidy_exr_text(reason));
-  }
-}
-
 constexpr int kUsefulThreads = 8;
 std::atomic<int> most_threads{kUsefulThreads};  ///< OpenEXR's pool is one for the whole program, and so is this
 
@@ -104,19 +82,19 @@ void limit_image_threads(int threads) { most_threads = threads > 0 ? std::min(th
 bool is_exr(const std::string& path) { return Imf::isOpenExrFile(path.c_str()); }
 
 ExrFile read_exr(const std::string& path) {
-  return guarded(path, [&] { return decode(path); });
+  return guarded_exr(path, [&] { return decode(path); });
 }
 
 Image read_exr_header(const std::string& path) {
-  return guarded(path, [&] { return ExrInput(path).header(); });
+  return guarded_exr(path, [&] { return ExrInput(path).header(); });
 }
 
 bool exr_holds(const std::string& path, const Image& image) {
-  return guarded(path, [&] { return holds(path, image, true); });
+  return guarded_exr(path, [&] { return holds(path, image, true); });
 }
 
 bool exr_has_pixels_of(const std::string& path, const Image& image) {
-  return guarded(path, [&] { return holds(path, image, false); });
+  return guarded_exr(path, [&] { return holds(path, image, false); });
 }
 
 }  // namespace tyndall

@@ -1,80 +1,27 @@
 #include <OpenEXR/ImfChannelList.h>
-#include <OpenEXR/ImfChromaticitiesAttribute.h>
-#include <OpenEXR/ImfDoubleAttribute.h>
-#include <OpenEXR/ImfFloatAttribute.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
-#include <OpenEXR/ImfIO.h>
-#include <OpenEXR/ImfIntAttribute.h>
-#include <OpenEXR/ImfMatrixAttribute.h>
 #include <OpenEXR/ImfMultiPartOutputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfOutputPart.h>
 #include <OpenEXR/ImfPartType.h>
-#include <OpenEXR/ImfStandardAttributes.h>
-#include <OpenEXR/ImfStringAttribute.h>
 
 #include <Imath/half.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
 #include <set>
 
 #include "io/atomic_file.h"
 #include "io/exr.h"
 #include "io/exr_layout.h"
+#include "io/exr_output.h"
+#include "tyndall/cryptomatte.h"
 #include "tyndall/error.h"
 #include "tyndall/io.h"
 
 namespace tyndall {
 namespace {
-
-/// Remembers that a write failed: OutputFile's destructor, which writes the table of offsets, swallows exceptions.
-class FileStream : public Imf::OStream {
- public:
-  explicit FileStream(AtomicFile& file) : OStream(file.temporary_path().c_str()), stream_(file.stream()) {}
-
-  void write(const char bytes[], int count) override {
-    require(std::fwrite(bytes, 1, static_cast<std::size_t>(count), stream_) == static_cast<std::size_t>(count));
-  }
-  uint64_t tellp() override {
-    const auto position = ::ftello(stream_);
-    require(position >= 0);
-    return static_cast<uint64_t>(position);
-  }
-  void seekp(uint64_t position) override { require(::fseeko(stream_, static_cast<off_t>(position), SEEK_SET) == 0); }
-
-  const std::string& failure() const { return failure_; }  ///< empty: none
-
- private:
-  void require(bool done) {
-    if (done) return;
-    if (failure_.empty()) failure_ = std::strerror(errno);
-    throw std::runtime_error(failure_);
-  }
-
-  std::FILE* stream_;
-  std::string failure_;
-};
-
-Imath::Box2i to_box(const PixelBounds& b) { return {Imath::V2i(b.x0, b.y0), Imath::V2i(b.x1 - 1, b.y1 - 1)}; }
-
-struct AttributeInserter {
-  Imf::Header& header;
-  const std::string& name;
-
-  void operator()(int value) const { header.insert(name, Imf::IntAttribute(value)); }
-  void operator()(float value) const { header.insert(name, Imf::FloatAttribute(value)); }
-  void operator()(double value) const { header.insert(name, Imf::DoubleAttribute(value)); }
-  void operator()(const std::string& value) const { header.insert(name, Imf::StringAttribute(value)); }
-  void operator()(const std::array<float, 16>& rows) const {
-    Imath::M44f matrix;
-    std::copy(rows.begin(), rows.end(), &matrix.x[0][0]);
-    header.insert(name, Imf::M44fAttribute(matrix));
-  }
-};
 
 constexpr std::array kCompressions{Imf::NO_COMPRESSION,  Imf::RLE_COMPRESSION,  Imf::ZIPS_COMPRESSION, Imf::ZIP_COMPRESSION,
                                    Imf::PIZ_COMPRESSION, Imf::DWAA_COMPRESSION, Imf::DWAB_COMPRESSION};
@@ -115,19 +62,13 @@ struct Layout {
 };
 
 Imf::Header header_of(const Image& image, const Layout& layout, const ExrPart& part) {
-  const PixelBounds& display = image.display.width() > 0 && image.display.height() > 0 ? image.display : image.data;
-  Imf::Header header(to_box(display), to_box(image.data));
+  Imf::Header header = exr_header_of(image);
   header.compression() = kCompressions.at(static_cast<std::size_t>(layout.settings.compression));
   for (const std::size_t i : part.channels)
     header.channels().insert(image.channels[i].name, Imf::Channel(layout.pixels.type(i)));
   if (layout.several()) {
     header.setName(part.name);
     header.setType(Imf::SCANLINEIMAGE);
-  }
-  for (const auto& [name, value] : image.attributes) std::visit(AttributeInserter{header, name}, value);
-  if (const auto& c = image.chromaticities) {
-    const auto v2f = [](Vec2 v) { return Imath::V2f(v.x, v.y); };
-    Imf::addChromaticities(header, {v2f(c->red), v2f(c->green), v2f(c->blue), v2f(c->white)});
   }
   return header;
 }
@@ -146,7 +87,7 @@ void require_whole(const Image& image, const AtomicFile& file) {
 }
 
 /// All bytes to the stream; on return the position is the end of the file.
-void encode(const Image& image, const ExrSettings& settings, FileStream& stream) {
+void encode(const Image& image, const ExrSettings& settings, ExrStream& stream) {
   const Layout layout{settings, parts_of(image, settings.parts), StoredPixels(image, settings.half)};
   const int threads = exr_threads(image.channels.size() * image.channels.front().values.size());
   std::vector<Imf::Header> headers;
@@ -181,14 +122,7 @@ void require_holds(const AtomicFile& file, const Image& image, ExrCompression co
 void write_as_stored(const Image& image, const std::string& path, const ExrSettings& settings) {
   AtomicFile file(path);
   require_whole(image, file);
-  FileStream stream(file);
-  try {
-    encode(image, settings, stream);
-  } catch (const std::exception& error) {
-    file.fail(stream.failure().empty() ? error.what() : stream.failure());
-  }
-  if (!stream.failure().empty()) file.fail(stream.failure());
-  file.close();
+  write_exr_file(file, [&](ExrStream& stream) { encode(image, settings, stream); });
   require_holds(file, image, settings.compression);
   file.commit();
 }
@@ -196,6 +130,10 @@ void write_as_stored(const Image& image, const std::string& path, const ExrSetti
 }  // namespace
 
 void write_exr(const Image& image, const std::string& path, const ExrSettings& settings) {
+  const auto& channels = image.channels;
+  if (is_lossy(settings.compression) &&
+      std::any_of(channels.begin(), channels.end(), [](const Channel& c) { return is_matte_channel(c.name); }))
+    throw Error(Failure::usage, path + ": has mattes, ids that lossy compression would change; choose another");
   if (settings.half) return write_as_stored(rounded_to_halves(image), path, settings);
   write_as_stored(image, path, settings);
 }

@@ -1,6 +1,7 @@
 #include "io/pbrt_shapes.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <string>
 #include <utility>
 
@@ -132,6 +133,19 @@ void warn_of_transparent_emitter(State& state, const std::optional<TextureId>& a
                      "and once for light sampling: it looks brighter here where it is partly transparent");
 }
 
+/// The name that mattes know the object by: as given, else a mesh file's own, but in an object, which has a name.
+std::string read_name(State& state, ParamList& params, const std::string& type) {
+  if (params.find("name", {ParamType::string})) {
+    const std::string name = params.string("name", "");
+    if (name.empty()) throw params.error("name", "the name is empty; name the object, or leave it out");
+    return name;
+  }
+  if (type != "plymesh" || state.open_object) return {};
+  std::filesystem::path file = params.string("filename", "");
+  while (file.extension() == ".gz" || file.extension() == ".ply") file = file.stem();
+  return file.filename().string();
+}
+
 }  // namespace
 
 void read_shape(State& state, Tokenizer& in, const Location& where) {
@@ -139,6 +153,7 @@ void read_shape(State& state, Tokenizer& in, const Location& where) {
   ParamList params = read_param_list(state, in, "shape \"" + printable(type) + "\"", where, &AttributeDefaults::shape);
   std::vector<ShapeKind> kinds = read_kinds(state, params, type);
   const auto alpha = read_alpha(state, params);
+  const std::string name = read_name(state, params, type);
   params.finish();
   const Transform& to_world = usable_ctm(state, where);
   warn_of_mirrored_quadric(state, kinds, where);
@@ -155,6 +170,7 @@ void read_shape(State& state, Tokenizer& in, const Location& where) {
     shape.boundary = boundary_group(state);
     shape.alpha = alpha;
     shape.where = where;
+    shape.name = name;
   }
 }
 

@@ -57,7 +57,7 @@ constexpr Table<TransmittanceStrategy, 4> kTransmittances{{
     {"delta", TransmittanceStrategy::delta},
     {"raymarch", TransmittanceStrategy::raymarch},
 }};
-constexpr std::array<std::string_view, 14> kAovs{"Albedo",
+constexpr std::array<std::string_view, 17> kAovs{"Albedo",
                                                  "N",
                                                  "P",
                                                  "Z",
@@ -70,7 +70,10 @@ constexpr std::array<std::string_view, 14> kAovs{"Albedo",
                                                  "VolumeDirect",
                                                  "VolumeIndirect",
                                                  "Emission",
-                                                 "Replicate"};
+                                                 "Replicate",
+                                                 "CryptoObject",
+                                                 "CryptoMaterial",
+                                                 "CryptoMedium"};
 
 template <typename Table, typename Strategy>
 std::string_view find_name(const Table& table, Strategy wanted) {

@@ -190,6 +190,14 @@ SliceTally tally_of(const std::vector<Slice>& slices) {
   return tally;
 }
 
+/// Of what a flat image says of itself, what goes for a deep one: not what is said of channels that it has not.
+std::map<std::string, Attribute> attributes_in_depth(const Image& flat) {
+  auto attributes = flat.attributes;
+  std::erase_if(attributes,
+                [](const auto& a) { return a.first.starts_with("cryptomatte/") || a.first == "tyndall/lightGroups"; });
+  return attributes;
+}
+
 /// The picture of slices of one render.
 void add_up(std::vector<Slice>& slices, Merged& merged) {
   const SliceSum sum = exact_sum(slices, merged.left_out);
@@ -204,6 +212,8 @@ void add_up(std::vector<Slice>& slices, Merged& merged) {
   } else {
     merge_attributes(slices, merged.image);
   }
+  merged.deep = sum.deep_image();
+  if (merged.deep) merged.deep->attributes = attributes_in_depth(merged.image);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "tyndall/deep_image.h"
 #include "tyndall/image.h"
 #include "tyndall/slice.h"
 
@@ -24,6 +25,7 @@ struct SliceTally {
 
 struct Merged {
   Image image;
+  std::optional<DeepImage> deep;      ///< of slices that have what it takes
   std::size_t images = 0;             ///< that went in
   std::vector<std::string> left_out;  ///< slices that could not be read, with the reason
   std::optional<SliceTally> slices;   ///< when they were slices of one render
@@ -40,6 +42,7 @@ struct Merged {
 ///     R G B A, light, Albedo, N ...    by sample count
 ///     Z, P by SurfaceCount, Zvol by VolumeCount: means over the samples that hit something, as in a render
 ///     SampleCount (always there), SurfaceCount, VolumeCount    sums
+///     mattes by sample count, id by id, then cut to their ranks again
 ///     Variance of the weighted mean of independent renders:    sum n_i^2 V_i / N^2,
 ///     Dof, degrees of freedom of that:    N^2 / sum (n_i^2 / dof_i), dof 1 of a plain render   [Satterthwaite 1946,
 ///         with variances in proportion to 1/n_i: from the counts alone, so that it is not correlated with the noise]

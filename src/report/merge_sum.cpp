@@ -29,7 +29,10 @@ MergeSum::Rule MergeSum::rule_of(const std::string& name) {
 
 MergeSum::MergeSum(PixelBounds box, const Image& header) : box_(box) {
   for (const Channel& c : header.channels) {
-    if (is_shared_channel(c.name)) add_plane(c.name);
+    if (is_shared_channel(c.name) && !is_matte_channel(c.name)) add_plane(c.name);
+  }
+  for (const std::string_view layer : kMatteLayers) {
+    if (has_mattes(header, layer)) mattes_.emplace_back(layer, box.size());
   }
   add_plane("SampleCount");
   for (const std::string suffix : {"R", "G", "B"}) {
@@ -52,6 +55,15 @@ void MergeSum::add(const Image& slice, int samples) {
   const auto pixels = static_cast<std::size_t>(slice.width()) * static_cast<std::size_t>(slice.height());
   const std::vector<float> counts = given ? given->values : std::vector<float>(pixels, static_cast<float>(samples));
   for (Plane& plane : planes_) add_channel(plane, slice, counts);
+  for (MatteSum& sum : mattes_) {
+    const MatteReader mattes(slice, sum.layer());
+    for (std::size_t i = 0; i < pixels; ++i) sum.add(place_in_box(slice, i), mattes.at(i), static_cast<double>(counts[i]));
+  }
+}
+
+std::size_t MergeSum::place_in_box(const Image& slice, std::size_t i) const {
+  const auto width = static_cast<std::size_t>(slice.width());
+  return box_.index(slice.data.x0 + static_cast<int>(i % width), slice.data.y0 + static_cast<int>(i / width));
 }
 
 void MergeSum::add_channel(Plane& plane, const Image& slice, const std::vector<float>& counts) const {
@@ -84,12 +96,8 @@ void MergeSum::add_channel(Plane& plane, const Image& slice, const std::vector<f
     }
     return 0;
   };
-  const auto width = static_cast<std::size_t>(slice.width()), box_width = static_cast<std::size_t>(box_.width());
   for (std::size_t i = 0; i < counts.size(); ++i) {
-    if (!(counts[i] > 0)) continue;  // left black by an earlier merge
-    const std::size_t x = i % width + static_cast<std::size_t>(slice.data.x0 - box_.x0);
-    const std::size_t y = i / width + static_cast<std::size_t>(slice.data.y0 - box_.y0);
-    plane.sums[y * box_width + x] += term(i);
+    if (counts[i] > 0) plane.sums[place_in_box(slice, i)] += term(i);  // else left black by an earlier merge
   }
 }
 
@@ -122,6 +130,7 @@ Image MergeSum::result() const {
       values[i] = static_cast<float>(value);
     }
   }
+  for (const MatteSum& sum : mattes_) sum.store(image, find("SampleCount")->sums);
   return image;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "report/matte_sum.h"
 #include "tyndall/image.h"
 
 namespace tyndall {
@@ -44,8 +45,12 @@ class MergeSum {
   const std::vector<double>* weights_of(const Plane& plane) const;
   const Plane* find(const std::string& name) const;
 
+  /// Where pixel `i` of a slice is in the box.
+  std::size_t place_in_box(const Image& slice, std::size_t i) const;
+
   PixelBounds box_;
   std::vector<Plane> planes_;
+  std::vector<MatteSum> mattes_;  ///< of the layers of the header
 };
 
 }  // namespace tyndall

@@ -6,8 +6,8 @@
 #include <cstdio>
 
 #include "report/machine.h"
-#include "report/utf8.h"
 #include "tyndall/render.h"
+#include "tyndall/utf8.h"
 
 namespace tyndall {
 namespace {

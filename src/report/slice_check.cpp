@@ -3,6 +3,7 @@
 #include <set>
 
 #include "report/slice.h"
+#include "tyndall/cryptomatte.h"
 #include "tyndall/error.h"
 
 namespace tyndall {
@@ -33,6 +34,17 @@ void require_same_mix(const Slice& first, const Slice& slice) {
   };
   if (mix_of(slice) != mix_of(first))
     fail(slice, "its light groups are mixed otherwise than in " + first.path + "; merge first, and relight what is merged");
+}
+
+/// An id is the hash of a name: of other names the sums would be of others.
+void require_same_names(const Slice& first, const Slice& slice) {
+  for (const std::string_view layer : kMatteLayers) {
+    const auto names_of = [&](const Slice& s) { return s.header.attribute<std::string>(manifest_attribute(layer)); };
+    const std::string *a = names_of(first), *b = names_of(slice);
+    if (a && b && *a != *b)
+      fail(slice, "its " + std::string(layer) + " has other names than in " + first.path +
+                      "; render both with the same names in the scene");
+  }
 }
 
 std::set<std::string> shared_channels(const Slice& slice) {
@@ -144,6 +156,7 @@ void require_mergeable(const std::vector<Slice>& slices) {
     require_same_scene(slices.front(), slice);
     require_same_mix(slices.front(), slice);
     require_same_channels(slices.front(), slice);
+    require_same_names(slices.front(), slice);
     require_counts(slice);
     require_variance(slice);
   }

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "report/slice.h"
+#include "tyndall/deep_image.h"
 #include "tyndall/error.h"
 #include "tyndall/io.h"
 
@@ -48,6 +49,7 @@ class Survey {
 
  private:
   void look_at_image(const fs::path& path) {
+    if (is_deep_exr(path.string())) return;  // stands beside its flat image
     const Image header = read_exr_header(path.string());
     const auto info = slice_info(header, path.string());
     if (!info) return;

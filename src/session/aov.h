@@ -21,9 +21,14 @@ enum class Aov {
   volume_indirect,
   emission,
   replicate,
+  crypto_object,
+  crypto_material,
+  crypto_medium,
 };
 
 std::string name_of_aov(Aov aov);
+/// Whether it is a layer of mattes (cryptomatte.h), of the same name.
+constexpr bool is_matte(Aov aov) { return aov >= Aov::crypto_object && aov <= Aov::crypto_medium; }
 /// AOVs by name, once each, in the order of aov_names(). Throws Error (usage) that lists the names for an unknown one.
 std::vector<Aov> parse_aovs(const std::vector<std::string>& names);
 /// And back: "Albedo,Z", whatever the order of `names`.

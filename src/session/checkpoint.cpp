@@ -115,6 +115,8 @@ void require_same(Reader& in, const CheckpointIdentity& identity) {
 
 }  // namespace
 
+void refuse_checkpoint(const std::string& name) { Reader({}, name).fail("is a damaged checkpoint; remove it to begin anew"); }
+
 std::string encode_checkpoint(const CheckpointIdentity& identity, const CheckpointState& state, const FilmSums& sums) {
   Writer out(sums.memory_bytes() + 4096);
   out.put_raw(kMagic.data(), kMagic.size());
@@ -128,6 +130,7 @@ std::string encode_checkpoint(const CheckpointIdentity& identity, const Checkpoi
   out.put_raw(sums.high().data(), sums.high().size_bytes());
   out.put_raw(sums.low().data(), sums.low().size_bytes());
   for (const std::uint64_t n : state.plan) out.put(n);
+  for (const std::string& layer : state.keyed) out.put(std::string_view(layer));
   return out.finish();
 }
 
@@ -169,7 +172,7 @@ CheckpointState decode_checkpoint(std::string_view bytes, const std::string& nam
   if (body.get<std::uint64_t>() != sums.size()) body.fail("is a checkpoint of another frame; remove it to begin anew");
   const std::string_view high = body.take(sums.high().size_bytes()), low = body.take(sums.low().size_bytes());
   for (std::size_t i = 0; i < plan_size; ++i) state.plan.push_back(body.get<std::uint64_t>());
-  if (!body.at_end()) body.fail("is a damaged checkpoint; remove it to begin anew");
+  while (!body.at_end()) state.keyed.emplace_back(body.get_text());
   std::memcpy(sums.high().data(), high.data(), high.size());
   std::memcpy(sums.low().data(), low.data(), low.size());
   return state;

@@ -20,6 +20,7 @@ struct CheckpointState {
   double seconds = 0;
   Counters counters;
   std::vector<std::uint64_t> plan{};  ///< SamplePlan::state(); empty: all pixels have as many
+  std::vector<std::string> keyed{};   ///< KeyedSums::bytes(), of each layer
 };
 
 /// Ends in a hash of all that goes before it.
@@ -30,6 +31,9 @@ std::string encode_checkpoint(const CheckpointIdentity& identity, const Checkpoi
 /// that differs, with both values.
 CheckpointState decode_checkpoint(std::string_view bytes, const std::string& name, const CheckpointIdentity& identity,
                                   FilmSums& sums, std::size_t plan_size = 0);
+
+/// Throws Error (scene): the file `name` is damaged.
+[[noreturn]] void refuse_checkpoint(const std::string& name);
 
 /// What a checkpoint says of itself, whatever it belongs to. Throws as decode_checkpoint does.
 struct CheckpointSummary {

@@ -12,6 +12,7 @@ namespace {
 // A pixel's sums: even samples' RGB, odd samples' RGB, alpha, then each AOV's over all samples and, with Aov::replicate, over
 // the even ones, then each light group's RGB as those of all light.
 constexpr std::size_t kAlpha = 6, kFirstAov = 7, kSumsOfGroup = 6;
+constexpr std::size_t kSumsOfMatte = 1;  ///< its coverage
 /// Relative to the light of a sample. More that groups differ from it by is no rounding, and must show.
 constexpr double kMostRounding = 1e-3;
 
@@ -21,6 +22,10 @@ std::size_t sums_of(Aov aov) {
     case Aov::sample_count:
     case Aov::replicate:
       return 0;  // follow from what is there anyway
+    case Aov::crypto_object:
+    case Aov::crypto_material:
+    case Aov::crypto_medium:
+      return 0;  // KeyedSums
     case Aov::z:
     case Aov::z_volume:
       return 2;  // sum and count
@@ -46,7 +51,8 @@ FilmBuffer::FilmBuffer(const Film& film, PixelBounds crop, Extras extras)
       aovs_(std::move(extras.aovs)),
       groups_(std::move(extras.groups)),
       replicate_(wants(Aov::replicate)),
-      stride_(kFirstAov) {
+      stride_(kFirstAov),
+      deep_(std::move(extras.deep)) {
   for (const Aov aov : aovs_) {
     offsets_.push_back(stride_);
     stride_ += (replicate_ ? 2 : 1) * sums_of(aov);
@@ -54,24 +60,30 @@ FilmBuffer::FilmBuffer(const Film& film, PixelBounds crop, Extras extras)
   first_group_ = stride_;
   stride_ += kSumsOfGroup * groups_.size();
   sums_ = FilmSums(crop.size() * stride_);
+  std::copy_if(aovs_.begin(), aovs_.end(), std::back_inserter(mattes_), is_matte);
+  keyed_.assign(mattes_.size(), KeyedSums(crop.size(), kSumsOfMatte));
+  if (deep_) keyed_.emplace_back(crop.size(), kSumsOfDepth);
 }
 
 bool FilmBuffer::wants(Aov aov) const { return std::find(aovs_.begin(), aovs_.end(), aov) != aovs_.end(); }
 
-FilmSums FilmBuffer::copy(const PixelBounds& tile) const {
+FilmTile FilmBuffer::copy(const PixelBounds& tile) const {
   const std::size_t row = static_cast<std::size_t>(tile.width()) * stride_;
-  FilmSums sums(tile.size() * stride_);
-  for (int y = tile.y0; y < tile.y1; ++y) sums.copy(sums_, first_of(tile.x0, y), row, tile.index(tile.x0, y) * stride_);
-  return sums;
+  FilmTile of{FilmSums(tile.size() * stride_), {}};
+  for (int y = tile.y0; y < tile.y1; ++y) of.sums.copy(sums_, first_of(tile.x0, y), row, tile.index(tile.x0, y) * stride_);
+  for (const KeyedSums& sums : keyed_) of.keyed.push_back(sums.copy(crop_, tile));
+  return of;
 }
 
-void FilmBuffer::restore(const PixelBounds& tile, const FilmSums& sums) {
+void FilmBuffer::restore(const PixelBounds& tile, const FilmTile& of) {
   const std::size_t row = static_cast<std::size_t>(tile.width()) * stride_;
-  for (int y = tile.y0; y < tile.y1; ++y) sums_.copy(sums, tile.index(tile.x0, y) * stride_, row, first_of(tile.x0, y));
+  for (int y = tile.y0; y < tile.y1; ++y) sums_.copy(of.sums, tile.index(tile.x0, y) * stride_, row, first_of(tile.x0, y));
+  for (std::size_t i = 0; i < keyed_.size(); ++i) keyed_[i].restore(crop_, tile, of.keyed[i]);
 }
 
 void FilmBuffer::clear(const PixelBounds& tile) {
   for (int y = tile.y0; y < tile.y1; ++y) sums_.clear(first_of(tile.x0, y), static_cast<std::size_t>(tile.width()) * stride_);
+  for (KeyedSums& sums : keyed_) sums.clear(crop_, tile);
 }
 
 void FilmBuffer::add(int x, int y, int sample, const PathRecord& record, float weight) {
@@ -139,6 +151,9 @@ void FilmBuffer::add_aov(Aov aov, std::size_t first, const PathRecord& r, float 
     case Aov::variance:
     case Aov::sample_count:
     case Aov::replicate:
+    case Aov::crypto_object:
+    case Aov::crypto_material:
+    case Aov::crypto_medium:
       return;
   }
 }
@@ -175,7 +190,7 @@ void FilmBuffer::store_ratio(Image& image, const std::string& name, std::size_t 
 
 void FilmBuffer::store_aov(Image& image, Aov aov, std::size_t offset, const Means& means) const {
   const std::string name = name_of_aov(aov), prefixed = means.prefix + name;
-  if (aov == Aov::replicate || (aov == Aov::variance && means.even_only)) return;
+  if (aov == Aov::replicate || is_matte(aov) || (aov == Aov::variance && means.even_only)) return;
   if (aov == Aov::variance) return store_variance(image, "", kEven, means.samples);
   if (aov == Aov::albedo || aov == Aov::transmittance) return store_ratio(image, name + ".", offset, means);
   if (is_light(aov)) return store_color(image, name + ".", offset, means, Halves::joined);
@@ -208,13 +223,11 @@ void FilmBuffer::store_sums(Image& image) const {
     std::array<float*, 3> parts;
     for (std::size_t p = 0; p < 3; ++p) parts[p] = image.add_channel(sum_channel(k, p)).values.data();
     for (std::size_t i = 0; i < crop_.size(); ++i) {
-      const double sum = sums_.high()[i * stride_ + k];
-      parts[0][i] = static_cast<float>(sum);
-      const double rest = sum - static_cast<double>(parts[0][i]);  // at most 29 bits of a double's 53 are left
-      parts[1][i] = static_cast<float>(rest);
-      parts[2][i] = static_cast<float>(rest - static_cast<double>(parts[1][i]) + sums_.low()[i * stride_ + k]);
+      const std::array<float, 3> floats = split(sums_.at(i * stride_ + k));
+      for (std::size_t p = 0; p < 3; ++p) parts[p][i] = floats[p];
     }
   }
+  store_keyed(image);
 }
 
 bool FilmBuffer::has_sums(const Image& image) const {
@@ -234,6 +247,7 @@ void FilmBuffer::add_sums(const Image& image) {
       for (const float* part : parts) sums_.add(i * stride_ + k, part[i]);
     }
   }
+  add_keyed(image);
 }
 
 void FilmBuffer::store_count(Image& image, const std::string& name, std::size_t offset) const {
@@ -280,6 +294,7 @@ Image FilmBuffer::image(const SampleCounts& samples) const {
     alpha.values[i] = static_cast<float>(sum(i, kAlpha) / samples.of(i));
   }
   store_means(image, {"", samples});
+  store_mattes(image, samples);
   if (!replicate_) return image;
   const Means even{"Replicate.", samples, true};
   store_color(image, "", kEven, even, Halves::apart);

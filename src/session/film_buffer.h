@@ -8,13 +8,26 @@
 
 #include "session/allocation.h"
 #include "session/aov.h"
+#include "session/deep_layout.h"
 #include "session/film_sums.h"
+#include "session/keyed_sums.h"
 #include "session/sample_counts.h"
+#include "transport/deep_sample.h"
 #include "transport/path_record.h"
+#include "tyndall/cryptomatte.h"
+#include "tyndall/deep_image.h"
 #include "tyndall/image.h"
 #include "tyndall/scene.h"
 
 namespace tyndall {
+
+/// What a FilmBuffer holds of a few pixels.
+struct FilmTile {
+  FilmSums sums;
+  std::vector<KeyedSums> keyed;
+
+  bool empty() const { return sums.size() == 0; }
+};
 
 /// Sums over the pixels of a crop. A pixel is written by one thread at a time; neither threads nor how samples are grouped into
 /// passes, or into jobs, change a sum.
@@ -24,6 +37,7 @@ class FilmBuffer {
   struct Extras {
     std::vector<Aov> aovs{};
     std::vector<std::string> groups{};  ///< names of light groups
+    std::optional<DeepLayout> deep{};
   };
   /// The film rectangle `crop` and what to gather.
   FilmBuffer(const Film& film, PixelBounds crop, Extras extras);
@@ -42,13 +56,22 @@ class FilmBuffer {
   /// brightest of them, so that the sums of the groups are those of R G B.
   void add_groups(const SamplePlace& at, Rgb radiance, std::span<const Rgb> by_group, float weight);
   const std::vector<std::string>& groups() const { return groups_; }
+  const std::optional<DeepLayout>& deep_layout() const { return deep_; }
+
+  /// The same sample by mattes: `coverage` of `id` in a layer that an AOV asks for.
+  void add_matte(const SamplePlace& at, Aov layer, MatteCoverage cover, float weight);
+  /// The same sample in depth.
+  void add_deep(const SamplePlace& at, std::span<const DeepSample::Part> parts, float weight);
 
   /// All sums, pixel by pixel: what a checkpoint keeps.
   const FilmSums& sums() const { return sums_; }
   FilmSums& sums() { return sums_; }
+  /// Besides, those of mattes and of depth, by layer.
+  std::vector<KeyedSums>& keyed() { return keyed_; }
+  const std::vector<KeyedSums>& keyed() const { return keyed_; }
   /// The sums of the pixels of `tile`, which lies in the crop; and back.
-  FilmSums copy(const PixelBounds& tile) const;
-  void restore(const PixelBounds& tile, const FilmSums& sums);
+  FilmTile copy(const PixelBounds& tile) const;
+  void restore(const PixelBounds& tile, const FilmTile& sums);
   void clear(const PixelBounds& tile);
 
   /// Means of the `samples` that each pixel has received, in the film's colour space. Beside P and Z stands
@@ -56,6 +79,8 @@ class FilmBuffer {
   /// Aov::replicate each channel that is a mean comes a second time, as "Replicate.R" and so on: over the even samples. Light
   /// groups are "LightGroup.key.R" and so on, with Aov::variance "Variance.LightGroup.key.R".
   Image image(const SampleCounts& samples) const;
+  /// The same in depth; nothing where that was not asked for. Attributes are the caller's.
+  std::optional<DeepImage> deep_image(const SampleCounts& samples) const;
 
   /// The exact sums as channels "Sum.N.high", ".mid" and ".low", floats that add up to sum number N; and back, added to those
   /// here: of an image of the same crop that has_sums().
@@ -93,6 +118,10 @@ class FilmBuffer {
   /// Of the means of even and odd samples, at `offset`; of a pixel with one sample, its mean.
   Rgb difference(std::size_t pixel, std::size_t offset, int samples) const;
   void store_groups(Image& image, const Means& means) const;
+  void store_mattes(Image& image, const SampleCounts& samples) const;
+  void store_keyed(Image& image) const;
+  void add_keyed(const Image& image);
+  std::string keyed_name(std::size_t layer) const;
   void store_count(Image& image, const std::string& name, std::size_t offset) const;
   void store_counts(Image& image, const Means& means) const;
   /// Of a pixel that has 2 samples or more.
@@ -108,6 +137,9 @@ class FilmBuffer {
   bool replicate_;
   std::size_t stride_;
   FilmSums sums_;
+  std::vector<Aov> mattes_;  ///< layers, in the order of the AOVs
+  std::optional<DeepLayout> deep_;
+  std::vector<KeyedSums> keyed_;  ///< of the mattes, then of depth
 };
 
 }  // namespace tyndall

@@ -4,12 +4,29 @@
 #include <cstdio>
 
 #include "math/process_memory.h"
+#include "session/deep_layout.h"
 #include "transport/light_groups.h"
 #include "transport/planned_memory.h"
+#include "tyndall/cryptomatte.h"
+#include "tyndall/deep_image.h"
 #include "tyndall/error.h"
 
 namespace tyndall {
 namespace {
+
+/// Bytes a pixel of what is kept by keys, and of the images made of it: of mattes, about four ids in each layer; of depth,
+/// light in every bin.
+double plan_keyed(const RenderSettings& settings) {
+  constexpr double kSum = sizeof(double) + sizeof(float), kKey = sizeof(std::uint32_t), kList = 40;
+  const auto& aovs = settings.aovs;
+  const auto layers = static_cast<double>(std::count_if(aovs.begin(), aovs.end(), [](const std::string& aov) {
+    return std::find(kMatteLayers.begin(), kMatteLayers.end(), aov) != kMatteLayers.end();
+  }));
+  double bytes = layers * (kList + 4 * (kKey + kSum) + 2 * 2 * kMatteRanks * sizeof(float));
+  if (settings.deep_bins)
+    bytes += kList + (*settings.deep_bins + 2) * (kKey + kSumsOfDepth * kSum + 2 * sizeof(DeepPixelSample));
+  return bytes;
+}
 
 std::size_t plan_film(const Scene& scene) {
   const double pixels = pixels_of(scene);
@@ -22,6 +39,7 @@ std::size_t plan_film(const Scene& scene) {
   sum.add(pixels, 2 * (sizeof(double) + sizeof(float)) * (3 + channels));         // twice: a long pass keeps a copy to undo it
   sum.add(pixels, 2 * sizeof(float) * channels);                                  // the image, and its encoding
   if (scene.settings.slice) sum.add(pixels, 3 * sizeof(float) * (3 + channels));  // its sums
+  sum.add(pixels, plan_keyed(scene.settings));
   return sum.bytes();
 }
 

@@ -21,6 +21,8 @@ PixelSample::PixelSample(const SampleContext& sample, const SampleKey& key, Pixe
   const Vec2 lens = sampler_.next_2d();
   LightContext context{world_.built, sample.selector, sample.settings, sampler_, counters};
   if (!world_.built.light_groups.empty()) context.groups = &groups_.emplace(world_.built.light_groups);
+  if (sample.mattes) context.matte = &matte_.emplace();
+  if (sample.bins) context.deep = &deep_.emplace(*sample.bins, world_.built.camera);
   if (!film_.points.empty()) {
     context.joint = &film_ray_;
     of_points_ = film_light(context, film_.points, center_of(key), sampler_.fork());
@@ -30,6 +32,7 @@ PixelSample::PixelSample(const SampleContext& sample, const SampleKey& key, Pixe
     of_emitters_ = visible_emitters(context, film_.emitters, center_of(key), sampler_.fork());
   }
   if (groups_) groups_->settle(Rgb(1 / offset_.weight), groups_->found);
+  if (deep_) deep_->scale(1 / offset_.weight);
   const auto seen = world_.built.camera.sample(on_film_, lens);
   if (!seen) return;
   weight_of_ray_ = seen->weight;
@@ -37,13 +40,20 @@ PixelSample::PixelSample(const SampleContext& sample, const SampleKey& key, Pixe
 }
 
 PathRecord PixelSample::record() {
-  if (!path_) return {};
-  PathRecord record = path_->result();
+  PathRecord record = path_ ? path_->result() : PathRecord();
+  if (path_) receive_light(record);
+  if (deep_) {
+    by_depth_ = deep_->parts(record);
+    record.alpha = deep_->alpha();
+  }
+  place(record);
+  return record;
+}
+
+void PixelSample::receive_light(PathRecord& record) {
   record.volume_direct += of_points_ * (1 / offset_.weight);  // the film takes it times that weight
   record.emission += of_emitters_ * (1 / offset_.weight);
   expose(record);
-  place(record);
-  return record;
 }
 
 /// Positions and depths, in the user's space and units.
@@ -56,6 +66,7 @@ void PixelSample::place(PathRecord& record) const {
 void PixelSample::scale(PathRecord& record, float s) {
   record.scale_radiance(s);
   if (groups_) groups_->scale(s);
+  if (deep_) deep_->scale(s);
 }
 
 void PixelSample::expose(PathRecord& record) {

@@ -5,8 +5,11 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "session/world_parts.h"
+#include "transport/camera_matte.h"
+#include "transport/deep_sample.h"
 #include "transport/film_light.h"
 #include "transport/suffix_reuse.h"
 #include "transport/visible_emitters.h"
@@ -19,6 +22,8 @@ struct SampleContext {
   const LightSelector& selector;
   const RenderSettings& settings;
   Path::Limits limits;
+  bool mattes = false;              ///< samples tell what they see first
+  const DepthBins* bins = nullptr;  ///< and where in depth their light is from; null: they do not
 };
 
 /// What is searched for on the film for a pixel's samples; nothing outside of the pixels that are rendered.
@@ -40,9 +45,14 @@ class PixelSample {
   PathRecord record();
   /// The radiance of that record by light groups, up to rounding; empty where the scene has none.
   std::span<const Rgb> by_group() const { return groups_ ? std::span<const Rgb>(groups_->found) : std::span<const Rgb>(); }
+  /// What its camera ray sees first; null where nobody asks, or no ray leaves the camera.
+  const CameraMatte* matte() const { return path_ && matte_ ? &*matte_ : nullptr; }
+  /// Where in depth the light of that record is from; empty where nobody asks.
+  std::span<const DeepSample::Part> by_depth() const { return by_depth_; }
   float weight() const { return offset_.weight; }
 
  private:
+  void receive_light(PathRecord& record);
   void expose(PathRecord& record);
   void scale(PathRecord& record, float s);
   void place(PathRecord& record) const;
@@ -57,6 +67,9 @@ class PixelSample {
   Rgb of_points_, of_emitters_;
   float weight_of_ray_ = 1;
   std::optional<GroupedLight> groups_;
+  std::optional<CameraMatte> matte_;
+  std::optional<DeepSample> deep_;
+  std::vector<DeepSample::Part> by_depth_;
   std::optional<Path> path_;
 };
 

@@ -36,8 +36,10 @@ class RenderLoop {
     if (report.stopped && report.unrendered == 0 && control_.save) save();
     if (control_.end) control_.end(job_);
     Image image = job_.image();
+    std::optional<DeepImage> deep = job_.deep_image();
     if (report.stopped) mark_stopped(image);
-    return {std::move(image), std::move(report)};
+    if (report.stopped && deep) deep->attributes["tyndall/stopped"] = 1;
+    return {std::move(image), std::move(report), std::move(deep)};
   }
 
  private:

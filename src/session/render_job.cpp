@@ -7,6 +7,7 @@
 #include "session/film_buffer.h"
 #include "session/flush_denormals.h"
 #include "session/image_header.h"
+#include "session/matte_layers.h"
 #include "session/pixel_block.h"
 #include "session/pixel_sample.h"
 #include "session/render_pass.h"
@@ -58,14 +59,18 @@ class RenderJob::Impl {
         settings_(resolved(settings, world)),
         selector_(world.built.lights.selector(settings.lights, settings.emission == EmissionStrategy::lights)),
         first_sample_(sample_range(settings).first),
+        mattes_(world.built, film_aovs(settings)),
+        deep_(deep_layout(world, settings)),
         film_(world.built.scene.film, full_crop(world.built.scene, settings),
-              {film_aovs(settings), world.built.light_groups.names()}),
+              {film_aovs(settings), world.built.light_groups.names(), deep_}),
         sample_context_{world,
                         selector_,
                         settings_,
                         {.max_depth = settings_.max_depth,
                          .want_transmittance = film_.wants(Aov::transmittance),
-                         .want_albedo = film_.wants(Aov::albedo)}},
+                         .want_albedo = film_.wants(Aov::albedo)},
+                        !mattes_.empty(),
+                        deep_ ? &deep_->bins : nullptr},
         pool_(settings.threads) {
     if (*settings_.adaptive) plan_.emplace(film_.crop(), settings_.spp);
   }
@@ -108,7 +113,7 @@ class RenderJob::Impl {
       keep_finished(pass);
     } else if (undo) {
       for (std::size_t i = 0; i < pass.tiles(); ++i) {
-        if (pass.before[i].size() > 0) film_.restore(pass.tile(i), pass.before[i]);
+        if (!pass.before[i].empty()) film_.restore(pass.tile(i), pass.before[i]);
       }
       counters_ = counters_before;
       plan_ = plan_before;
@@ -117,12 +122,17 @@ class RenderJob::Impl {
   }
 
   std::string save() const {
-    return encode_checkpoint(identity(), {samples_, seconds_, counters_, plan_ ? plan_->state() : std::vector<std::uint64_t>()},
-                             film_.sums());
+    CheckpointState state{samples_, seconds_, counters_, plan_ ? plan_->state() : std::vector<std::uint64_t>(), {}};
+    for (const KeyedSums& sums : film_.keyed()) state.keyed.push_back(sums.bytes());
+    return encode_checkpoint(identity(), state, film_.sums());
   }
 
   void restore(std::string_view bytes, const std::string& name) {
     CheckpointState state = decode_checkpoint(bytes, name, identity(), film_.sums(), plan_ ? plan_->state_size() : 0);
+    if (state.keyed.size() != film_.keyed().size()) refuse_checkpoint(name);
+    for (std::size_t i = 0; i < state.keyed.size(); ++i) {
+      if (!film_.keyed()[i].read(state.keyed[i])) refuse_checkpoint(name);
+    }
     if (plan_) plan_->restore(state.plan);
     samples_ = state.samples;
     seconds_ = state.seconds;
@@ -133,8 +143,20 @@ class RenderJob::Impl {
     Image image = film_.image(counts());
     if (!unrendered_.empty()) mark_unrendered(image, unrendered_, samples_);
     write_header(image, world_, settings_, counted());
+    mattes_.describe(image);
     if (settings_.slice) add_slice(image, film_, settings_, samples_);
     return image;
+  }
+
+  /// What the flat image says of itself goes for it as well, but what is said of channels that it has not.
+  std::optional<DeepImage> deep_image() const {
+    std::optional<DeepImage> deep = film_.deep_image(counts());
+    if (!deep) return deep;
+    Image header;
+    write_header(header, world_, settings_, counted());
+    header.attributes.erase(kLightGroups);
+    deep->attributes = std::move(header.attributes);
+    return deep;
   }
 
   double estimated_relmse() const { return samples_ < 2 ? kInfinity : mean_error(block_noise()); }
@@ -268,7 +290,8 @@ class RenderJob::Impl {
       if (!film_.crop().contains(key.x, key.y)) continue;
       PathRecord record = sample.record();
       std::span<const Rgb> groups = sample.by_group();
-      if (!record.is_finite()) {
+      const bool finite = record.is_finite();
+      if (!finite) {
         ++counters.non_finite;
         counters.bad_samples.push_back({key.x, key.y, key.sample});
         if (counters.bad_samples.size() > 4 * kBadSamplesKept) counters.trim_bad_samples();
@@ -278,7 +301,14 @@ class RenderJob::Impl {
       }
       film_.add(key.x, key.y, key.sample, record, sample.weight());
       if (!groups.empty()) film_.add_groups({key.x, key.y, key.sample}, record.radiance(), groups, sample.weight());
+      if (finite) add_seen(sample);
     }
+  }
+
+  void add_seen(const PixelSample& sample) {
+    const FilmBuffer::SamplePlace at{sample.key().x, sample.key().y, sample.key().sample};
+    if (sample.matte()) mattes_.add(film_, at, *sample.matte(), sample.weight());
+    film_.add_deep(at, sample.by_depth(), sample.weight());
   }
 
   /// Of a first pass that was given up.
@@ -302,6 +332,8 @@ class RenderJob::Impl {
             {"slice", slice_text(settings_)},
             {"crop", pixels},
             {"aov", aov_list(settings_.aovs)},
+            {"set of matte names", mattes_.identity()},
+            {"deep image", deep_ ? deep_->str() : "none"},
             {"build", build_id()}};
   }
 
@@ -309,6 +341,8 @@ class RenderJob::Impl {
   RenderSettings settings_;
   const LightSelector& selector_;
   int first_sample_;
+  MatteLayers mattes_;
+  std::optional<DeepLayout> deep_;
   FilmBuffer film_;
   SampleContext sample_context_;
   std::optional<SamplePlan> plan_;
@@ -343,5 +377,6 @@ double RenderJob::estimated_relmse() const { return impl_->estimated_relmse(); }
 std::vector<float> RenderJob::estimated_errors() const { return impl_->estimated_errors(); }
 RenderReport RenderJob::report() const { return impl_->report(); }
 Image RenderJob::image() const { return impl_->image(); }
+std::optional<DeepImage> RenderJob::deep_image() const { return impl_->deep_image(); }
 
 }  // namespace tyndall

@@ -7,7 +7,7 @@
 #include <mutex>
 #include <vector>
 
-#include "session/film_sums.h"
+#include "session/film_buffer.h"
 #include "tyndall/render.h"
 
 namespace tyndall {
@@ -52,7 +52,7 @@ struct RenderPass {
   std::uint64_t samples_done = 0;
   std::atomic<bool> given_up{false};
   std::vector<char> finished;    ///< by tile
-  std::vector<FilmSums> before;  ///< sums by tile, to undo the pass; empty: not kept
+  std::vector<FilmTile> before;  ///< sums by tile, to undo the pass; empty: not kept
 };
 
 }  // namespace tyndall

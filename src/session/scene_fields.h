@@ -27,8 +27,8 @@ constexpr int field_count() {
   if (kOneOf<T, ProjectionLight, BilerpTexture, Lenses>) return 5;
   if (kOneOf<T, TextureMapping, PixelFilter, InfiniteLight, NoiseTexture, Material, Medium, AreaLight>) return 6;
   if (kOneOf<T, Coating>) return 7;
-  if (kOneOf<T, RgbGridMedium, Shape>) return 8;
-  if (kOneOf<T, Film, Camera>) return 9;
+  if (kOneOf<T, RgbGridMedium>) return 8;
+  if (kOneOf<T, Film, Camera, Shape>) return 9;
   if (kOneOf<T, VdbMedium, ImageTexture>) return 10;
   if (kOneOf<T, UniformGridMedium>) return 11;
   if (kOneOf<T, Scene>) return 13;

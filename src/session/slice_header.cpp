@@ -6,6 +6,7 @@
 #include "math/stream_hash.h"
 #include "session/checkpoint.h"
 #include "session/image_header.h"
+#include "session/matte_layers.h"
 #include "session/resolved_settings.h"
 #include "session/slice.h"
 #include "tyndall/error.h"
@@ -88,6 +89,7 @@ void add_slice(Image& image, const FilmBuffer& film, const RenderSettings& setti
   std::array<float, 16> rows{};
   std::copy(film.film().from_rec709.begin(), film.film().from_rec709.end(), rows.begin());
   image.attributes[kFilmSpace] = rows;
+  if (film.deep_layout()) image.attributes[kDeepLayout] = film.deep_layout()->str();
   image.attributes[kSumHash] = hash_of_sums(image);
 }
 
@@ -122,6 +124,22 @@ std::optional<SliceInfo> slice_info(const Image& header, const std::string& path
   return info;
 }
 
+namespace {
+
+/// Whether mattes have these names, and depth these bins.
+bool says_layers(const Image& image, const World::Parts& world, const RenderSettings& settings) {
+  Image described;
+  MatteLayers(world.built, film_aovs(settings)).describe(described);
+  if (const auto deep = deep_layout(world, settings)) described.attributes[kDeepLayout] = deep->str();
+  const bool names = std::all_of(described.attributes.begin(), described.attributes.end(), [&](const auto& attribute) {
+    const auto found = image.attributes.find(attribute.first);
+    return found != image.attributes.end() && found->second == attribute.second;
+  });
+  return names && (settings.deep_bins || !image.attributes.contains(kDeepLayout));
+}
+
+}  // namespace
+
 bool holds_slice(const Image& image, const World& world, const RenderSettings& settings) {
   const auto says = [&](const char* name, const std::string& value) {
     const auto* text = image.attribute<std::string>(name);
@@ -133,14 +151,15 @@ bool holds_slice(const Image& image, const World& world, const RenderSettings& s
            says("tyndall/sceneHash", world.scene_hash(settings)) &&
            says("tyndall/options", options_text(resolved(settings, world.parts()))) &&
            says("tyndall/seed", std::to_string(settings.seed)) && says(kAovs, aov_list(settings.aovs)) &&
-           says(kSumHash, hash_of_sums(image));
+           says(kSumHash, hash_of_sums(image)) && says_layers(image, world.parts(), settings);
   } catch (const Error&) {
     return false;
   }
 }
 
 bool is_slice_attribute(std::string_view name) {
-  return name == kSlice || name == kAovs || name == kFilmSpace || name == kSumHash || name == "tyndall/command";
+  return name == kSlice || name == kAovs || name == kFilmSpace || name == kDeepLayout || name == kSumHash ||
+         name == "tyndall/command";
 }
 
 }  // namespace tyndall

@@ -33,6 +33,13 @@ std::vector<std::string> groups_of(const Image& header) {
   return names ? split(*names) : std::vector<std::string>();
 }
 
+std::optional<DeepLayout> deep_of(const Image& header, const std::string& path) {
+  if (!header.attributes.contains(kDeepLayout)) return std::nullopt;
+  const auto layout = DeepLayout::parse(text_attribute(header, path, kDeepLayout));
+  if (!layout) refuse_slice(path, "attribute " + std::string(kDeepLayout) + " is damaged");
+  return layout;
+}
+
 /// Those that `asked` names, and what merging tells besides.
 std::vector<Aov> aovs_of(std::vector<std::string> asked, const std::string& path) {
   asked.insert(asked.end(), {"Variance", "SampleCount"});
@@ -49,7 +56,7 @@ class SliceSum::Impl {
  public:
   Impl(const Image& header, const std::string& path)
       : asked_(split(text_attribute(header, path, kAovs))),
-        film_(film_of(header, path), header.data, {aovs_of(asked_, path), groups_of(header)}) {}
+        film_(film_of(header, path), header.data, {aovs_of(asked_, path), groups_of(header), deep_of(header, path)}) {}
 
   void add(const Image& slice, const std::string& path) {
     const auto info = slice_info(slice, path);
@@ -70,6 +77,8 @@ class SliceSum::Impl {
     return image;
   }
 
+  std::optional<DeepImage> deep_image() const { return film_.deep_image(samples_); }
+
   int samples() const { return samples_; }
   double estimated_relmse() const { return film_.estimated_relmse(samples_); }
 
@@ -87,6 +96,7 @@ SliceSum::~SliceSum() = default;
 void SliceSum::add(const Image& slice, const std::string& path) { impl_->add(slice, path); }
 int SliceSum::samples() const { return impl_->samples(); }
 double SliceSum::estimated_relmse() const { return impl_->estimated_relmse(); }
+std::optional<DeepImage> SliceSum::deep_image() const { return impl_->deep_image(); }
 Image SliceSum::image(bool with_variance) const { return impl_->image(with_variance); }
 
 }  // namespace tyndall

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "transport/deep_sample.h"
 #include "transport/direct_light.h"
 #include "transport/gather_lights.h"
 #include "transport/grouped_light.h"
@@ -100,6 +101,7 @@ Rgb film_light(const LightContext& context, const PixelPoints& points, Vec2 cent
   const Rgb light = in_scattered(context, {world.camera_media, ray, place.t}, drawn.light, sampler) *
                     (filter.weight * filter.pdf / drawn.pdf * place.spread * share);
   if (context.groups) context.groups->estimate(drawn.light, light);
+  if (context.deep) context.deep->scattered_at(world.camera.depth(ray.at(place.t)), light);
   return light;
 }
 

@@ -10,6 +10,8 @@ namespace tyndall {
 class JointRay;
 struct PixelEmitters;
 class GroupedLight;
+class CameraMatte;
+class DeepSample;
 
 /// What light estimation needs of the render at large.
 struct LightContext {
@@ -25,6 +27,9 @@ struct LightContext {
   const PixelEmitters* emitters = nullptr;
   /// Where the scene has light groups (grouped_light.h).
   GroupedLight* groups = nullptr;
+  /// Where the film has mattes (camera_matte.h), and where a deep image is made (deep_sample.h).
+  CameraMatte* matte = nullptr;
+  DeepSample* deep = nullptr;
 };
 
 /// The ray after it gathers light only where lights are directly visible to it.

@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "math/hash.h"
+#include "transport/camera_matte.h"
+#include "transport/deep_sample.h"
 
 namespace tyndall {
 namespace {
@@ -88,6 +90,11 @@ PathOffer* Path::behind() {
 void Path::take(Rgb factor, const Path& finder, Received where) {
   (where == Received::on_surface ? record_.surface_indirect : record_.volume_indirect) += factor * finder.offer_->radiance;
   if (context_.groups) GroupedLight::add(factor, finder.context_.groups->find, context_.groups->found);
+}
+
+void Path::take_at(float t, Rgb factor, const Path& finder) {
+  take(factor, finder, Received::in_medium);
+  if (context_.deep) context_.deep->scattered(t, factor * finder.offer_->radiance);
 }
 
 bool Path::completes_collision() const { return sharing_ == Sharing::completing && !offer_->at->on_surface(); }
@@ -285,6 +292,8 @@ void Path::add_estimate(Rgb factor, Rgb estimate, int events) {
 }
 
 void Path::record_camera_ray(const Trace& trace) {
+  if (context_.matte) context_.matte->meet(trace);
+  if (context_.deep) context_.deep->meet(ray_, trace);
   if (trace.hit) {
     record_.hit_surface = true;
     record_.p = trace.hit->p;

@@ -45,6 +45,8 @@ class Path {
   static Received received_at(const Vertex& first) { return first.on_surface() ? Received::on_surface : Received::in_medium; }
   /// What of a find, its own or another's, the path counts: `factor` times the find's radiance.
   void take(Rgb factor, const Path& finder, Received where);
+  /// The same of one that it receives in a medium at `t` along the camera's ray, wherever the path itself collides.
+  void take_at(float t, Rgb factor, const Path& finder);
   /// The factor of its own find, were it not shared.
   Rgb own_factor() const { return offer_->arrived * offer_->scattered; }
   /// What the ended path has found.
@@ -100,6 +102,7 @@ class Path {
   void record_camera_ray(const Trace& trace);
   void record_collision(float t);
   void record_transmittance(const Span& span);
+  void record_camera_media(const Span& span);
   bool scatter(const Vertex& vertex);
   bool survive_roulette();
 

@@ -1,6 +1,7 @@
 /// The light that a path gathers: at its bounces, and where its rays end.
 #include <algorithm>
 
+#include "transport/deep_sample.h"
 #include "transport/emission_by_group.h"
 #include "transport/path.h"
 #include "transport/visible_emitters.h"
@@ -76,12 +77,14 @@ void Path::add_volume_emission(const Span& span) {
   Rng rng = stream_for_emission();
   const ScatteredEmission gauge(*this);
   const bool weighs = light_sampled_ && seeks_volume_lights(context_);
-  const EmissionLook look{weighs ? &gauge : nullptr, depth_ == 0 ? kSeenDensity : 1.0f};
+  DeepSample* const deep = depth_ == 0 ? context_.deep : nullptr;
+  const EmissionLook look{weighs ? &gauge : nullptr, depth_ == 0 ? kSeenDensity : 1.0f, deep};
   Rgb T = beta_;
   for (auto part = span.parts.begin(); part != last && !is_black(T); ++part) {
     TrackingStats& stats = context_.counters.tracking;
     if (emits(*part)) {
       const Rng before = rng;
+      if (deep) deep->begin_emission(*part, T);
       const auto passed = emission_and_transmittance(part->view(), ray_, part->t0, part->t1, look, rng, stats);
       add(T * passed.emitted, depth_);
       if (context_.groups)

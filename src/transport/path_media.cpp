@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "transport/camera_matte.h"
+#include "transport/deep_sample.h"
 #include "transport/media/collision_place.h"
 #include "transport/path.h"
 #include "transport/span_far.h"
@@ -63,7 +65,7 @@ std::optional<Vertex> Path::pass_media(const Trace& trace) {
   const bool receives = depth_ == 0 && sharing_ == Sharing::offering;
   Span made = make_span(context_.world.media_context(), media_, ray_, trace, context_.counters.parity_errors);
   const Span& span = receives && !made.empty() ? receive_along(std::move(made), trace) : made;
-  if (depth_ == 0 && limits_.want_transmittance) record_transmittance(span);
+  if (depth_ == 0) record_camera_media(span);
   media_ = span.end;
   if (span.empty()) return std::nullopt;
   // After the last bounce only what the ray hits at its end counts: no collision need be drawn.
@@ -121,6 +123,7 @@ void Path::gather(const Span& span) {
   if (!span_search_ || !pairs_along_spans(context_.settings)) return;
   if (depth_ == 0) first_bounce_in_medium_ = true;  // of this light's path
   add_estimate(beta_, span_light(context_, span, *span_search_, beta_), depth_ + 1);
+  if (context_.deep && depth_ == 0) context_.deep->settle(beta_);
 }
 
 std::optional<Vertex> Path::fly(const Span& span, const Trace& trace) {
@@ -147,6 +150,12 @@ void Path::dim(const Span& span) {
   begin(Step::fly);
   Rng rng = context_.sampler.stream();
   beta_ *= tracked_transmittance(context_, span, rng);
+}
+
+void Path::record_camera_media(const Span& span) {
+  if (limits_.want_transmittance) record_transmittance(span);
+  if (context_.matte) context_.matte->see_through(context_, span);
+  if (context_.deep) context_.deep->see_through(context_, span);
 }
 
 void Path::record_transmittance(const Span& span) {

@@ -214,8 +214,7 @@ void SegmentShares::link(const Candidate& candidate, Path& receiver, Rgb T) cons
   if (!passage) return;
   const float own = collision.pdf * passage->likely;
   if (!(own > 0) || !std::isfinite(own + others)) return;
-  receiver.take(collision.f * T * passage->weight * find->flight * (find->scale / (own + others)), *find->path,
-                Path::Received::in_medium);
+  receiver.take_at(t, collision.f * T * passage->weight * find->flight * (find->scale / (own + others)), *find->path);
 }
 
 }  // namespace tyndall

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "math/small_vector.h"
+#include "transport/deep_sample.h"
 #include "transport/grouped_light.h"
 #include "transport/joint_ray.h"
 #include "transport/light_counts.h"
@@ -122,6 +123,7 @@ Rgb evaluate(const LightContext& context, const Span& span, const Pairs& pairs, 
     const Vec3 p = span.ray.at(pair.t);
     const Rgb light = pair.contribution * T * s.scale * arriving(context, pair.part->state, p, pair.light, sampler);
     if (context.groups) context.groups->estimate(pair.id, light);
+    if (context.deep && context.bounce == 0) context.deep->estimate(pair.t, light);
     sum += light;
   }
   return sum;

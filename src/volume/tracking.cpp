@@ -115,7 +115,9 @@ void gather(Walk& walk, const Passing& passing, EmissionTransmittance& result, R
     const LocalOptics at = walk.optics_at(t, passing.emissive);
     const Rgb sigma_t = at.sigma_a + at.sigma_s;
     count_lookup(max_component(sigma_t), rate, stats);
-    result.emitted += result.transmittance * passing.counted(t, at.emission) * (1 / rate);
+    const Rgb emitted = result.transmittance * passing.counted(t, at.emission) * (1 / rate);
+    result.emitted += emitted;
+    if (passing.look.sink) passing.look.sink->emitted(static_cast<float>(t), emitted);
     result.transmittance *= Rgb{1.0f} - sigma_t * (1 / rate);
   };
   for_each_collision(walk, result.transmittance, rng, stats, look, passing.look.density);

@@ -71,10 +71,19 @@ class EmissionGauge {
   virtual Rgb counted(MediaView media, Vec3 p, Rgb emission) const = 0;
 };
 
+/// Who wants to know where on its way emission was found.
+class EmissionSink {
+ public:
+  virtual ~EmissionSink() = default;
+  /// A term of EmissionTransmittance::emitted, found at `t`.
+  virtual void emitted(float t, Rgb light) = 0;
+};
+
 /// How emission is looked at on its way.
 struct EmissionLook {
   const EmissionGauge* gauge = nullptr;  ///< null: all of it counts
   float density = 1;                     ///< look-ups for each unit of the majorant's optical depth, > 0
+  EmissionSink* sink = nullptr;          ///< not told of what is known in closed form: homogeneous media without a gauge
 };
 
 /// Light emitted along an interval that reaches t0, and the transmittance of the whole interval.

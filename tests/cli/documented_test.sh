@@ -17,14 +17,14 @@ row() {
   sed 's/`//g; s/²/^2/g' "$3" | awk -v command="$1" -v option="$2" '
     /^## / { here = $2 == command }
     /^\|/ { split($0, cell, "|"); if (("," cell[2] ",") ~ "[ ,]" option "[ ,]") { if (here) own = $0; if (render) other = $0 } }
-    /^## / { render = $2 == "render" && command ~ /^(compare|farm|denoise|relight)$/ }
+    /^## / { render = $2 == "render" && command ~ /^(compare|farm|denoise|relight|matte|flatten)$/ }
     END { print own ? own : other }'
 }
 
 # compare_with MANUAL: what it lacks.
 compare_with() {
   local command line option wanted found
-  for command in render compare diff regress merge denoise relight status farm example; do
+  for command in render compare diff regress merge denoise relight matte flatten status farm example; do
     while read -r line; do
       option=$(sed -E 's/^ *([^ :=]*,)?(--[a-z-]+).*/\2/' <<<"$line")
       found=$(row "$command" "$option" "$1")

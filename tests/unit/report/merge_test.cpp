@@ -11,6 +11,7 @@
 #include "support/relative.h"
 #include "support/scene_text.h"
 #include "support/scratch.h"
+#include "tyndall/cryptomatte.h"
 #include "tyndall/io.h"
 
 using namespace tyndall;
@@ -237,6 +238,43 @@ TEST_CASE("what does not go together is refused with what is wrong and where") {
   files.write("u.exr", uncounted);
   CHECK_SAYS(files.refusal({"u.exr"}), "has Z but not SurfaceCount");
   CHECK_SAYS(files.refusal({"missing.exr"}), "missing.exr: file not found");
+}
+
+TEST_CASE("mattes are merged by their ids, whatever their ranks, and then cut to six") {
+  const std::vector<std::vector<MatteCoverage>> of_a{
+      {{1u << 30, 0.6f}, {2u << 28, 0.3f}}, {{7u << 26, 0.2f}, {9u << 26, 0.19f}, {11u << 26, 0.18f}, {13u << 26, 0.17f}}};
+  const std::vector<std::vector<MatteCoverage>> of_b{
+      {{2u << 28, 0.9f}}, {{15u << 26, 0.25f}, {13u << 26, 0.24f}, {17u << 26, 0.02f}, {19u << 26, 0.01f}}};
+  const auto made = [](std::uint64_t seed, int samples, const auto& covers, const std::string& manifest) {
+    Image image = made_slice(seed, samples);
+    MatteWriter writer(image, "CryptoObject");
+    for (std::size_t pixel = 0; pixel < 2; ++pixel) writer.set(pixel, covers[pixel]);
+    image.attributes[manifest_attribute("CryptoObject")] = manifest;
+    return image;
+  };
+  Files files;
+  files.write("a.exr", made(1, 2, of_a, "{}")), files.write("b.exr", made(2, 6, of_b, "{}"));
+  const Image merged = files.merge({"a.exr", "b.exr"});
+  const MatteReader mattes(merged, "CryptoObject");
+  const auto first = mattes.at(0), second = mattes.at(1);
+  REQUIRE(first.size() == 2);
+  CHECK(first[0].id == 2u << 28);
+  CHECK(first[0].coverage == doctest::Approx((2 * 0.3 + 6 * 0.9) / 8));
+  CHECK(first[1].id == 1u << 30);
+  CHECK(first[1].coverage == doctest::Approx(2 * 0.6 / 8));
+  REQUIRE(second.size() == kMatteRanks);
+  CHECK(second[0].id == 13u << 26);
+  CHECK(second[0].coverage == doctest::Approx((2 * 0.17 + 6 * 0.24) / 8));
+  CHECK(second[1].id == 15u << 26);
+  CHECK(second[5].id == 17u << 26);
+  CHECK(mattes.at(2).empty());
+  CHECK(merged.attribute<std::string>(manifest_attribute("CryptoObject")));
+  CHECK(files.bytes(merged) == files.bytes(files.merge({"b.exr", "a.exr"})));
+
+  files.write("other.exr", made(3, 2, of_a, "{\"x\":\"3f800000\"}"));
+  CHECK(contains(files.refusal({"a.exr", "other.exr"}), "other.exr: its CryptoObject has other names than in "));
+  files.write("none.exr", made_slice(4, 2));
+  CHECK(contains(files.refusal({"a.exr", "none.exr"}), "CryptoObject00.A"));
 }
 
 TEST_CASE("crops of one seed, merged, are the whole picture bit for bit; two seeds are the mean of their samples") {

@@ -69,6 +69,21 @@ TEST_CASE("sums of light groups are planned where the scene names groups") {
   CHECK(film() - one == (one - bare) / 2);
 }
 
+TEST_CASE("mattes and deep images are planned where they are asked for") {
+  Scene scene;
+  scene.film.crop = {0, 0, 1000, 500};
+  const auto film = [&] { return part(plan_memory(scene, kTree), "film"); };
+  const std::size_t bare = film();
+  scene.settings.aovs = {"CryptoObject"};
+  CHECK(film() >= bare + 500'000 * 12 * 4);
+  scene.settings.aovs.clear();
+  scene.settings.deep_bins = 16;
+  const std::size_t deep = film();
+  CHECK(deep >= bare + 500'000 * 16 * 76);
+  scene.settings.deep_bins = 34;
+  CHECK(film() - bare >= 2 * (deep - bare) - 500'000 * 40);
+}
+
 TEST_CASE("lights that instances share are planned once, for who shares them") {
   TriangleMesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {}, {}, {}};
   for (std::uint32_t i = 0; i < 3000; ++i) mesh.indices.push_back(i % 3);

@@ -146,10 +146,10 @@ std::set<const void*> without_effect(Scene& s) {
   for (Material& m : s.materials) collect.visit(m.where), collect.visit(m.name);
   for (Medium& m : s.media) collect.visit(m.where), collect.visit(m.name);
   for (Light& l : s.lights) collect.visit(l.where);
-  for (Shape& shape : s.shapes) collect.visit(shape.where);
+  for (Shape& shape : s.shapes) collect.visit(shape.where), collect.visit(shape.name);
   for (Object& o : s.objects) {
     collect.visit(o.name);
-    for (Shape& shape : o.shapes) collect.visit(shape.where);
+    for (Shape& shape : o.shapes) collect.visit(shape.where), collect.visit(shape.name);
   }
   return addresses;
 }

@@ -1,4 +1,4 @@
-#include "report/utf8.h"
+#include "tyndall/utf8.h"
 
 #include <algorithm>
 
@@ -24,6 +24,15 @@ std::size_t utf8_count(std::string_view text) {
   std::size_t count = 0;
   for (std::size_t i = 0; i < text.size(); i += std::max<std::size_t>(utf8_length(text, i), 1)) ++count;
   return count;
+}
+
+std::string valid_utf8(std::string_view text) {
+  std::string valid;
+  for (std::size_t i = 0, length = 0; i < text.size(); i += std::max<std::size_t>(length, 1)) {
+    length = utf8_length(text, i);
+    valid += length > 0 ? text.substr(i, length) : std::string_view("\xef\xbf\xbd");
+  }
+  return valid;
 }
 
 }  // namespace tyndall

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <string_view>
 
 namespace tyndall {
@@ -12,5 +13,8 @@ std::size_t utf8_length(std::string_view text, std::size_t at);
 
 /// Characters, each bad byte counted as one: the columns of a table, of scripts whose letters are one column wide.
 std::size_t utf8_count(std::string_view text);
+
+/// The text, each bad byte as U+FFFD.
+std::string valid_utf8(std::string_view text);
 
 }  // namespace tyndall

@@ -1,0 +1,58 @@
+/// What a film knows only of some things in each pixel: who covers it, and where in depth its light is from.
+#include <array>
+#include <limits>
+
+#include "session/film_buffer.h"
+
+namespace tyndall {
+namespace {
+
+/// Ids that a slice keeps a pixel: what is cut of one would be missing in the sum of all.
+constexpr std::size_t kMatteRanksOfSlice = 12;
+
+}  // namespace
+
+void FilmBuffer::add_matte(const SamplePlace& at, Aov layer, MatteCoverage cover, float weight) {
+  const auto i = std::find(mattes_.begin(), mattes_.end(), layer) - mattes_.begin();
+  const float term = cover.coverage * weight;
+  if (term != 0) keyed_[static_cast<std::size_t>(i)].add(crop_.index(at.x, at.y), cover.id, {&term, 1});
+}
+
+void FilmBuffer::store_mattes(Image& image, const SampleCounts& samples) const {
+  for (std::size_t layer = 0; layer < mattes_.size(); ++layer) {
+    MatteWriter writer(image, name_of_aov(mattes_[layer]));
+    const KeyedSums& sums = keyed_[layer];
+    std::vector<MatteCoverage> covers;
+    for (std::size_t pixel = 0; pixel < sums.pixels(); ++pixel) {
+      covers.clear();
+      for (std::size_t i = 0; i < sums.size(pixel); ++i)
+        covers.push_back({sums.key(pixel, i), static_cast<float>(sums.value(pixel, i, 0) / samples.of(pixel))});
+      writer.set(pixel, covers);
+    }
+  }
+}
+
+void FilmBuffer::add_deep(const SamplePlace& at, std::span<const DeepSample::Part> parts, float weight) {
+  for (const DeepSample::Part& part : parts) {
+    const std::array<float, kSumsOfDepth> terms{
+        part.light.r * weight, part.light.g * weight, part.light.b * weight, part.opacity * weight, part.z, part.count};
+    keyed_.back().add(crop_.index(at.x, at.y), part.key, terms);
+  }
+}
+
+std::string FilmBuffer::keyed_name(std::size_t layer) const {
+  return layer < mattes_.size() ? name_of_aov(mattes_[layer]) : "Deep";
+}
+
+void FilmBuffer::store_keyed(Image& image) const {
+  for (std::size_t layer = 0; layer < keyed_.size(); ++layer) {
+    const std::size_t most = layer < mattes_.size() ? kMatteRanksOfSlice : std::numeric_limits<std::size_t>::max();
+    store_keyed_sums(keyed_[layer], keyed_name(layer), most, image);
+  }
+}
+
+void FilmBuffer::add_keyed(const Image& image) {
+  for (std::size_t layer = 0; layer < keyed_.size(); ++layer) add_keyed_sums(image, keyed_name(layer), keyed_[layer]);
+}
+
+}  // namespace tyndall
