@@ -39,7 +39,7 @@ render s.pbrt "${long[@]}" -o broken.exr --resume
 cmp straight.exr broken.exr || fail "a resumed render has other groups"
 sed 's/"sky"/"dome"/' s.pbrt >other.pbrt
 cp straight.exr kept.exr
-timeout -s INT 0.4 "$T" render s.pbrt --spp 100000 -o stopped.exr --checkpoint 60 --quiet 2>/dev/null
+timeout -s INT 1.5 "$T" render s.pbrt --spp 100000 -o stopped.exr --checkpoint 60 --quiet 2>/dev/null
 if [ -f stopped.exr.checkpoint ]; then
   expect 3 "$T" render other.pbrt --spp 100000 -o stopped.exr --resume --quiet
   says 'is of another scene' err.txt
