@@ -5,6 +5,7 @@
 
 #include "light/instance_runs.h"
 #include "light/lights_parts.h"
+#include "light/selection_input.h"
 #include "tyndall/error.h"
 #include "tyndall/timer.h"
 
@@ -42,8 +43,6 @@ class Builder {
   Emitter emitter(const Shape& shape, const Transform& to_world);
   Emission emission(const Shape& shape);
   std::uint32_t image(const AreaLight& light, const Location& where);
-  SelectionInput selection_input() const;
-  void add_instances(SelectionInput& input) const;
   void add_selector(LightStrategy strategy, SelectionInput input);
   void add_selectors_of_surfaces(SelectionInput input);
   void count(const SelectionInput& input);
@@ -198,60 +197,6 @@ void Builder::add(const VolumeEmitter& volume) {
   parts_->volumes.push_back(volume);
 }
 
-SelectionInput Builder::selection_input() const {
-  const Lights::Parts& p = *parts_;
-  SelectionInput input;
-  input.threads = options_.threads;
-  input.power.reserve(p.lights.size());
-  const auto& wanted = options_.strategies;
-  const bool tree = std::any_of(wanted.begin(), wanted.end(), uses_bounds);
-  if (tree) input.near.reserve(p.lights.size());
-  const auto add_near = [&](LightBounds bounds, LightId id) { input.near.push_back({bounds, id}); };
-  for (LightId id = 0; id < p.lights.size(); ++id) {
-    const auto r = p.lights[id];
-    const double power = p.power(id);
-    input.power.push_back(std::isfinite(power) ? power : 0);
-    if (!tree || !(input.power.back() > 0)) continue;
-    if (r.kind == Kind::emitter) add_near(p.emitters[r.index].bounds(r.primitive), id);
-    if (r.kind == Kind::volume) add_near(p.volumes[r.index].bounds(), id);
-    if (r.kind == Kind::profile) add_near(p.profiles[r.index].bounds(), id);
-    if (r.kind == Kind::portal) add_near(p.portals[r.index].bounds(), id);
-    if (r.kind == Kind::environment) input.far.push_back({p.environments[r.index].cones(), id});
-    if (r.kind == Kind::distant) {
-      const DeltaArrival a = p.distants[r.index].arrival();
-      const auto E = static_cast<float>(strength(a.L));
-      input.far.push_back({{{DirectionCone::around(a.wi), a.wi, E, E}}, id});
-    }
-    if (r.kind == Kind::point || r.kind == Kind::spot) {
-      LightBounds bounds = r.kind == Kind::point ? p.points[r.index].bounds() : p.spots[r.index].bounds();
-      const Rgb I = r.kind == Kind::point ? p.points[r.index].intensity() : p.spots[r.index].intensity();
-      bounds.intensity = static_cast<float>(strength(I));
-      add_near(bounds, id);
-    }
-  }
-  add_instances(input);
-  return input;
-}
-
-void Builder::add_instances(SelectionInput& input) const {
-  const InstancedEmitters& instanced = parts_->instanced;
-  for (const EmitterObject& object : instanced.objects()) {
-    SharedLights& lights = input.objects.emplace_back();
-    for (const Emitter& e : object.emitters()) {
-      for (std::uint32_t i = 0; i < e.size(); ++i) {
-        const double power = e.power(i);
-        const auto number = static_cast<LightId>(lights.power.size());
-        lights.power.push_back(std::isfinite(power) ? power : 0);
-        if (lights.power.back() > 0) lights.near.push_back({e.bounds(i), number});
-      }
-    }
-  }
-  for (const EmitterInstance& i : instanced.instances()) {
-    const double growth = power_scale(instanced.object_of(i).emitters().front(), i.to_world);
-    input.instances.push_back({i.object, i.first, i.to_world, growth});
-  }
-}
-
 void Builder::count(const SelectionInput& input) {
   LightStats& stats = parts_->stats;
   stats.lights = parts_->lights.size() + parts_->instanced_lights;
@@ -262,6 +207,11 @@ void Builder::count(const SelectionInput& input) {
     stats.power += power;
     if (!(power > 0)) ++stats.dark;
   }
+  double far = 0;
+  for (LightId id = 0; id < parts_->lights.size(); ++id) {
+    const Kind kind = parts_->lights[id].kind;
+    if (kind == Kind::distant || kind == Kind::environment) far += input.power[id];
+  }
   stats.shared = parts_->instanced_lights;
   stats.emitters += stats.shared;
   for (const LightInstance& i : input.instances) {
@@ -270,6 +220,7 @@ void Builder::count(const SelectionInput& input) {
       if (!(power > 0)) ++stats.dark;
     }
   }
+  parts_->near_power = stats.power - far;
 }
 
 void Builder::enclose() {
@@ -292,9 +243,8 @@ void Builder::enclose() {
 void Builder::gather_far() {
   Lights::Far& far = parts_->far;
   for (const DistantEmitter& d : parts_->distants) {
-    const DeltaArrival a = d.arrival();
-    const auto E = static_cast<float>(strength(a.L));
-    if (E > 0 && std::isfinite(E)) far.suns.push_back({DirectionCone::around(a.wi), a.wi, E, E});
+    const FarCone cone = d.cone();
+    if (cone.fluence > 0 && std::isfinite(cone.fluence)) far.suns.push_back(cone);
   }
   for (const Environment& e : parts_->environments) {
     double rest = strength(e.mean_radiance()) * 4 * double{kPi};
@@ -328,7 +278,7 @@ Lights Builder::finish(const Bounds3& scene_bounds) {
     const double radius = 0.5 * length(scene_bounds.extent());
     if (radius > 0 && std::isfinite(radius)) parts_->scene_radius = radius;
   }
-  SelectionInput input = selection_input();
+  SelectionInput input = selection_input(*parts_, options_);
   count(input);
   enclose();
   gather_far();

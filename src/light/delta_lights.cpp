@@ -43,4 +43,9 @@ Rgb SpotEmitter::power() const { return I_ * (2 * kPi * ((1 - cos_start_) + (cos
 
 LightBounds SpotEmitter::bounds() const { return bounds_at(position_, core_, end_ - start_); }
 
+FarCone DistantEmitter::cone() const {
+  const auto E = static_cast<float>(strength(E_));
+  return {DirectionCone::around(wi_), wi_, E, E};
+}
+
 }  // namespace tyndall

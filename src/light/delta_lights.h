@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "light/far_lights.h"
 #include "light/light_space.h"
 #include "tyndall/scene.h"
 
@@ -48,6 +49,7 @@ class DistantEmitter {
   explicit DistantEmitter(const DistantLight& light) : wi_(normalize(-light.direction)), E_(light.E) {}
   DeltaArrival arrival() const { return {wi_, kInfinity, E_}; }
   Rgb irradiance() const { return E_; }
+  FarCone cone() const;
 
  private:
   Vec3 wi_;  ///< toward the light

@@ -64,6 +64,7 @@ const Lights::Far& Lights::far() const { return parts_->far; }
 const LightStats& Lights::stats() const { return parts_->stats; }
 double Lights::power(LightId light) const { return parts_->power(light); }
 const Bounds3& Lights::near_box() const { return parts_->near_box; }
+double Lights::near_power() const { return parts_->near_power; }
 const Bounds3& Lights::point_box() const { return parts_->point_box; }
 std::span<const LightId> Lights::infinite() const { return parts_->infinite; }
 LightId Lights::first_light(std::size_t emitter_shape) const { return parts_->first_light[emitter_shape]; }

@@ -123,6 +123,7 @@ class Lights {
   std::optional<Vec3> point(LightId light) const;
   /// Encloses all lights of surfaces and points, and portals; empty where all are at infinity. Media that emit are not in it.
   const Bounds3& near_box() const;
+  double near_power() const;         ///< W, of all that are not at infinity
   const Bounds3& point_box() const;  ///< of those that have a point() alone
   const LightStats& stats() const;
   std::size_t memory_bytes() const;  ///< selectors included

@@ -48,6 +48,7 @@ struct Lights::Parts {
   EmissionMaps maps;
   double scene_radius = 1;
   Bounds3 near_box, point_box;
+  double near_power = 0;
   std::vector<SelectorStats> selector_stats;
   std::vector<std::unique_ptr<const LightSelector>> selectors;  ///< as in selector_stats
   /// The same without the volumes; empty where there are none.

@@ -14,15 +14,6 @@ constexpr float kLeastSun = 0.1f;
 /// Of a direction e^-4 is left after this many turns of the mean cosine each: behind more, all light is even.
 constexpr float kTurns = 4;
 
-float power_nearby(const Lights& lights) {
-  double power = 0;
-  for (LightId id = 0; id < lights.size(); ++id) {
-    const double p = lights.place(id).center ? lights.power(id) : 0;
-    if (std::isfinite(p)) power += p;
-  }
-  return static_cast<float>(power);
-}
-
 /// Mean albedo of single scattering.
 float albedo_of(const ActiveMedia& media) {
   float sum = 0, count = 0;
@@ -44,9 +35,8 @@ Aureoles::Aureoles(const Lights& lights) : rest_(lights.far().rest) {
       rest_ += sun.fluence;
     }
   }
-  if (suns_.empty() || lights.near_box().empty()) return;
-  near_ = lights.near_box();
-  near_power_ = power_nearby(lights);
+  if (!suns_.empty() && !lights.near_box().empty())
+    near_ = NearFluence(lights.near_box(), static_cast<float>(lights.near_power()));
 }
 
 std::optional<Aureole> Aureoles::at(const BuiltWorld& world, const Vertex& vertex) const {
@@ -54,13 +44,8 @@ std::optional<Aureole> Aureoles::at(const BuiltWorld& world, const Vertex& verte
   const ActiveMedia media = vertex.media().active(groups, world.media);
   const Bounds3 box = vertex.media().bounds(groups);
   const Vec3 p = vertex.p();
-  float rest = rest_;
-  if (near_power_ > 0) {
-    const float half = 0.5f * length(near_.extent());
-    rest += near_power_ / (4 * kPi * std::max(length_squared(p - near_.center()), half * half));
-  }
   const float g = vertex.medium()->phase.mean_cosine(), deepest = kTurns / std::max(1 - g, 0.05f);
-  Aureole aureole({g, albedo_of(media)}, rest);
+  Aureole aureole({g, albedo_of(media)}, rest_ + near_.at(p));
   for (const FarCone& sun : suns_) {
     const Ray ray{p, sun.directions.axis};
     if (!world.geometry.trace_shadow(ray, 0, kInfinity)) continue;

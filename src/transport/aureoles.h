@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "light/lights.h"
+#include "transport/near_fluence.h"
 #include "transport/vertex.h"
 #include "volume/aureole.h"
 
@@ -24,8 +25,7 @@ class Aureoles {
  private:
   std::vector<FarCone> suns_;
   float rest_ = 0;  ///< fluence of the other lights at infinity
-  Bounds3 near_;    ///< encloses lights that are not
-  float near_power_ = 0;
+  NearFluence near_;
 };
 
 }  // namespace tyndall

@@ -116,8 +116,9 @@ BrightMedia::BrightMedia(const std::vector<ParticipatingMedium>& media, const Su
 
   emits_ = std::any_of(filled.begin(), filled.end(), [](const Filled& f) { return f.medium.emissive(); });
   const std::vector<Near> near = gather_near_lights(lights, volume_lights);
-  near_ = lights.near_box();
-  for (const Near& light : near) near_power_ += light.power;
+  float near_power = 0;
+  for (const Near& light : near) near_power += light.power;
+  near_fluence_ = NearFluence(lights.near_box(), near_power);
   far_light_ = gather_far(lights, volume_lights, scene);
 
   std::vector<Cell> cells;
@@ -141,10 +142,6 @@ BrightMedia::BrightMedia(const std::vector<ParticipatingMedium>& media, const Su
   }
 }
 
-float BrightMedia::in_scattered(Vec3 p) const {
-  if (near_power_ == 0) return far_light_;
-  const float half = 0.5f * length(near_.extent());
-  return far_light_ + near_power_ / (4 * kPi * std::max(length_squared(p - near_.center()), half * half));
-}
+float BrightMedia::in_scattered(Vec3 p) const { return far_light_ + near_fluence_.at(p); }
 
 }  // namespace tyndall

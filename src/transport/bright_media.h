@@ -8,6 +8,7 @@
 
 #include "light/lights.h"
 #include "surface/geometry.h"
+#include "transport/near_fluence.h"
 #include "transport/volume_lights.h"
 #include "volume/medium.h"
 
@@ -49,8 +50,8 @@ class BrightMedia {
   std::size_t size_ = 0;
   bool emits_ = false;
   alignas(32) PerCell<float> x_{}, y_{}, z_{}, radius_{}, radiance_{};
-  Bounds3 near_;
-  float near_power_ = 0, far_light_ = 0;
+  NearFluence near_fluence_;
+  float far_light_ = 0;
 };
 
 }  // namespace tyndall

@@ -42,7 +42,7 @@ struct BuiltWorld {
   Lights lights;
   LightDistances light_distances;    ///< empty where all media are unbounded, or all lights are far
   BrightMedia bright_media;          ///< empty where all media are homogeneous
-  Aureoles aureoles;                 ///< empty where no sun shines
+  Aureoles aureoles;                 ///< empty where the scene has no sun
   LightGroups light_groups;          ///< empty where the scene names none
   std::vector<LightId> first_light;  ///< by placed shape; kNone where it does not emit
   CameraRays camera;
