@@ -20,6 +20,7 @@ namespace tyndall {
 
 /// In the order of their AOVs, which have the same names.
 inline constexpr std::array<std::string_view, 3> kMatteLayers{"CryptoObject", "CryptoMaterial", "CryptoMedium"};
+bool is_matte_layer(std::string_view name);  ///< one of these
 /// Ids a pixel that an image keeps of a layer.
 inline constexpr std::size_t kMatteRanks = 6;
 

@@ -10,6 +10,7 @@ namespace tyndall {
 
 /// Packing of OpenEXR files. All but dwaa and dwab, which keep what the eye sees, keep every bit.
 enum class ExrCompression { none, rle, zips, zip, piz, dwaa, dwab };
+constexpr bool is_lossy(ExrCompression c) { return c == ExrCompression::dwaa || c == ExrCompression::dwab; }
 
 struct ExrSettings {
   /// Colours as 16-bit floats: 11 bits of precision, 65504 at most, to which larger values are clamped. Positions, depths,

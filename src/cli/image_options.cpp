@@ -74,9 +74,9 @@ ImageFormat image_format(const ImageOptions& o, const std::string& path) {
 }
 
 void require_fit(const ImageFormat& format, const Image& image, const std::string& path) {
-  const bool lossy = format.exr.compression == ExrCompression::dwaa || format.exr.compression == ExrCompression::dwab;
   const auto& channels = image.channels;
-  if (lossy && std::any_of(channels.begin(), channels.end(), [](const Channel& c) { return is_matte_channel(c.name); }))
+  if (is_lossy(format.exr.compression) &&
+      std::any_of(channels.begin(), channels.end(), [](const Channel& c) { return is_matte_channel(c.name); }))
     throw Error(Failure::usage, path + ": has mattes, ids that lossy --compression would change; leave it out");
 }
 

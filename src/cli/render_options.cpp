@@ -292,7 +292,7 @@ namespace {
 /// A slice holds exact sums, in one place.
 void require_exact(const ImageOptions& image, const std::string& path) {
   const ExrSettings exr = image_format(image, path).exr;
-  const bool exact = !exr.half && exr.compression != ExrCompression::dwaa && exr.compression != ExrCompression::dwab;
+  const bool exact = !exr.half && !is_lossy(exr.compression);
   if (std::filesystem::path(path).extension() != ".exr")
     bad("output", path, "a name that ends in .exr: a slice holds exact sums");
   if (!exact || exr.parts)
@@ -301,11 +301,8 @@ void require_exact(const ImageOptions& image, const std::string& path) {
 
 /// Ids are names, of which every bit counts.
 void require_exact_mattes(const ImageOptions& image, const std::string& path, const std::vector<std::string>& aovs) {
-  const bool mattes = std::any_of(aovs.begin(), aovs.end(), [](const std::string& aov) {
-    return std::find(kMatteLayers.begin(), kMatteLayers.end(), aov) != kMatteLayers.end();
-  });
-  const ExrCompression packing = image_format(image, path).exr.compression;
-  if (mattes && (packing == ExrCompression::dwaa || packing == ExrCompression::dwab))
+  const bool mattes = std::any_of(aovs.begin(), aovs.end(), is_matte_layer);
+  if (mattes && is_lossy(image_format(image, path).exr.compression))
     throw Error(Failure::usage, "mattes are ids, which lossy --compression would change; leave it, or Crypto of --aov, out");
 }
 

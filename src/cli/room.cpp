@@ -21,10 +21,7 @@ constexpr std::uint64_t kHeader = 1 << 16;
 /// R G B A, and at most as many for each AOV, but for mattes.
 std::uint64_t channels_of(const Scene& scene) {
   std::uint64_t channels = 4;
-  for (const std::string& aov : scene.settings.aovs) {
-    const bool matte = std::find(kMatteLayers.begin(), kMatteLayers.end(), aov) != kMatteLayers.end();
-    channels += matte ? 2 * kMatteRanks : 4;
-  }
+  for (const std::string& aov : scene.settings.aovs) channels += is_matte_layer(aov) ? 2 * kMatteRanks : 4;
   return channels;
 }
 

@@ -106,8 +106,6 @@ void encode(const Image& image, const ExrSettings& settings, ExrStream& stream) 
   }
 }
 
-bool is_lossy(ExrCompression c) { return c == ExrCompression::dwaa || c == ExrCompression::dwab; }
-
 /// What was written, read again.
 void require_holds(const AtomicFile& file, const Image& image, ExrCompression compression) {
   bool same = false;

@@ -57,6 +57,10 @@ void describe_mattes(Image& image, std::string_view layer, const MatteNames& nam
   image.attributes[manifest_attribute(layer)] = manifest_text(names);
 }
 
+bool is_matte_layer(std::string_view name) {
+  return std::find(kMatteLayers.begin(), kMatteLayers.end(), name) != kMatteLayers.end();
+}
+
 bool is_matte_channel(std::string_view channel) {
   return std::any_of(kMatteLayers.begin(), kMatteLayers.end(),
                      [&](std::string_view layer) { return channel.starts_with(layer) && channel.size() == layer.size() + 4; });

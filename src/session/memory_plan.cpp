@@ -19,9 +19,7 @@ namespace {
 double plan_keyed(const RenderSettings& settings) {
   constexpr double kSum = sizeof(double) + sizeof(float), kKey = sizeof(std::uint32_t), kList = 40;
   const auto& aovs = settings.aovs;
-  const auto layers = static_cast<double>(std::count_if(aovs.begin(), aovs.end(), [](const std::string& aov) {
-    return std::find(kMatteLayers.begin(), kMatteLayers.end(), aov) != kMatteLayers.end();
-  }));
+  const auto layers = static_cast<double>(std::count_if(aovs.begin(), aovs.end(), is_matte_layer));
   double bytes = layers * (kList + 4 * (kKey + kSum) + 2 * 2 * kMatteRanks * sizeof(float));
   if (settings.deep_bins)
     bytes += kList + (*settings.deep_bins + 2) * (kKey + kSumsOfDepth * kSum + 2 * sizeof(DeepPixelSample));
