@@ -2,14 +2,13 @@
 #include <mutex>
 
 #include "math/parallel.h"
+#include "session/block_render.h"
 #include "session/build_id.h"
 #include "session/checkpoint.h"
 #include "session/film_buffer.h"
 #include "session/flush_denormals.h"
 #include "session/image_header.h"
 #include "session/matte_layers.h"
-#include "session/pixel_block.h"
-#include "session/pixel_sample.h"
 #include "session/render_pass.h"
 #include "session/resolved_settings.h"
 #include "session/sample_plan.h"
@@ -71,7 +70,8 @@ class RenderJob::Impl {
                          .want_albedo = film_.wants(Aov::albedo)},
                         !mattes_.empty(),
                         deep_ ? &deep_->bins : nullptr},
-        pool_(settings.threads) {
+        pool_(settings.threads),
+        blocks_({sample_context_, mattes_, film_points_, film_emitters_, first_sample_, film_}) {
     if (*settings_.adaptive) plan_.emplace(film_.crop(), settings_.spp);
   }
 
@@ -212,15 +212,6 @@ class RenderJob::Impl {
     preparing_seconds_ = search_timer.seconds();
   }
 
-  PixelFilm film_of(PixelPlace p) const {
-    if (!film_.crop().contains(p.x, p.y)) return PixelFilm();
-    return {film_points_.of(p.x, p.y), film_emitters_.of(p.x, p.y)};
-  }
-
-  /// Of a pixel in a pass: [begin, end).
-  struct SampleSpan {
-    int begin, end;
-  };
   SampleSpan samples_of(PixelPlace p, int count) const {
     if (!plan_) return {samples_, samples_ + count};
     const std::size_t block = plan_->grid().index(p.x, p.y);
@@ -239,76 +230,18 @@ class RenderJob::Impl {
 
   /// False: the pass was given up.
   bool render_tile(RenderPass& pass, const PixelBounds& pixels, Counters& counters) {
-    const bool shares = settings_.reuse == ReuseStrategy::pixels;
     const auto group = std::make_unique<PixelGroup>();
     for (int y = pixels.y0; y < pixels.y1; y += PixelBlock::kSide - y % PixelBlock::kSide) {
       for (int x = pixels.x0; x < pixels.x1; x += PixelBlock::kSide - x % PixelBlock::kSide) {
         if (pass.given_up) return false;
-        const PixelBlock sharing(x, y, shares ? frame() : pixels);
         const SampleSpan samples = samples_of({x, y}, pass.count);
         const std::uint64_t before = work_of(counters);
-        if (shares) {
-          render_shared(sharing, samples, *group, counters);
-        } else {
-          render_apart(sharing, samples, *group, counters);
-        }
+        blocks_.render({x, y}, pixels, samples, {*group, counters});
         if (plan_) plan_->add_work(plan_->grid().index(x, y), work_of(counters) - before);
         pass.tell(PixelBlock(x, y, pixels).pixels().size() * static_cast<std::size_t>(samples.end - samples.begin));
       }
     }
     return true;
-  }
-
-  PixelBounds frame() const { return {0, 0, world_.built.scene.film.width, world_.built.scene.film.height}; }
-  SampleKey key_of(PixelPlace p, int sample) const { return {settings_.seed, p.x, p.y, first_sample_ + sample}; }
-
-  void render_apart(const PixelBlock& block, SampleSpan samples, PixelGroup& group, Counters& counters) {
-    for (const PixelPlace p : block.pixels()) {
-      const PixelFilm film = film_of(p);
-      for (int s = samples.begin; s < samples.end; ++s) {
-        group.clear();
-        group.add(sample_context_, key_of(p, s), film, counters);
-        add_to_film(group, counters);
-      }
-    }
-  }
-
-  /// Whoever shares with a pixel that is rendered has its path as well, so that a crop has the same bits.
-  void render_shared(const PixelBlock& block, SampleSpan samples, PixelGroup& group, Counters& counters) {
-    for (int s = samples.begin; s < samples.end; ++s) {
-      group.clear();
-      for (const PixelPlace p : block.pixels()) group.add(sample_context_, key_of(p, s), film_of(p), counters);
-      add_to_film(group, counters);
-    }
-  }
-
-  void add_to_film(PixelGroup& group, Counters& counters) {
-    group.run(sample_context_, counters);
-    for (std::size_t i = 0; i < group.size(); ++i) {
-      PixelSample& sample = group[i];
-      const SampleKey& key = sample.key();
-      if (!film_.crop().contains(key.x, key.y)) continue;
-      PathRecord record = sample.record();
-      std::span<const Rgb> groups = sample.by_group();
-      const bool finite = record.is_finite();
-      if (!finite) {
-        ++counters.non_finite;
-        counters.bad_samples.push_back({key.x, key.y, key.sample});
-        if (counters.bad_samples.size() > 4 * kBadSamplesKept) counters.trim_bad_samples();
-        record = PathRecord();
-        record.alpha = 0;
-        groups = {};
-      }
-      film_.add(key.x, key.y, key.sample, record, sample.weight());
-      if (!groups.empty()) film_.add_groups({key.x, key.y, key.sample}, record.radiance(), groups, sample.weight());
-      if (finite) add_seen(sample);
-    }
-  }
-
-  void add_seen(const PixelSample& sample) {
-    const FilmBuffer::SamplePlace at{sample.key().x, sample.key().y, sample.key().sample};
-    if (sample.matte()) mattes_.add(film_, at, *sample.matte(), sample.weight());
-    film_.add_deep(at, sample.by_depth(), sample.weight());
   }
 
   /// Of a first pass that was given up.
@@ -353,6 +286,7 @@ class RenderJob::Impl {
   FilmEmitters film_emitters_;
   int samples_ = 0;
   double seconds_ = 0;
+  BlockRender blocks_;  ///< refers to the above
   std::mutex mutex_;
   Counters counters_;
   std::vector<PixelBounds> unrendered_;  ///< tiles that the given-up first pass did not finish

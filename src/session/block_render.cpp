@@ -1,0 +1,72 @@
+#include "session/block_render.h"
+
+namespace tyndall {
+
+void BlockRender::render(PixelPlace corner, const PixelBounds& tile, SampleSpan samples, const Scratch& scratch) const {
+  if (shared_.context.settings.reuse != ReuseStrategy::pixels)
+    return render_apart(PixelBlock(corner.x, corner.y, tile), samples, scratch);
+  const Film& film = shared_.context.world.built.scene.film;
+  render_shared(PixelBlock(corner.x, corner.y, {0, 0, film.width, film.height}), samples, scratch);
+}
+
+PixelFilm BlockRender::film_of(PixelPlace p) const {
+  if (!shared_.film.crop().contains(p.x, p.y)) return PixelFilm();
+  return {shared_.points.of(p.x, p.y), shared_.emitters.of(p.x, p.y)};
+}
+
+SampleKey BlockRender::key_of(PixelPlace p, int sample) const {
+  return {shared_.context.settings.seed, p.x, p.y, shared_.first_sample + sample};
+}
+
+void BlockRender::render_apart(const PixelBlock& block, SampleSpan samples, const Scratch& scratch) const {
+  for (const PixelPlace p : block.pixels()) {
+    const PixelFilm film = film_of(p);
+    for (int s = samples.begin; s < samples.end; ++s) {
+      scratch.group.clear();
+      scratch.group.add(shared_.context, key_of(p, s), film, scratch.counters);
+      add_to_film(scratch);
+    }
+  }
+}
+
+/// Whoever shares with a pixel that is rendered has its path as well, so that a crop has the same bits.
+void BlockRender::render_shared(const PixelBlock& block, SampleSpan samples, const Scratch& scratch) const {
+  for (int s = samples.begin; s < samples.end; ++s) {
+    scratch.group.clear();
+    for (const PixelPlace p : block.pixels()) scratch.group.add(shared_.context, key_of(p, s), film_of(p), scratch.counters);
+    add_to_film(scratch);
+  }
+}
+
+void BlockRender::add_to_film(const Scratch& scratch) const {
+  auto& [group, counters] = scratch;
+  FilmBuffer& film = shared_.film;
+  group.run(shared_.context, counters);
+  for (std::size_t i = 0; i < group.size(); ++i) {
+    PixelSample& sample = group[i];
+    const SampleKey& key = sample.key();
+    if (!film.crop().contains(key.x, key.y)) continue;
+    PathRecord record = sample.record();
+    std::span<const Rgb> groups = sample.by_group();
+    const bool finite = record.is_finite();
+    if (!finite) {
+      ++counters.non_finite;
+      counters.bad_samples.push_back({key.x, key.y, key.sample});
+      if (counters.bad_samples.size() > 4 * kBadSamplesKept) counters.trim_bad_samples();
+      record = PathRecord();
+      record.alpha = 0;
+      groups = {};
+    }
+    film.add(key.x, key.y, key.sample, record, sample.weight());
+    if (!groups.empty()) film.add_groups({key.x, key.y, key.sample}, record.radiance(), groups, sample.weight());
+    if (finite) add_seen(sample);
+  }
+}
+
+void BlockRender::add_seen(const PixelSample& sample) const {
+  const FilmBuffer::SamplePlace at{sample.key().x, sample.key().y, sample.key().sample};
+  if (sample.matte()) shared_.mattes.add(shared_.film, at, *sample.matte(), sample.weight());
+  shared_.film.add_deep(at, sample.by_depth(), sample.weight());
+}
+
+}  // namespace tyndall
