@@ -36,7 +36,7 @@ Directions::Directions(const LightContext& context, const Vertex& vertex) : vert
 
 float Directions::pdf(Vec3 wi, Rgb beta) const {
   const float scattered = vertex_.pdf(wi, beta);
-  if (aureole_) return scattered * aureole_->radiance(wi) / aureole_->scattered(vertex_.medium()->phase, vertex_.wo(), beta);
+  if (aureole_) return scattered * aureole_->pdf_ratio(vertex_.medium()->phase, vertex_.wo(), wi, beta);
   return toward_media_ ? mixed(toward_media_->pdf(wi), scattered) : scattered;
 }
 
@@ -82,7 +82,7 @@ std::optional<ScatterSample> Directions::toward_aureole(Rgb beta, Rng rng) const
   const PhaseMix& phase = vertex_.medium()->phase;
   const Vec3 wi = aureole_->sample(phase, vertex_.wo(), beta, rng);
   const float scattered = phase.pdf(vertex_.wo(), wi, beta);
-  const float ratio = aureole_->radiance(wi) / aureole_->scattered(phase, vertex_.wo(), beta), pdf = scattered * ratio;
+  const float pdf = scattered * aureole_->pdf_ratio(phase, vertex_.wo(), wi, beta);
   if (!(pdf > 0)) return std::nullopt;
   return ScatterSample{.wi = wi,
                        .weight = phase.eval(vertex_.wo(), wi) / pdf,

@@ -26,7 +26,7 @@ Connection scattered_back(const PathOffer& find, Vec3 w) {
     const Rgb phase = medium->phase.eval(-w, find.wi);
     if (!has_all_channels(phase)) return {phase, 0};
     float pdf = medium->phase.pdf(-w, find.wi, Rgb(1.0f));
-    if (find.aureole) pdf *= find.aureole->radiance(find.wi) / find.aureole->scattered(medium->phase, -w, Rgb(1.0f));
+    if (find.aureole) pdf *= find.aureole->pdf_ratio(medium->phase, -w, find.wi, Rgb(1.0f));
     return {phase, pdf};
   }
   const SurfaceHit& hit = find.at->surface()->hit;

@@ -60,14 +60,10 @@ struct Collision {
 /// who might receive it there.
 bool is_own(const Collision& collision, double others) { return !(double{collision.pdf} < others); }
 
-/// Of a block's rays a few tell: those that pass media that scatter.
-SmallVector<CameraSegment*, kLooks> looks(std::span<Path* const> paths) {
-  SmallVector<CameraSegment*, kLooks> found;
-  for (std::size_t i = 0; i < kLooks; ++i) {
-    CameraSegment* const segment = paths[i * (paths.size() - 1) / (kLooks - 1)]->segment();
-    if (segment && segment->profile()) found.push_back(segment);
-  }
-  return found;
+/// Of a block's rays a few tell: number i of them; null where it passes no media that scatter.
+CameraSegment* look(std::span<Path* const> paths, std::size_t i) {
+  CameraSegment* const segment = paths[i * (paths.size() - 1) / (kLooks - 1)]->segment();
+  return segment && segment->profile() ? segment : nullptr;
 }
 
 }  // namespace
@@ -83,7 +79,9 @@ struct SegmentShares::Candidate {
 bool SegmentShares::pay(std::span<Path* const> paths) {
   CameraSegment* before = nullptr;
   float colliding = 0;
-  for (CameraSegment* const segment : looks(paths)) {
+  for (std::size_t i = 0; i < kLooks; ++i) {
+    CameraSegment* const segment = look(paths, i);
+    if (!segment) continue;
     if (!homogeneous_throughout(segment->span().parts)) return false;
     if (before && kCloser * gap(*before, *segment) > free_path(*segment)) return false;
     colliding += 1 - segment->chance_of_passing();
@@ -95,7 +93,9 @@ bool SegmentShares::pay(std::span<Path* const> paths) {
 bool SegmentShares::near_each_other(std::span<Path* const> paths) {
   CameraSegment* before = nullptr;
   float gaps = 0, free_paths = 0;
-  for (CameraSegment* const segment : looks(paths)) {
+  for (std::size_t i = 0; i < kLooks; ++i) {
+    CameraSegment* const segment = look(paths, i);
+    if (!segment) continue;
     if (homogeneous_throughout(segment->span().parts)) return true;
     if (before) gaps += gap(*before, *segment), free_paths += free_path(*segment);
     before = segment;

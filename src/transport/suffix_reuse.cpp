@@ -65,8 +65,9 @@ void share_among(Shares& shares, std::span<Path* const> finders, std::size_t rec
   }
 }
 
-void share_collisions(const Between& between, std::span<Path* const> finders, bool near_each_other) {
-  if (!near_each_other) {
+void share_collisions(const Between& between, std::span<Path* const> finders, std::span<Path* const> paths) {
+  if (finders.empty()) return;
+  if (!SegmentShares::near_each_other(paths)) {
     for (Path* path : finders) keep(*path);
     return;
   }
@@ -88,7 +89,7 @@ void share_suffixes(const Between& between, std::span<Path* const> paths) {
   if (!SegmentShares::pay(paths)) {
     for (Path* path : on_surface) surfaces.add_arrived(*path);
     share_among(surfaces, on_surface, on_surface.size());
-    share_collisions(between, in_medium, SegmentShares::near_each_other(paths));
+    share_collisions(between, in_medium, paths);
     return;
   }
   for (Path* path : paths) surfaces.add_behind(*path);

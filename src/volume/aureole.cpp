@@ -15,8 +15,8 @@ constexpr std::array<int, 9> kFirst{1, 2, 3, 5, 8, 13, 21, 34, 55};
 constexpr float kWidest = 0.1f;
 /// Phase functions that turn light more than this leave nothing of its direction to go by.
 constexpr float kLeastForward = 0.25f;
-/// What has been turned often comes from everywhere, and most of it more than once: in clouds 1 to 3 times the source's
-/// fluence (docs/measurements.md).
+/// What has been turned often comes from everywhere, and most of it more than once: too much costs little, too
+/// little leaves the weights of paths without bound (docs/measurements.md).
 constexpr float kDiffuse = 2;
 /// Surfaces send light back too. What is not expected may still come: even light is what bounds the weights of paths that
 /// find it.

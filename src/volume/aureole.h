@@ -44,7 +44,8 @@ class Aureole {
   float radiance(Vec3 w) const;
   /// Integral of radiance times phase function toward `wo`; `beta` chooses between lobes as in PhaseMix::pdf().
   float scattered(const PhaseMix& phase, Vec3 wo, Rgb beta) const;
-  /// Drawn with density radiance(wi) phase.pdf(wo, wi, beta) / scattered(phase, wo, beta).
+  /// Density of sample() over that of the phase function.
+  float pdf_ratio(const PhaseMix& phase, Vec3 wo, Vec3 wi, Rgb beta) const { return radiance(wi) / scattered(phase, wo, beta); }
   Vec3 sample(const PhaseMix& phase, Vec3 wo, Rgb beta, Rng& rng) const;
 
  private:

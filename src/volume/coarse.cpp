@@ -30,6 +30,13 @@ CoarseOptics optics_around(const MediumData& medium, const GridVec& p) {
   return {mean(sigma_a) + s, s};
 }
 
+/// At a place on a ray inside the clip box, but for rounding.
+double sigma_t_at(const MediumData& medium, const GridRay& ray, double t) {
+  GridVec p = ray.at(t);
+  for (int axis = 0; axis < 3; ++axis) p[axis] = std::clamp(p[axis], medium.clip.lo[axis], medium.clip.hi[axis]);
+  return double{optics_around(medium, p).sigma_t};
+}
+
 double depth_of(const MediumData& medium, const Ray& ray, double t0, double t1, int taps) {
   if (medium.kind == MediumData::Kind::homogeneous) {
     const float sigma_t = means_of(medium.optics, 1).sigma_t;
@@ -48,9 +55,7 @@ double depth_of(const MediumData& medium, const Ray& ray, double t0, double t1, 
   const double step = (end - begin) / count;
   double sum = 0;
   for (int i = 0; i < count; ++i) {
-    GridVec p = local.at(begin + (i + 0.5) * step);
-    for (int axis = 0; axis < 3; ++axis) p[axis] = std::clamp(p[axis], medium.clip.lo[axis], medium.clip.hi[axis]);
-    sum += double{optics_around(medium, p).sigma_t};
+    sum += sigma_t_at(medium, local, begin + (i + 0.5) * step);
   }
   return sum * step;
 }
@@ -64,9 +69,7 @@ double nearby_depth_of(const MediumData& medium, const Ray& ray, double t1, doub
   double sum = 0, step = BlockMeans::kCells / std::max(local.speed(), 1e-300);
   for (double t = begin; t < end && sum < most; t += step, step *= kGrowth) {
     const double length = std::min(step, end - t);
-    GridVec p = local.at(t + 0.5 * length);
-    for (int axis = 0; axis < 3; ++axis) p[axis] = std::clamp(p[axis], medium.clip.lo[axis], medium.clip.hi[axis]);
-    sum += double{optics_around(medium, p).sigma_t} * length;
+    sum += sigma_t_at(medium, local, t + 0.5 * length) * length;
   }
   return sum;
 }

@@ -57,8 +57,8 @@ TEST_CASE("following suns changes the noise alone: a cloud of three colours over
                              billowing({.sigma_a = {0.01f, 0.2f, 0.5f}, .sigma_s = {12, 9, 5}, .g = 0.85f}));
 }
 
-// Two suns, one of which shines on a part of the medium alone, and a lamp in it.
-TEST_CASE("following suns changes the noise alone: two suns and a lamp") {
+// Two suns, one of which illuminates a part of the medium alone, and an area light in it.
+TEST_CASE("following suns changes the noise alone: two suns and an area light") {
   check_guiding("suns", look(12) + ground() + diffuse_plane(1.6f, 0.7f, 0.6f) + distant_light({0, -1, 0.1f}, 2) +
                             distant_light({-1, -0.4f, 1}, 3) + emitting_square({0.2f, 0.3f, -0.5f}, 0.2f, 4) +
                             billowing({.sigma_a = {0.1f, 0.3f, 0.2f}, .sigma_s = {4, 5, 3}, .g = 0.7f}));
