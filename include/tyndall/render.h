@@ -85,6 +85,11 @@ struct BadSample {
 };
 
 /// Counts of a render. A correct render has 0 in the second group.
+/// How many lights are looked at, and to how many of them shadow rays are traced.
+struct AskedLights {
+  int candidates = 0, shadow_rays = 0;
+};
+
 struct RenderReport {
   int samples = 0;                          ///< per pixel, done; with RenderSettings::adaptive in the mean, as everywhere
   int least_samples = 0, most_samples = 0;  ///< of any pixel
@@ -93,6 +98,8 @@ struct RenderReport {
   bool stopped = false;          ///< ended by RenderControl::stop
   std::uint64_t unrendered = 0;  ///< pixels without a sample: the first pass was given up
   double seconds = 0;            ///< spent rendering
+  /// With RenderSettings::budget as measured: at paths' first vertices, and along their first segments through media.
+  std::optional<AskedLights> at_vertices, along_segments;
   std::uint64_t paths = 0, rays = 0, shadow_rays = 0, density_lookups = 0;
 
   std::uint64_t non_finite = 0, majorant_violations = 0, caps_hit = 0, parity_errors = 0;

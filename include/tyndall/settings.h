@@ -43,6 +43,11 @@ enum class JointStrategy { automatic, off, points };
 /// with what stands for other programs' methods, nor with AOV Replicate, which is there for filters. Never in scenes with
 /// alpha, whose surfaces let different rays through.
 enum class ReuseStrategy { automatic, off, pixels };
+/// How many lights are asked at a path's first vertex and along its first segment, where `candidates` and `shadow_rays` are not
+/// set: fixed numbers, or those that make variance x cost least as measured in a few blocks of the picture before it is
+/// rendered. `automatic`: measured with MediaStrategy::product, fixed with what stands for other programs' methods. Single
+/// scattering has fixed ones.
+enum class BudgetStrategy { automatic, fixed, measured };
 /// Estimator of transmittance along shadow rays.
 enum class TransmittanceStrategy { residual, ratio, delta, raymarch };
 
@@ -64,10 +69,10 @@ struct RenderSettings {
   int threads = 0;                             ///< 0: all cores
   LightStrategy lights = LightStrategy::tree;  ///< one that the World was built with
   /// Candidates at a vertex or along a segment in media, >= 0; 0: as many as splitting makes clusters, one without a tree.
-  /// Exhaustive takes all lights and traces all. Unset: 2, where a surface favours directions 4, along segments in media 3.
+  /// Exhaustive takes all lights and traces all. Unset: as `budget` has it, later 1 to 4.
   /// Single scattering (max_depth 1) takes 8, along media 16.
   std::optional<int> candidates{};
-  /// Of the candidates, are traced, >= 0; 0: every one. Unset: 2, in single scattering all or most.
+  /// Of the candidates, are traced, >= 0; 0: every one. Unset: likewise, later 1 or 2, in single scattering all or most.
   std::optional<int> shadow_rays{};
   /// Clusters of the light tree that are predicted worse than this are split, in [0, 1]; 0: none, 1: down to single lights. Up
   /// to 15 clusters are made, or as many as there are candidates if those are more; with 0 candidates there is no limit. Not
@@ -79,6 +84,7 @@ struct RenderSettings {
   GuidingStrategy guiding = GuidingStrategy::automatic;
   JointStrategy joint = JointStrategy::automatic;
   ReuseStrategy reuse = ReuseStrategy::automatic;
+  BudgetStrategy budget = BudgetStrategy::automatic;
   TransmittanceStrategy transmittance = TransmittanceStrategy::raymarch;
   std::vector<std::string> aovs{};  ///< names from aov_names()
   /// A deep image is made beside the flat one (deep_image.h), with so many bins in depth through the media, 1 to 256. A of the

@@ -17,10 +17,15 @@ std::function<void()> call(const py::object& progress, const Progress& p) {
 py::dict from_report(const RenderReport& r) {
   py::list bad;
   for (const BadSample& b : r.bad_samples) bad.append(py::make_tuple(b.x, b.y, b.sample));
+  const auto asked = [](const std::optional<AskedLights>& a) -> py::object {
+    if (!a) return py::none();
+    return py::make_tuple(a->candidates, a->shadow_rays);
+  };
   return py::dict("samples"_a = r.samples, "seconds"_a = r.seconds, "stopped"_a = r.stopped, "paths"_a = r.paths,
                   "rays"_a = r.rays, "shadow_rays"_a = r.shadow_rays, "density_lookups"_a = r.density_lookups,
                   "non_finite"_a = r.non_finite, "majorant_violations"_a = r.majorant_violations, "caps_hit"_a = r.caps_hit,
-                  "parity_errors"_a = r.parity_errors, "bad_samples"_a = bad);
+                  "parity_errors"_a = r.parity_errors, "at_vertices"_a = asked(r.at_vertices),
+                  "along_segments"_a = asked(r.along_segments), "bad_samples"_a = bad);
 }
 
 /// (image, report)

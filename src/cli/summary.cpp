@@ -54,6 +54,11 @@ std::string as_text(const Summary& s) {
   text += fmt::format("  scene   {} triangles, {} lights, {} media\n", s.build.triangles, s.build.lights, s.build.media);
   text += fmt::format("  work    {} paths, {} rays, {} shadow rays ({:.2f} M rays/s), {} density lookups\n", r.paths, r.rays,
                       r.shadow_rays, rays / std::max(r.seconds, 1e-9) * 1e-6, r.density_lookups);
+  if (r.at_vertices && r.along_segments) {
+    text += fmt::format("  budget  {} lights and {} shadow rays at first vertices, {} and {} along first segments\n",
+                        r.at_vertices->candidates, r.at_vertices->shadow_rays, r.along_segments->candidates,
+                        r.along_segments->shadow_rays);
+  }
   text += fmt::format("  memory  peak {}, geometry {}, volumes {}, lights {}\n", mebibytes(peak_memory()),
                       mebibytes(s.build.geometry_bytes), mebibytes(s.build.volume_bytes), mebibytes(s.build.light_bytes));
   text += fmt::format("  health  {} non-finite samples, {} majorant violations, {} caps hit, {} boundary parity errors\n",
@@ -95,6 +100,12 @@ std::string as_json(const Summary& s) {
   j["rays"] = r.rays;
   j["shadow_rays"] = r.shadow_rays;
   j["density_lookups"] = r.density_lookups;
+  if (r.at_vertices && r.along_segments) {
+    const auto asked = [](const AskedLights& a) -> nlohmann::ordered_json {
+      return {{"candidates", a.candidates}, {"shadow_rays", a.shadow_rays}};
+    };
+    j["budget"] = {{"at_vertices", asked(*r.at_vertices)}, {"along_segments", asked(*r.along_segments)}};
+  }
   j["memory"] = {{"peak", peak_memory()},
                  {"geometry", s.build.geometry_bytes},
                  {"volumes", s.build.volume_bytes},

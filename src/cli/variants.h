@@ -8,8 +8,8 @@
 
 namespace tyndall::cli {
 
-/// "lights, media, distance, emission, guiding, joint, reuse, transmittance, all": one preset for each axis of strategies, and
-/// all of them.
+/// "lights, media, distance, emission, guiding, joint, reuse, budget, transmittance, all": one preset for each axis of
+/// strategies, and all of them.
 std::string preset_names();
 
 /// `specs`: presets and "name:--lights power --media vertex", also several in one, separated by commas or semicolons.

@@ -51,6 +51,11 @@ constexpr Table<ReuseStrategy, 3> kReuses{{
     {"off", ReuseStrategy::off},
     {"pixels", ReuseStrategy::pixels},
 }};
+constexpr Table<BudgetStrategy, 3> kBudgets{{
+    {"auto", BudgetStrategy::automatic},
+    {"fixed", BudgetStrategy::fixed},
+    {"measured", BudgetStrategy::measured},
+}};
 constexpr Table<TransmittanceStrategy, 4> kTransmittances{{
     {"residual", TransmittanceStrategy::residual},
     {"ratio", TransmittanceStrategy::ratio},
@@ -118,6 +123,8 @@ const std::vector<StrategyAxis>& strategy_axes() {
                                             "lights, and pixels toward small emissive surfaces"),
       axis<kReuses, &RenderSettings::reuse>("reuse",
                                             "whether neighbouring pixels share what paths find beyond the first bounce"),
+      axis<kBudgets, &RenderSettings::budget>("budget",
+                                              "how many lights are asked at a path's first vertex and along its first segment"),
       axis<kTransmittances, &RenderSettings::transmittance>("transmittance", "estimator along shadow rays"),
   };
   return axes;

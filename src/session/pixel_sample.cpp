@@ -21,6 +21,7 @@ PixelSample::PixelSample(const SampleContext& sample, const SampleKey& key, Pixe
   const Vec2 lens = sampler_.next_2d();
   LightContext context{world_.built, sample.selector, sample.settings, sampler_, counters};
   if (!world_.built.light_groups.empty()) context.groups = &groups_.emplace(world_.built.light_groups);
+  context.budget = sample.budget;
   if (sample.mattes) context.matte = &matte_.emplace();
   if (sample.bins) context.deep = &deep_.emplace(*sample.bins, world_.built.camera);
   if (!film_.points.empty()) {

@@ -22,8 +22,9 @@ struct SampleContext {
   const LightSelector& selector;
   const RenderSettings& settings;
   Path::Limits limits;
-  bool mattes = false;              ///< samples tell what they see first
-  const DepthBins* bins = nullptr;  ///< and where in depth their light is from; null: they do not
+  const LightBudget* budget = nullptr;  ///< null: it was not measured
+  bool mattes = false;                  ///< samples tell what they see first
+  const DepthBins* bins = nullptr;      ///< and where in depth their light is from; null: they do not
 };
 
 /// What is searched for on the film for a pixel's samples; nothing outside of the pixels that are rendered.

@@ -9,6 +9,7 @@
 #include "session/flush_denormals.h"
 #include "session/image_header.h"
 #include "session/matte_layers.h"
+#include "session/pilot.h"
 #include "session/render_pass.h"
 #include "session/resolved_settings.h"
 #include "session/sample_plan.h"
@@ -68,6 +69,7 @@ class RenderJob::Impl {
                         {.max_depth = settings_.max_depth,
                          .want_transmittance = film_.wants(Aov::transmittance),
                          .want_albedo = film_.wants(Aov::albedo)},
+                        nullptr,
                         !mattes_.empty(),
                         deep_ ? &deep_->bins : nullptr},
         pool_(settings.threads),
@@ -193,6 +195,10 @@ class RenderJob::Impl {
     r.least_samples = counts().least();
     r.most_samples = counts().most();
     r.seconds = seconds_;
+    if (budget_) {
+      r.at_vertices = {budget_->vertex.candidates, budget_->vertex.shadow_rays};
+      r.along_segments = {budget_->span.candidates, budget_->span.shadow_rays};
+    }
     for (const PixelBounds& tile : unrendered_) r.unrendered += static_cast<std::uint64_t>(tile.width()) * tile.height();
     return r;
   }
@@ -208,6 +214,8 @@ class RenderJob::Impl {
     alive();
     film_points_ = film_points(search);
     film_emitters_ = FilmEmitters(search);
+    budget_ = measured_budget(sample_context_, pool_);
+    if (budget_) sample_context_.budget = &*budget_;
     searched_ = true;
     preparing_seconds_ = search_timer.seconds();
   }
@@ -279,6 +287,7 @@ class RenderJob::Impl {
   FilmBuffer film_;
   SampleContext sample_context_;
   std::optional<SamplePlan> plan_;
+  std::optional<LightBudget> budget_;
   mutable ThreadPool pool_;
   bool searched_ = false;
   double preparing_seconds_ = 0;

@@ -44,6 +44,7 @@ RenderSettings resolved(RenderSettings settings, const World::Parts& world) {
   if (settings.reuse == ReuseStrategy::automatic)
     settings.reuse = ours && !filtered ? ReuseStrategy::pixels : ReuseStrategy::off;
   if (settings.max_depth < 2 || !world.built.opaque) settings.reuse = ReuseStrategy::off;
+  if (settings.budget == BudgetStrategy::automatic) settings.budget = ours ? BudgetStrategy::measured : BudgetStrategy::fixed;
   if (settings.media == MediaStrategy::vertex) settings.distance = DistanceStrategy::tracking;
   return settings;
 }

@@ -14,6 +14,7 @@ namespace tyndall {
 inline constexpr std::size_t kBadSamplesKept = 16;
 
 struct Counters {
+  std::uint64_t candidates = 0, pairs = 0;  ///< lights drawn for vertices, and along segments
   std::uint64_t paths = 0, rays = 0, shadow_rays = 0, non_finite = 0, parity_errors = 0;
   TrackingStats tracking;
   std::vector<BadSample> bad_samples;
@@ -27,6 +28,8 @@ struct Counters {
   }
 
   Counters& operator+=(const Counters& other) {
+    candidates += other.candidates;
+    pairs += other.pairs;
     paths += other.paths;
     rays += other.rays;
     shadow_rays += other.shadow_rays;

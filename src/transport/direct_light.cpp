@@ -72,7 +72,9 @@ Rgb direct_light(const LightContext& context, const Directions& directions, cons
     if (light.delta) return path_mis_weight(context, id);
     return mis_weight(density, directions.pdf(light.wi, beta));
   };
-  return VertexLight(context, vertex, search, beta, share).estimate(sampler);
+  return tried(context, {Spent::vertex_candidates, Spent::vertex_rays}, beta, [&](const LightContext& c, LightTrial* trial) {
+    return VertexLight(c, vertex, search, beta, share).estimate(sampler, trial);
+  });
 }
 
 }  // namespace tyndall

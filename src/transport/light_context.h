@@ -12,6 +12,8 @@ struct PixelEmitters;
 class GroupedLight;
 class CameraMatte;
 class DeepSample;
+struct LightBudget;
+struct LightTrial;
 
 /// What light estimation needs of the render at large.
 struct LightContext {
@@ -30,6 +32,9 @@ struct LightContext {
   /// Where the film has mattes (camera_matte.h), and where a deep image is made (deep_sample.h).
   CameraMatte* matte = nullptr;
   DeepSample* deep = nullptr;
+  /// Where numbers of lights were measured (session/pilot.h), and where that is done.
+  const LightBudget* budget = nullptr;
+  LightTrial* trial = nullptr;
 };
 
 /// The ray after it gathers light only where lights are directly visible to it.

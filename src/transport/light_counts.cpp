@@ -5,15 +5,13 @@
 namespace tyndall {
 namespace {
 
-constexpr LightCounts kOnlyVertex{8, 0}, kVertex{2, 2};
-/// Later light is averaged over paths that share it; this is not (docs/measurements.md).
-constexpr LightCounts kFirstVertex{4, 4};
+constexpr LightCounts kOnlyVertex{8, 0}, kSecondVertex{2, 2}, kLater{1, 1};
 /// Bounds of clusters say little of where a narrow lobe meets a light. Where most is scattered elsewhere, as under a coat, more
 /// candidates are not worth their time (docs/measurements.md).
 constexpr LightCounts kGlossyVertex{4, 2};
 /// Where paths go on, most of the error is of later bounces, and more pairs cost more than they save, for the camera's span as
 /// well (docs/measurements.md). Fewer leave fireflies among lights in smoke.
-constexpr LightCounts kSpan{3, 2};
+constexpr LightCounts kSecondSpan{3, 2};
 constexpr SpanCounts kOnlySpan{{16, 0}};
 /// Spans that scatter less than this share of the light take one candidate.
 constexpr float kThin = 1e-3f;
@@ -52,6 +50,21 @@ constexpr float kSplitting = 0.5f;
 
 bool mostly_glossy(const PointQuery& query) { return query.glossy() && query.diffuse < 0.5f; }
 
+LightBudget budget_of(const LightContext& context) {
+  return context.budget ? *context.budget : LightBudget::unmeasured(context.settings.reuse);
+}
+
+LightCounts counts_at_bounce(const LightContext& context, bool glossy) {
+  LightCounts counts = context.bounce == 0 ? budget_of(context).vertex : context.bounce == 1 ? kSecondVertex : kLater;
+  if (glossy)
+    counts = {std::max(counts.candidates, kGlossyVertex.candidates), std::max(counts.shadow_rays, kGlossyVertex.shadow_rays)};
+  return counts;
+}
+
+LightCounts counts_along_bounce(const LightContext& context) {
+  return context.bounce == 0 ? budget_of(context).span : context.bounce == 1 ? kSecondSpan : kLater;
+}
+
 }  // namespace
 
 CutSettings cut_settings(const LightContext& context, int candidates) {
@@ -67,9 +80,7 @@ LightCounts counts_at_vertex(const LightContext& context, const PointQuery& quer
     if (lights.stats().points == lights.stats().lights) counts.candidates = among(lights.sought(), counts).candidates;
     return chosen(context.settings, counts);
   }
-  const LightCounts later = mostly_glossy(query) ? kGlossyVertex : kVertex;
-  const bool first = context.bounce == 0 && context.settings.reuse == ReuseStrategy::pixels;
-  return chosen(context.settings, among(lights.sought(), first ? kFirstVertex : later));
+  return chosen(context.settings, among(lights.sought(), counts_at_bounce(context, mostly_glossy(query))));
 }
 
 SpanCounts counts_along_span(const LightContext& context, float scattered, float depth) {
@@ -77,7 +88,7 @@ SpanCounts counts_along_span(const LightContext& context, float scattered, float
   if (is_single_scattering(context)) {
     return chosen(context.settings, thin ? SpanCounts{kThinSpan} : depth > kDense ? kOnlyDenseSpan : kOnlySpan);
   }
-  SpanCounts counts{thin ? kThinSpan : among(context.world.lights.sought(), kSpan)};
+  SpanCounts counts{thin ? kThinSpan : among(context.world.lights.sought(), counts_along_bounce(context))};
   if (scattered < kFaint) counts.chance = std::max(scattered / kFaint, kLeastChance);
   return chosen(context.settings, counts);
 }

@@ -2,14 +2,11 @@
 #pragma once
 
 #include "light/query.h"
+#include "transport/light_budget.h"
 #include "transport/light_context.h"
 
 namespace tyndall {
 
-struct LightCounts {
-  int candidates;   ///< 0: as many as splitting makes clusters
-  int shadow_rays;  ///< 0: to all candidates
-};
 struct SpanCounts : LightCounts {
   int distances = 1;  ///< along the span, for each candidate
   float chance = 1;   ///< probability of drawing any

@@ -25,6 +25,9 @@ class Path {
 
   Path(const Path&) = delete;  // context_ may point into it
 
+  /// Takes note of what choosing lights adds to its noise. Before it runs.
+  void observe(LightTrial& trial) { context_.trial = &trial; }
+
   /// To its end.
   void run();
 

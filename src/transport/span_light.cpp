@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "math/small_vector.h"
+#include "transport/choice_trial.h"
 #include "transport/deep_sample.h"
 #include "transport/grouped_light.h"
 #include "transport/joint_ray.h"
@@ -106,16 +107,27 @@ Pairs all_lights(const LightContext& context, const PairFinder& finder, Sampler&
 Pairs chosen_lights(const LightContext& context, const SpanSearch& search, const PairFinder& finder, Sampler& sampler) {
   Pairs pairs;
   for (const LightCandidate& candidate : context.selector.draw(search.cut, search.query, sampler.next_wide())) {
+    ++context.counters.pairs;
     finder.look_along(candidate, sampler, pairs);
   }
   return pairs;
 }
 
-Rgb evaluate(const LightContext& context, const Span& span, const Pairs& pairs, Survivors survivors, Sampler& sampler) {
+/// Where pairs are evaluated, and who is told what that is worth.
+struct PairsOf {
+  const LightContext& context;
+  const Span& span;
+  Rgb beta;
+  LightTrial* trial;
+};
+
+Rgb evaluate(const PairsOf& of, const Pairs& pairs, Survivors survivors, Sampler& sampler) {
+  const auto& [context, span, beta, trial] = of;
   std::sort(survivors.begin(), survivors.end(),
             [&](const Survivor& a, const Survivor& b) { return pairs[a.index].t < pairs[b.index].t; });
   TransmittanceWalk walk(span_method(context), span, sampler.stream(), context.counters.tracking);
   Rgb sum;
+  RayTrial rays(context, trial);
   for (const Survivor& s : survivors) {
     const Pair& pair = pairs[s.index];
     const Rgb T = walk.to(pair.t);
@@ -124,8 +136,10 @@ Rgb evaluate(const LightContext& context, const Span& span, const Pairs& pairs, 
     const Rgb light = pair.contribution * T * s.scale * arriving(context, pair.part->state, p, pair.light, sampler);
     if (context.groups) context.groups->estimate(pair.id, light);
     if (context.deep && context.bounce == 0) context.deep->estimate(pair.t, light);
+    rays.add(beta * light, s.scale);
     sum += light;
   }
+  rays.note(Spent::span_rays);
   return sum;
 }
 
@@ -185,11 +199,13 @@ std::optional<SpanSearch> span_search(const LightContext& context, const Span& s
 Rgb span_light(const LightContext& context, const Span& span, const SpanSearch& search, Rgb beta) {
   Sampler sampler = context.sampler.fork();
   if (search.chance < 1 && sampler.next_1d() >= search.chance) return {};
-  const float u = sampler.next_1d();
   const PairFinder finder(context, span, search, beta);
-  const bool all = context.selector.exhaustive();
-  const Pairs pairs = all ? all_lights(context, finder, sampler) : chosen_lights(context, search, finder, sampler);
-  return evaluate(context, span, pairs, resample(pairs, search.shadow_rays, u), sampler);
+  return tried(context, {Spent::span_candidates, Spent::span_rays}, beta, [&](const LightContext& c, LightTrial* trial) {
+    const float u = sampler.next_1d();
+    const bool all = c.selector.exhaustive();
+    const Pairs pairs = all ? all_lights(c, finder, sampler) : chosen_lights(c, search, finder, sampler);
+    return evaluate({c, span, beta, trial}, pairs, resample(pairs, search.shadow_rays, u), sampler);
+  });
 }
 
 float collision_density(const Span& span, const SpanSearch& search, float t) {

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "math/small_vector.h"
+#include "transport/choice_trial.h"
 #include "transport/direct_light.h"
 #include "transport/grouped_light.h"
 #include "transport/resampling.h"
@@ -19,7 +20,10 @@ class VertexLight {
       : context_(context), vertex_(vertex), search_(search), beta_(beta), share_(share) {}
 
   /// Of all lights, or of the candidates that survive resampling.
-  Rgb estimate(Sampler& sampler) const { return context_.selector.exhaustive() ? all(sampler) : chosen(sampler); }
+  /// `trial`, unless null, is told what the choice adds to the noise.
+  Rgb estimate(Sampler& sampler, LightTrial* trial = nullptr) const {
+    return context_.selector.exhaustive() ? all(sampler) : chosen(sampler, trial);
+  }
 
  private:
   /// A candidate evaluated without visibility.
@@ -62,16 +66,21 @@ class VertexLight {
     return sum;
   }
 
-  Rgb chosen(Sampler& sampler) const {
+  Rgb chosen(Sampler& sampler, LightTrial* trial) const {
     const float u = sampler.next_1d();
     SmallVector<Candidate, 8> candidates;
     for (const LightCandidate& candidate : context_.selector.draw(search_.cut, search_.query, sampler.next_wide())) {
+      ++context_.counters.candidates;
       if (const auto c = look_at(candidate, sampler.next_2d())) candidates.push_back(*c);
     }
     Rgb sum;
+    RayTrial rays(context_, trial);
     for (const Survivor& s : resample(candidates, search_.shadow_rays, u)) {
-      sum += trace(candidates[s.index], s.scale, sampler);
+      const Rgb light = trace(candidates[s.index], s.scale, sampler);
+      rays.add(beta_ * light, s.scale);
+      sum += light;
     }
+    rays.note(Spent::vertex_rays);
     return sum;
   }
 

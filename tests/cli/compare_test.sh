@@ -40,7 +40,7 @@ sed -n 's/^ *"command": \(".*"\),*$/\1/p' out.txt | sed 's/\\\\/\\/g; s/^"//; s/
 
 # Usage errors say what is known.
 expect 2 "$T" compare s.pbrt --variants lamps -o r
-says 'lights, media, distance, emission, guiding, joint, reuse, transmittance, all' err.txt
+says 'lights, media, distance, emission, guiding, joint, reuse, budget, transmittance, all' err.txt
 expect 2 "$T" compare s.pbrt --variants "a:--max-depth 2" -o r
 says 'give it to compare itself' err.txt
 expect 2 "$T" compare s.pbrt --variants "a:--lights magic" -o r

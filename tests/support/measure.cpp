@@ -29,6 +29,7 @@ RenderSettings settings_of(const Scene& scene, const Variant& variant) {
   settings.guiding = variant.guiding;
   settings.joint = variant.joint;
   settings.reuse = variant.reuse;
+  settings.budget = variant.budget;
   settings.reproducible = true;
   return settings;
 }

@@ -26,6 +26,7 @@ struct Variant {
   JointStrategy joint = RenderSettings{}.joint;
   /// Off: the statistics of most tests take pixels to be independent. reuse_test.cpp holds those that share to these.
   ReuseStrategy reuse = ReuseStrategy::off;
+  BudgetStrategy budget = RenderSettings{}.budget;
 };
 
 /// Builds a world and renders it as often as asked.

@@ -24,6 +24,8 @@ class Counted {
     return counts_along_span(context(settings, bounce), scattered, depth);
   }
 
+  const LightBudget* measured = nullptr;
+
   float splitting(const RenderSettings& settings, int candidates) {
     return cut_settings(context(settings, 0), candidates).splitting;
   }
@@ -36,7 +38,10 @@ class Counted {
     return text;
   }
   LightContext context(const RenderSettings& settings, int bounce) {
-    return {world_.parts().built, world_.parts().built.lights.selector(settings.lights), settings, sampler_, counters_, bounce};
+    LightContext context{
+        world_.parts().built, world_.parts().built.lights.selector(settings.lights), settings, sampler_, counters_, bounce};
+    context.budget = measured;
+    return context;
   }
 
   World world_;
@@ -55,10 +60,11 @@ TEST_CASE("single scattering has more candidates, and so have glossy surfaces") 
   deep.max_depth = 5;
   direct.max_depth = 1;
   for (const int bounce : {0, 1, 4}) {
-    check(many.vertex(deep, bounce), 2, 2);
+    const bool late = bounce > 1;
+    check(many.vertex(deep, bounce), late ? 1 : 2, late ? 1 : 2);
     check(many.vertex(deep, bounce, 0.9f), 4, 2);
-    check(many.vertex(deep, bounce, 0.1f), 2, 2);  // coated
-    check(many.span(deep, bounce, 0.5f), 3, 2);
+    check(many.vertex(deep, bounce, 0.1f), late ? 1 : 2, late ? 1 : 2);  // coated
+    check(many.span(deep, bounce, 0.5f), late ? 1 : 3, late ? 1 : 2);
   }
   check(many.vertex(direct, 0), 8, 0);
   check(many.vertex(direct, 0, 0.9f), 8, 0);
@@ -100,6 +106,29 @@ TEST_CASE("at one point a light without extent is one candidate") {
   check(Counted(5, false).vertex(direct, 0), 5, 0);
   check(Counted(5, true).vertex(direct, 0), 8, 0);
   check(Counted(1, false).span(direct, 0, 0.5f), 16, 0);  // from several points along the segment
+}
+
+TEST_CASE("what was measured holds at the first vertex and along the first segment, up to what there are lights") {
+  Counted many(20, true), three(2, true);
+  const LightBudget measured{{12, 7}, {9, 5}};
+  RenderSettings deep, set;
+  set.candidates = 3;
+  many.measured = three.measured = &measured;
+  check(many.vertex(deep, 0), 12, 7);
+  check(many.vertex(deep, 0, 0.9f), 12, 7);
+  check(many.span(deep, 0, 0.5f), 9, 5);
+  check(many.vertex(deep, 1), 2, 2);
+  check(many.span(deep, 1, 0.5f), 3, 2);
+  check(three.vertex(deep, 0), 3, 2);
+  check(three.span(deep, 0, 0.5f), 3, 2);
+  check(many.vertex(set, 0), 3, 7);
+}
+
+TEST_CASE("paths that share have more candidates and shadow rays at their first vertex") {
+  RenderSettings sharing;
+  sharing.reuse = ReuseStrategy::pixels;
+  check(Counted(20, true).vertex(sharing, 0), 8, 4);
+  check(Counted(20, true).vertex(sharing, 1), 2, 2);
 }
 
 TEST_CASE("few lights need few candidates, unless the path ends there") {
