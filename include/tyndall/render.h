@@ -100,6 +100,8 @@ struct RenderReport {
   double seconds = 0;            ///< spent rendering
   /// With RenderSettings::budget as measured: at paths' first vertices, and along their first segments through media.
   std::optional<AskedLights> at_vertices, along_segments;
+  /// Likewise: whether neighbouring pixels share what they find beyond collisions in grids.
+  std::optional<bool> collisions_shared;
   std::uint64_t paths = 0, rays = 0, shadow_rays = 0, density_lookups = 0;
 
   std::uint64_t non_finite = 0, majorant_violations = 0, caps_hit = 0, parity_errors = 0;

@@ -33,6 +33,32 @@ std::string bad_samples(const RenderReport& r) {
 /// Infinity is no number in JSON.
 nlohmann::json known(double value) { return std::isfinite(value) ? nlohmann::json(value) : nlohmann::json(); }
 
+/// What the render decided for itself.
+std::string measured_budget(const RenderReport& r) {
+  std::string text;
+  if (r.at_vertices && r.along_segments) {
+    text =
+        fmt::format("{} lights and {} shadow rays at first vertices, {} and {} along first segments", r.at_vertices->candidates,
+                    r.at_vertices->shadow_rays, r.along_segments->candidates, r.along_segments->shadow_rays);
+  }
+  if (r.collisions_shared) {
+    text += fmt::format("{}collisions {}shared", text.empty() ? "" : "; ", *r.collisions_shared ? "" : "not ");
+  }
+  return text.empty() ? text : "  budget  " + text + "\n";
+}
+
+nlohmann::ordered_json budget_json(const RenderReport& r) {
+  const auto asked = [](const std::optional<AskedLights>& a) -> nlohmann::ordered_json {
+    if (!a) return nullptr;
+    return {{"candidates", a->candidates}, {"shadow_rays", a->shadow_rays}};
+  };
+  nlohmann::ordered_json j;
+  j["at_vertices"] = asked(r.at_vertices);
+  j["along_segments"] = asked(r.along_segments);
+  if (r.collisions_shared) j["collisions_shared"] = *r.collisions_shared;
+  return j;
+}
+
 }  // namespace
 
 std::size_t peak_memory() {
@@ -54,11 +80,7 @@ std::string as_text(const Summary& s) {
   text += fmt::format("  scene   {} triangles, {} lights, {} media\n", s.build.triangles, s.build.lights, s.build.media);
   text += fmt::format("  work    {} paths, {} rays, {} shadow rays ({:.2f} M rays/s), {} density lookups\n", r.paths, r.rays,
                       r.shadow_rays, rays / std::max(r.seconds, 1e-9) * 1e-6, r.density_lookups);
-  if (r.at_vertices && r.along_segments) {
-    text += fmt::format("  budget  {} lights and {} shadow rays at first vertices, {} and {} along first segments\n",
-                        r.at_vertices->candidates, r.at_vertices->shadow_rays, r.along_segments->candidates,
-                        r.along_segments->shadow_rays);
-  }
+  text += measured_budget(r);
   text += fmt::format("  memory  peak {}, geometry {}, volumes {}, lights {}\n", mebibytes(peak_memory()),
                       mebibytes(s.build.geometry_bytes), mebibytes(s.build.volume_bytes), mebibytes(s.build.light_bytes));
   text += fmt::format("  health  {} non-finite samples, {} majorant violations, {} caps hit, {} boundary parity errors\n",
@@ -100,12 +122,7 @@ std::string as_json(const Summary& s) {
   j["rays"] = r.rays;
   j["shadow_rays"] = r.shadow_rays;
   j["density_lookups"] = r.density_lookups;
-  if (r.at_vertices && r.along_segments) {
-    const auto asked = [](const AskedLights& a) -> nlohmann::ordered_json {
-      return {{"candidates", a.candidates}, {"shadow_rays", a.shadow_rays}};
-    };
-    j["budget"] = {{"at_vertices", asked(*r.at_vertices)}, {"along_segments", asked(*r.along_segments)}};
-  }
+  if (r.at_vertices || r.collisions_shared) j["budget"] = budget_json(r);
   j["memory"] = {{"peak", peak_memory()},
                  {"geometry", s.build.geometry_bytes},
                  {"volumes", s.build.volume_bytes},

@@ -94,23 +94,23 @@ Trials sum_up(const std::vector<Tried>& pixels) {
 }
 
 /// There are lights to choose among, and numbers that are not given. Single scattering has its own.
-bool decides(const SampleContext& context) {
+bool decides_lights(const SampleContext& context) {
   const RenderSettings& settings = context.settings;
-  return settings.budget == BudgetStrategy::measured && context.world.built.lights.sought() > 1 && settings.max_depth > 1 &&
-         !context.selector.exhaustive() && !(settings.candidates && settings.shadow_rays);
+  return context.world.built.lights.sought() > 1 && settings.max_depth > 1 && !context.selector.exhaustive() &&
+         !(settings.candidates && settings.shadow_rays);
 }
 
-/// The same without what only pictures want.
-SampleContext without_layers(const SampleContext& context) {
-  SampleContext pilot{context.world, context.selector, context.settings, {.max_depth = context.limits.max_depth}};
-  return pilot;
+/// Connections through homogeneous media have no noise of their own, and always pay.
+bool decides_sharing(const SampleContext& context) {
+  const auto& media = context.world.built.media;
+  return context.settings.reuse == ReuseStrategy::pixels &&
+         std::any_of(media.begin(), media.end(), [](const ParticipatingMedium& m) { return !m.homogeneous(); });
 }
 
-}  // namespace
-
-std::optional<LightBudget> measured_budget(const SampleContext& context, ThreadPool& pool) {
-  if (!decides(context)) return std::nullopt;
-  const SampleContext pilot = without_layers(context);
+/// Of the frame's blocks a few, with that budget; without what only pictures want.
+Trials try_blocks(const SampleContext& context, const LightBudget& budget, ThreadPool& pool) {
+  const SampleContext pilot{
+      context.world, context.selector, context.settings, {.max_depth = context.limits.max_depth}, &budget};
   const Film& film = context.world.built.scene.film;
   const PixelBounds frame{0, 0, film.width, film.height};
   std::vector<TriedBlock> blocks(std::clamp<std::size_t>(BlockGrid(frame).size() / kBlocksEach, 1, kMostBlocks));
@@ -128,7 +128,25 @@ std::optional<LightBudget> measured_budget(const SampleContext& context, ThreadP
   for (const TriedBlock& block : blocks) trials.all_cost += block.cost;
   const auto looks = static_cast<double>(blocks.size());
   trials.trust = looks / (looks + kDoubt);
-  return best_budget(trials, LightBudget::unmeasured(context.settings.reuse));
+  return trials;
+}
+
+}  // namespace
+
+std::optional<LightBudget> measured_budget(const SampleContext& context, ThreadPool& pool) {
+  if (context.settings.budget != BudgetStrategy::measured) return std::nullopt;
+  const bool lights = decides_lights(context), sharing = decides_sharing(context);
+  if (!lights && !sharing) return std::nullopt;
+  LightBudget budget = LightBudget::unmeasured(context.settings.reuse);
+  if (sharing) budget.collisions_shared = true;
+  const Trials trials = try_blocks(context, budget, pool);
+  LightBudget best = lights ? best_budget(trials, budget) : budget;
+  if (sharing) {
+    // The same paths but for what they share, so that little of how they differ is chance.
+    budget.collisions_shared = false;
+    best.collisions_shared = trials.product() < try_blocks(context, budget, pool).product();
+  }
+  return best;
 }
 
 }  // namespace tyndall

@@ -96,7 +96,8 @@ void PixelGroup::run(const SampleContext& context, Counters& counters) {
   for (std::size_t i = 0; i < count; ++i) {
     if (sharing[i]->offers() && sharing[i]->offer().at) sharing[i]->complete_offer();
   }
-  share_suffixes({context.world.built, context.settings.transmittance, counters}, {sharing.data(), count});
+  const std::optional<bool> collisions_shared = context.budget ? context.budget->collisions_shared : std::nullopt;
+  share_suffixes({context.world.built, context.settings.transmittance, counters, collisions_shared}, {sharing.data(), count});
 }
 
 }  // namespace tyndall

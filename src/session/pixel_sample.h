@@ -11,6 +11,7 @@
 #include "transport/camera_matte.h"
 #include "transport/deep_sample.h"
 #include "transport/film_light.h"
+#include "transport/light_budget.h"
 #include "transport/suffix_reuse.h"
 #include "transport/visible_emitters.h"
 

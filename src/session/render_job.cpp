@@ -195,7 +195,8 @@ class RenderJob::Impl {
     r.least_samples = counts().least();
     r.most_samples = counts().most();
     r.seconds = seconds_;
-    if (budget_) {
+    if (budget_) r.collisions_shared = budget_->collisions_shared;
+    if (budget_ && budget_->counts_measured) {
       r.at_vertices = {budget_->vertex.candidates, budget_->vertex.shadow_rays};
       r.along_segments = {budget_->span.candidates, budget_->span.shadow_rays};
     }

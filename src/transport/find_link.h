@@ -14,6 +14,7 @@ struct Between {
   const BuiltWorld& world;
   TransmittanceStrategy transmittance;
   Counters& counters;
+  std::optional<bool> collisions_shared{};  ///< as LightBudget has it
 };
 
 /// A scattering function and its density.

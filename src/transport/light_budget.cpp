@@ -29,7 +29,7 @@ LightBudget best_budget(const Trials& trials, const LightBudget& during) {
     return LightCounts{std::max(best(candidates, n.candidates), shadow_rays), shadow_rays};
   };
   return {both(Spent::vertex_candidates, Spent::vertex_rays, during.vertex),
-          both(Spent::span_candidates, Spent::span_rays, during.span)};
+          both(Spent::span_candidates, Spent::span_rays, during.span), true, during.collisions_shared};
 }
 
 }  // namespace tyndall

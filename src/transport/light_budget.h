@@ -1,5 +1,8 @@
-/// How many lights paths ask where it matters most: at their first vertex and along their first segment.
+/// What paths spend where it matters most: lights asked at their first vertex and along their first segment, and what they
+/// share.
 #pragma once
+
+#include <optional>
 
 #include "transport/light_trial.h"
 #include "tyndall/settings.h"
@@ -13,6 +16,9 @@ struct LightCounts {
 
 struct LightBudget {
   LightCounts vertex, span;
+  bool counts_measured = false;
+  /// Whether neighbours share what they find beyond collisions in grids. Nothing: by how far apart they are (segment_shares.h).
+  std::optional<bool> collisions_shared{};
 
   /// What stands where nothing is measured. Light of later vertices is averaged over the paths that share it, that of the first
   /// is not.
@@ -26,6 +32,8 @@ struct Trials {
   PerSpent<double> variance{}, cost{};  ///< of the choices
   double all_variance = 0, all_cost = 0;
   double trust = 1;  ///< from 0, they may be wrong, to 1, they know: how far the budget follows them
+
+  double product() const { return all_variance * all_cost; }  ///< what is to be least
 };
 
 /// The numbers n_i that make variance x cost least. With B_i and c_i of one more of each, and A and C of all else, that is

@@ -134,9 +134,9 @@ Rgb evaluate(const PairsOf& of, const Pairs& pairs, Survivors survivors, Sampler
     if (is_black(T)) continue;
     const Vec3 p = span.ray.at(pair.t);
     const Rgb light = pair.contribution * T * s.scale * arriving(context, pair.part->state, p, pair.light, sampler);
+    rays.add(beta * light, s.scale);
     if (context.groups) context.groups->estimate(pair.id, light);
     if (context.deep && context.bounce == 0) context.deep->estimate(pair.t, light);
-    rays.add(beta * light, s.scale);
     sum += light;
   }
   rays.note(Spent::span_rays);

@@ -67,7 +67,7 @@ void share_among(Shares& shares, std::span<Path* const> finders, std::size_t rec
 
 void share_collisions(const Between& between, std::span<Path* const> finders, std::span<Path* const> paths) {
   if (finders.empty()) return;
-  if (!SegmentShares::near_each_other(paths)) {
+  if (!(between.collisions_shared ? *between.collisions_shared : SegmentShares::near_each_other(paths))) {
     for (Path* path : finders) keep(*path);
     return;
   }

@@ -127,6 +127,18 @@ TEST_CASE("budgets follow what lights leave to chance") {
   CHECK(hidden > 1.5 * open);
 }
 
+// Thin smoke among lights is seen alike by neighbours. A cloud so dense that each meets its own is not worth the connections.
+TEST_CASE("collisions are shared where that pays") {
+  const auto cloud = [](float density) {
+    Grid grid{{{-1.5f, -1.45f, -1.5f}, {1.5f, 0.5f, 1.5f}}, 4, 4, 4, {}};
+    for (int i = 0; i < 64; ++i) grid.density.push_back(density * (1 + 0.1f * float(i % 11)));
+    return uniform_grid("m", {.sigma_a = Rgb(0.001f), .sigma_s = Rgb(1), .g = 0.85f}, grid) + medium_box("m", "", grid.bounds);
+  };
+  CHECK(budget_of(hall(20, false, cloud(1))).collisions_shared == true);
+  CHECK(budget_of(hall(1, false, cloud(300))).collisions_shared == false);
+  CHECK_FALSE(budget_of(hall(20, false, fog())).collisions_shared);
+}
+
 TEST_CASE("nothing is measured where there is nothing to decide") {
   const World world = world_of(hall(1, false), {});
   RenderSettings settings;
