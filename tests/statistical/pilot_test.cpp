@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -79,14 +80,16 @@ void check_agree(const char* name, const std::string& text) {
   CHECK(mean.p > kLevel);
 }
 
-LightBudget budget_of(const std::string& text, std::uint64_t seed = 1, int threads = 2) {
-  const World world = world_of(text, {});
+LightBudget budget_of(const std::string& text, std::uint64_t seed = 1, PixelBounds crop = {0, 0, kResolution, kResolution}) {
+  Scene scene = read_scene_text(text, "test.pbrt").scene;
+  scene.film.crop = crop;
+  const World world = build(std::move(scene), {});
   RenderSettings settings;
   settings.max_depth = 4;
   settings.seed = seed;
   settings.reuse = ReuseStrategy::pixels;
   settings.budget = BudgetStrategy::measured;
-  ThreadPool pool(threads);
+  ThreadPool pool(2);
   const SampleContext context{world.parts(), world.parts().built.lights.selector(settings.lights), settings, {.max_depth = 4}};
   const auto budget = measured_budget(context, pool);
   REQUIRE(budget);
@@ -113,6 +116,15 @@ TEST_CASE("a crop, and any number of threads, have the bits of the whole picture
     for (int x = 0; x < crop.width(); ++x) same = same && crop.rgb(x, y) == whole.rgb(x + 20, y + 11);
   }
   CHECK(same);
+}
+
+TEST_CASE("a crop has the budget of the whole picture") {
+  const auto numbers = [](const LightBudget& b) {
+    return std::array{b.vertex.candidates, b.vertex.shadow_rays, b.span.candidates, b.span.shadow_rays};
+  };
+  const std::string scene = hall(200, true, fog());
+  for (std::uint64_t seed = 1; seed <= 8; ++seed)
+    CHECK(numbers(budget_of(scene, seed)) == numbers(budget_of(scene, seed, {20, 11, 45, 39})));
 }
 
 // Bars leave it to chance whether a light arrives: rays are what is missing. Four lights without them leave nothing to chance
