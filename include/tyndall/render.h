@@ -21,9 +21,9 @@ class KeptFiles;  // frames.h
 
 struct BuildSettings {
   std::vector<LightStrategy> lights{LightStrategy::tree};  ///< those that will be rendered with
-  bool volume_lights = false;  ///< media that emit can be sampled as lights: what EmissionStrategy::lights needs
-  bool sanitize = false;       ///< NaN and infinite voxels become 0 instead of an error
-  int threads = 0;             ///< 0: all cores
+  bool volume_lights = true;  ///< media that emit can be sampled as lights: what EmissionStrategy::lights and automatic need
+  bool sanitize = false;      ///< NaN and infinite voxels become 0 instead of an error
+  int threads = 0;            ///< 0: all cores
   /// Bytes: a scene that is estimated to need more, film and volumes included, is refused before anything is built.
   std::size_t max_memory = std::numeric_limits<std::size_t>::max();
   /// What an earlier build made of files is taken from it, and what this one makes is put there.

@@ -24,9 +24,10 @@ enum class MediaStrategy { vertex, closest, integral, product };
 enum class DistanceStrategy { automatic, tracking, equiangular, both, profile };
 /// How the volume emission of media reaches what it illuminates: by scattered rays that pass through it, which surfaces guide
 /// toward it (GuidingStrategy), or by next-event estimation toward it as well, with MIS: the cells of a medium that emit are
-/// then lights among the others, unless it is homogeneous and unbounded. The second has less noise on walls for a sample, and
-/// takes longer.
-enum class EmissionStrategy { paths, lights };
+/// then lights among the others, unless it is homogeneous and unbounded. `automatic`: they are sought from a path's first
+/// vertex and along the camera's segment, and left to rays after that; with MediaStrategy::product, in worlds built for it,
+/// else by paths. `lights` seeks them everywhere, which takes longer.
+enum class EmissionStrategy { automatic, paths, lights };
 /// Where paths go from the first surface, and from later ones where media emit: as it scatters, or also toward grids and clouds
 /// that scatter or emit much light, with MIS; and from collisions toward what suns spread around them in media that scatter
 /// forward. `automatic`: the latter with MediaStrategy::product, the former with what stands for other programs' methods. Not
@@ -80,7 +81,7 @@ struct RenderSettings {
   std::optional<float> splitting{};
   MediaStrategy media = MediaStrategy::product;
   DistanceStrategy distance = DistanceStrategy::automatic;
-  EmissionStrategy emission = EmissionStrategy::paths;
+  EmissionStrategy emission = EmissionStrategy::automatic;
   GuidingStrategy guiding = GuidingStrategy::automatic;
   JointStrategy joint = JointStrategy::automatic;
   ReuseStrategy reuse = ReuseStrategy::automatic;

@@ -46,7 +46,7 @@ struct BuildOptions {
 
 World build_scene(const Scene& scene, const RenderSettings& settings, const BuildOptions& options) {
   BuildSettings how{.lights = {settings.lights},
-                    .volume_lights = settings.emission == EmissionStrategy::lights,
+                    .volume_lights = settings.emission != EmissionStrategy::paths,
                     .sanitize = options.sanitize,
                     .threads = settings.threads};
   if (options.max_memory) how.max_memory = static_cast<std::size_t>(*options.max_memory * 1e9);

@@ -32,7 +32,7 @@ FarmTrial try_out(Scene scene, bool sanitize, double read_seconds, const std::st
   const Timer build_timer;
   RenderSettings settings = scene.settings;
   const BuildSettings how{.lights = {settings.lights},
-                          .volume_lights = settings.emission == EmissionStrategy::lights,
+                          .volume_lights = settings.emission != EmissionStrategy::paths,
                           .sanitize = sanitize,
                           .threads = settings.threads,
                           .max_memory = usable_memory()};

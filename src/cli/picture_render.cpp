@@ -103,7 +103,7 @@ bool PictureRender::is_finished(std::uint64_t scene_hash) const {
 
 World PictureRender::build(Scene scene, KeptFiles* kept) const {
   const BuildSettings how{.lights = {settings_.lights},
-                          .volume_lights = settings_.emission == EmissionStrategy::lights,
+                          .volume_lights = settings_.emission != EmissionStrategy::paths,
                           .sanitize = options_.picture.sanitize,
                           .threads = settings_.threads,
                           .max_memory = memory_,

@@ -59,7 +59,9 @@ Lights::Lights(Lights&&) noexcept = default;
 Lights& Lights::operator=(Lights&&) noexcept = default;
 
 std::size_t Lights::size() const { return parts_->lights.size() + parts_->instanced_lights; }
-std::size_t Lights::sought() const { return size() - parts_->even_skies; }
+std::size_t Lights::sought(bool with_volumes) const {
+  return size() - parts_->even_skies - (with_volumes ? 0 : parts_->volumes.size());
+}
 const Lights::Far& Lights::far() const { return parts_->far; }
 const LightStats& Lights::stats() const { return parts_->stats; }
 double Lights::power(LightId light) const { return parts_->power(light); }

@@ -84,8 +84,9 @@ class Lights {
 
   std::size_t size() const;
   bool empty() const { return size() == 0; }
-  /// How many lights sample() with an MIS partner gives anything of: not of even skies, which are left to the partner.
-  std::size_t sought() const;
+  /// How many lights sample() with an MIS partner gives anything of: not of even skies, which are left to the partner; with or
+  /// without media that emit.
+  std::size_t sought(bool with_volumes = true) const;
   /// Throws Error (usage) for a strategy that the lights were not built with. `with_volumes`: media that emit are chosen too.
   const LightSelector& selector(LightStrategy strategy, bool with_volumes = true) const;
   std::span<const SelectorStats> selectors() const;  ///< in the order asked for

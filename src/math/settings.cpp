@@ -32,7 +32,8 @@ constexpr Table<DistanceStrategy, 5> kDistances{{
     {"both", DistanceStrategy::both},
     {"profile", DistanceStrategy::profile},
 }};
-constexpr Table<EmissionStrategy, 2> kEmissions{{
+constexpr Table<EmissionStrategy, 3> kEmissions{{
+    {"auto", EmissionStrategy::automatic},
     {"paths", EmissionStrategy::paths},
     {"lights", EmissionStrategy::lights},
 }};

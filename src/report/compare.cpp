@@ -226,9 +226,9 @@ std::string VariantResult::slope_note() const {
 
 BuildSettings with_needs_of(const ComparePlan& plan, const RenderSettings& base, BuildSettings settings) {
   settings.lights = {base.lights};
-  settings.volume_lights = base.emission == EmissionStrategy::lights;
+  settings.volume_lights = base.emission != EmissionStrategy::paths;
   for (const CompareVariant& v : plan.variants) {
-    settings.volume_lights = settings.volume_lights || v.settings.emission == EmissionStrategy::lights;
+    settings.volume_lights = settings.volume_lights || v.settings.emission != EmissionStrategy::paths;
     auto& known = settings.lights;
     if (std::find(known.begin(), known.end(), v.settings.lights) == known.end()) known.push_back(v.settings.lights);
   }

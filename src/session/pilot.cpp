@@ -70,7 +70,7 @@ TriedBlock try_block(const SampleContext& context, const PixelBlock& block) {
       tried.pixels[i].squares += L * L;
     }
   }
-  tried.cost = Prices(context.world.built.lights.sought()).of(counters);
+  tried.cost = Prices(context.world.built.lights.size()).of(counters);
   for (const Tried& pixel : tried.pixels) tried.cost -= pixel.light.repeated;
   return tried;
 }
@@ -96,8 +96,8 @@ Trials sum_up(const std::vector<Tried>& pixels) {
 /// There are lights to choose among, and numbers that are not given. Single scattering has its own.
 bool decides_lights(const SampleContext& context) {
   const RenderSettings& settings = context.settings;
-  return context.world.built.lights.sought() > 1 && settings.max_depth > 1 && !context.selector.exhaustive() &&
-         !(settings.candidates && settings.shadow_rays);
+  return context.world.built.lights.sought(context.selector_with_volumes != nullptr) > 1 && settings.max_depth > 1 &&
+         !context.selector.exhaustive() && !(settings.candidates && settings.shadow_rays);
 }
 
 /// Connections through homogeneous media have no noise of their own, and always pay.
@@ -110,7 +110,8 @@ bool decides_sharing(const SampleContext& context) {
 /// Of the frame's blocks a few, with that budget; without what only pictures want.
 Trials try_blocks(const SampleContext& context, const LightBudget& budget, ThreadPool& pool) {
   const SampleContext pilot{
-      context.world, context.selector, context.settings, {.max_depth = context.limits.max_depth}, &budget};
+      context.world, context.selector, context.selector_with_volumes, context.settings, {.max_depth = context.limits.max_depth},
+      &budget};
   const Film& film = context.world.built.scene.film;
   const PixelBounds frame{0, 0, film.width, film.height};
   std::vector<TriedBlock> blocks(std::clamp<std::size_t>(BlockGrid(frame).size() / kBlocksEach, 1, kMostBlocks));

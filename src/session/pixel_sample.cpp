@@ -20,6 +20,7 @@ PixelSample::PixelSample(const SampleContext& sample, const SampleKey& key, Pixe
       film_ray_(film_.points, on_film_, offset_.pdf) {
   const Vec2 lens = sampler_.next_2d();
   LightContext context{world_.built, sample.selector, sample.settings, sampler_, counters};
+  context.selector_with_volumes = sample.selector_with_volumes;
   if (!world_.built.light_groups.empty()) context.groups = &groups_.emplace(world_.built.light_groups);
   context.budget = sample.budget;
   if (sample.mattes) context.matte = &matte_.emplace();

@@ -21,6 +21,7 @@ namespace tyndall {
 struct SampleContext {
   const World::Parts& world;
   const LightSelector& selector;
+  const LightSelector* selector_with_volumes;  ///< null: media that emit are not sought
   const RenderSettings& settings;
   Path::Limits limits;
   const LightBudget* budget = nullptr;  ///< null: it was not measured

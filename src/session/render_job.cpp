@@ -57,7 +57,10 @@ class RenderJob::Impl {
   Impl(const World::Parts& world, const RenderSettings& settings)
       : world_(world),
         settings_(resolved(settings, world)),
-        selector_(world.built.lights.selector(settings.lights, settings.emission == EmissionStrategy::lights)),
+        selector_(world.built.lights.selector(settings.lights, false)),
+        selector_with_volumes_(settings_.emission == EmissionStrategy::paths || world.built.volume_lights.empty()
+                                   ? nullptr
+                                   : &world.built.lights.selector(settings.lights)),
         first_sample_(sample_range(settings).first),
         mattes_(world.built, film_aovs(settings)),
         deep_(deep_layout(world, settings)),
@@ -65,6 +68,7 @@ class RenderJob::Impl {
               {film_aovs(settings), world.built.light_groups.names(), deep_}),
         sample_context_{world,
                         selector_,
+                        selector_with_volumes_,
                         settings_,
                         {.max_depth = settings_.max_depth,
                          .want_transmittance = film_.wants(Aov::transmittance),
@@ -282,6 +286,7 @@ class RenderJob::Impl {
   const World::Parts& world_;
   RenderSettings settings_;
   const LightSelector& selector_;
+  const LightSelector* selector_with_volumes_;
   int first_sample_;
   MatteLayers mattes_;
   std::optional<DeepLayout> deep_;

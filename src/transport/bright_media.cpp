@@ -18,7 +18,9 @@ constexpr int kReads = 3;  ///< of a medium along a cube's edge
 
 struct Cell {
   Vec3 center;
-  float radius, radiance;
+  float radius, radiance, emitted;
+
+  float size() const { return radiance * radius * radius; }
 };
 
 /// Lights that are close together, as one.
@@ -91,11 +93,9 @@ struct Average {
   static constexpr float kPerRead = 1.0f / (kReads * kReads * kReads);
 };
 
-/// Seen from outside; `light` is the fluence of the lights there.
-float radiance_of(const Average& medium, float radius, float light) {
-  if (!(medium.sigma_t > 0)) return 0;
-  const float source = medium.sigma_s * light / (4 * kPi) + medium.emission;
-  return source / medium.sigma_t * -std::expm1(-medium.sigma_t * 2 * radius);
+/// Of a `source` in every place, seen from outside.
+float radiance_of(const Average& medium, float source, float radius) {
+  return medium.sigma_t > 0 ? source / medium.sigma_t * -std::expm1(-medium.sigma_t * 2 * radius) : 0.0f;
 }
 
 }  // namespace
@@ -114,7 +114,6 @@ BrightMedia::BrightMedia(const std::vector<ParticipatingMedium>& media, const Su
   }
   if (filled.empty()) return;
 
-  emits_ = std::any_of(filled.begin(), filled.end(), [](const Filled& f) { return f.medium.emissive(); });
   const std::vector<Near> near = gather_near_lights(lights, volume_lights);
   float near_power = 0;
   for (const Near& light : near) near_power += light.power;
@@ -125,21 +124,27 @@ BrightMedia::BrightMedia(const std::vector<ParticipatingMedium>& media, const Su
   for (const auto& [medium, box] : filled) {
     const Cubes cubes(box, kCubes / static_cast<float>(filled.size()));
     for (std::size_t k = 0; k < cubes.size(); ++k) {
-      Cell cell{.center = cubes.corner(k) + cubes.step() * 0.5f, .radius = 0.5f * length(cubes.step()), .radiance = 0};
+      Cell cell{
+          .center = cubes.corner(k) + cubes.step() * 0.5f, .radius = 0.5f * length(cubes.step()), .radiance = 0, .emitted = 0};
       const float light = far_light_ + fluence(near, cell.center, cell.radius);
-      cell.radiance = radiance_of(Average::of(medium, cubes.corner(k), cubes.step()), cell.radius, light);
+      const Average inside = Average::of(medium, cubes.corner(k), cubes.step());
+      cell.emitted = radiance_of(inside, inside.emission, cell.radius);
+      cell.radiance = cell.emitted + radiance_of(inside, inside.sigma_s * light / (4 * kPi), cell.radius);
       if (cell.radiance > 0 && std::isfinite(cell.radiance)) cells.push_back(cell);
     }
   }
-  const auto size = [](const Cell& g) { return g.radiance * g.radius * g.radius; };
-  std::stable_sort(cells.begin(), cells.end(), [&](const Cell& a, const Cell& b) { return size(a) > size(b); });
+  std::stable_sort(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) { return a.size() > b.size(); });
   size_ = std::min(cells.size(), kMostCells);
+  float all = 0, emitted = 0;
   for (std::size_t i = 0; i < size_; ++i) {
-    const auto& [center, radius, radiance] = cells[i];
+    const auto& [center, radius, radiance, of_emission] = cells[i];
+    all += cells[i].size();
+    emitted += of_emission * radius * radius;
     x_[i] = center.x, y_[i] = center.y, z_[i] = center.z;
     radius_[i] = radius;
     radiance_[i] = radiance;
   }
+  if (emitted > 0 && std::isfinite(all)) emission_share_ = emitted / all;
 }
 
 float BrightMedia::in_scattered(Vec3 p) const { return far_light_ + near_fluence_.at(p); }

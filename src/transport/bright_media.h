@@ -35,7 +35,7 @@ class BrightMedia {
   BrightMedia(const std::vector<ParticipatingMedium>& media, const Surroundings& around);
 
   bool empty() const { return size_ == 0; }
-  bool emits() const { return emits_; }  ///< some of it is volume emission
+  float emission_share() const { return emission_share_; }  ///< of the radiance, that is volume emission
   std::size_t size() const { return size_; }
   /// Fluence at `p` of all lights together without visibility; of the order of what surfaces around scatter.
   float in_scattered(Vec3 p) const;
@@ -48,7 +48,7 @@ class BrightMedia {
 
  private:
   std::size_t size_ = 0;
-  bool emits_ = false;
+  float emission_share_ = 0;
   alignas(32) PerCell<float> x_{}, y_{}, z_{}, radius_{}, radiance_{};
   NearFluence near_fluence_;
   float far_light_ = 0;

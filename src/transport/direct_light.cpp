@@ -54,11 +54,13 @@ Rgb arriving(const LightContext& context, const MediaState& media, Vec3 origin, 
 
 LightSearch light_search(const LightContext& context, const Vertex& vertex) {
   LightSearch search;
-  if (!context.world.lights.sought()) return search;
+  search.volumes = seeks_volume_lights(context);
+  if (!context.world.lights.sought(search.volumes)) return search;
+  search.among = &selector(context, search.volumes);
   search.query = vertex.light_query();
-  if (!vertex.has_smooth() || context.selector.exhaustive()) return search;
+  if (!vertex.has_smooth() || search.among->exhaustive()) return search;
   const auto [candidates, shadow_rays] = counts_at_vertex(context, search.query);
-  search.cut = context.selector.cut(search.query, cut_settings(context, candidates));
+  search.cut = search.among->cut(search.query, cut_settings(context, candidates));
   search.shadow_rays = shadow_rays;
   return search;
 }
@@ -66,7 +68,7 @@ LightSearch light_search(const LightContext& context, const Vertex& vertex) {
 Rgb direct_light(const LightContext& context, const Directions& directions, const LightSearch& search, Rgb beta) {
   const Vertex& vertex = directions.vertex();
   Sampler sampler = context.sampler.fork();
-  if (!context.world.lights.sought() || !vertex.has_smooth()) return {};
+  if (!search.among || !vertex.has_smooth()) return {};
   // The density of the candidates stands for the technique: it is known for every direction, unlike the resampled one.
   const auto share = [&](const LightSample& light, LightId id, float density) {
     if (light.delta) return path_mis_weight(context, id);

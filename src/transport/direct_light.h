@@ -36,6 +36,8 @@ Rgb arriving(const LightContext& context, const MediaState& media, Vec3 origin, 
 
 /// How lights are sampled at one vertex: direct_light uses it, and MIS must know it when a scattered ray hits one.
 struct LightSearch {
+  const LightSelector* among = nullptr;  ///< the lights that are sought; null: there are none
+  bool volumes = false;                  ///< media that emit are among them
   PointQuery query;
   LightCut cut;
   int shadow_rays = 0;  ///< to trace, 0: to all candidates

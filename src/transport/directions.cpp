@@ -15,7 +15,7 @@ float guided_pdf_ratio(float pdf, float scattered) {
 /// emission is found by such rays alone.
 bool guides(const LightContext& context, const Vertex& vertex) {
   if (context.settings.guiding == GuidingStrategy::off || context.world.bright_media.empty()) return false;
-  const bool all = context.world.bright_media.emits() && !seeks_volume_lights(context);
+  const bool all = context.world.bright_media.emission_share() > 0 && !seeks_volume_lights(context);
   return (context.bounce == 0 || all) && !is_last_bounce(context) && vertex.on_surface() && vertex.has_smooth();
 }
 
@@ -30,7 +30,7 @@ bool follows_suns(const LightContext& context, const Vertex& vertex) {
 Directions::Directions(const LightContext& context, const Vertex& vertex) : vertex_(vertex) {
   if (follows_suns(context, vertex)) aureole_ = context.world.aureoles.at(context.world, vertex);
   if (!guides(context, vertex)) return;
-  toward_media_.emplace(context.world.bright_media, vertex.light_query());
+  toward_media_.emplace(context.world.bright_media, vertex.light_query(), seeks_volume_lights(context));
   if (toward_media_->share() == 0) toward_media_.reset();
 }
 

@@ -18,11 +18,13 @@ struct LightTrial;
 /// What light estimation needs of the render at large.
 struct LightContext {
   const BuiltWorld& world;
-  const LightSelector& selector;
+  const LightSelector& selector;  ///< among all lights but media that emit
   const RenderSettings& settings;
   Sampler& sampler;
   Counters& counters;
   int bounce = 0;  ///< bounces of the path before this vertex
+  /// Among all lights, where media that emit are sought at all.
+  const LightSelector* selector_with_volumes = nullptr;
   /// The ray to it, where lights were also sampled jointly (joint_ray.h).
   const JointRay* joint = nullptr;
   /// Emitters whose directly visible emission is found otherwise (visible_emitters.h).
@@ -43,9 +45,17 @@ inline bool is_last_bounce(const LightContext& context) { return context.bounce 
 /// It is the only bounce of its path.
 inline bool is_single_scattering(const LightContext& context) { return context.bounce == 0 && is_last_bounce(context); }
 
-/// Whether volume emission is sampled by next-event estimation, and scattered rays that pass it are weighted by MIS.
+/// Whether next-event estimation seeks media that emit, at a vertex and along the span before it; scattered rays that pass them
+/// are then weighted by MIS. By default at the first of a path alone: the others' light is averaged over paths that share it,
+/// and found by rays that pass without one more (docs/measurements.md).
 inline bool seeks_volume_lights(const LightContext& context) {
-  return !context.world.volume_lights.empty() && context.settings.emission == EmissionStrategy::lights;
+  if (!context.selector_with_volumes) return false;
+  return context.bounce == 0 || context.settings.emission == EmissionStrategy::lights;
+}
+
+/// What chooses among the lights that are sought there.
+inline const LightSelector& selector(const LightContext& context, bool with_volumes) {
+  return with_volumes ? *context.selector_with_volumes : context.selector;
 }
 
 /// Transmittance along shadow rays. Half the step for single scattering, whose noise nothing else hides (docs/measurements.md).

@@ -74,13 +74,14 @@ CutSettings cut_settings(const LightContext& context, int candidates) {
 
 LightCounts counts_at_vertex(const LightContext& context, const PointQuery& query) {
   const Lights& lights = context.world.lights;
+  const bool volumes = seeks_volume_lights(context);
   if (is_single_scattering(context)) {
     // From one point a light without extent is always the same.
     LightCounts counts = kOnlyVertex;
-    if (lights.stats().points == lights.stats().lights) counts.candidates = among(lights.sought(), counts).candidates;
+    if (lights.stats().points == lights.stats().lights) counts.candidates = among(lights.sought(volumes), counts).candidates;
     return chosen(context.settings, counts);
   }
-  return chosen(context.settings, among(lights.sought(), counts_at_bounce(context, mostly_glossy(query))));
+  return chosen(context.settings, among(lights.sought(volumes), counts_at_bounce(context, mostly_glossy(query))));
 }
 
 SpanCounts counts_along_span(const LightContext& context, float scattered, float depth) {
@@ -88,7 +89,8 @@ SpanCounts counts_along_span(const LightContext& context, float scattered, float
   if (is_single_scattering(context)) {
     return chosen(context.settings, thin ? SpanCounts{kThinSpan} : depth > kDense ? kOnlyDenseSpan : kOnlySpan);
   }
-  SpanCounts counts{thin ? kThinSpan : among(context.world.lights.sought(), counts_along_bounce(context))};
+  const std::size_t sought = context.world.lights.sought(seeks_volume_lights(context));
+  SpanCounts counts{thin ? kThinSpan : among(sought, counts_along_bounce(context))};
   if (scattered < kFaint) counts.chance = std::max(scattered / kFaint, kLeastChance);
   return chosen(context.settings, counts);
 }

@@ -18,7 +18,9 @@ constexpr float kLeastSine = 0.01f;
 
 }  // namespace
 
-MediaDirections::MediaDirections(const BrightMedia& media, const PointQuery& query) : size_(media.size()) {
+MediaDirections::MediaDirections(const BrightMedia& media, const PointQuery& query, bool emission_sought)
+    : size_(media.size()) {
+  float all = 0;  // of the importance, whatever side of the surface it is on
   for (std::size_t i = 0; i < size_; i += 8) {
     const Float8 x = load8(&media.x()[i]) - query.p.x, y = load8(&media.y()[i]) - query.p.y,
                  z = load8(&media.z()[i]) - query.p.z;
@@ -31,7 +33,8 @@ MediaDirections::MediaDirections(const BrightMedia& media, const PointQuery& que
     if (query.transmissive) above = abs(above);
     const Float8 cosine = (above + radius) / sqrt(safe2);
     const Float8 facing = choose(around, Float8(1.0f), min(max(cosine, Float8(0.0f)), Float8(1.0f)));
-    const Float8 importance = load8(&media.radiance()[i]) * facing * sine2;
+    const Float8 around_it = load8(&media.radiance()[i]) * sine2, importance = around_it * facing;
+    all += reduce(around_it);
     total_ += reduce(importance);
     store8(&x_[i], x), store8(&y_[i], y), store8(&z_[i], z);
     store8(&radius2_[i], choose(around, Float8(kInfinity), radius2));
@@ -41,7 +44,8 @@ MediaDirections::MediaDirections(const BrightMedia& media, const PointQuery& que
   const float light = kPi * total_;
   if (!(light > 0) || !std::isfinite(light)) return;
   // Narrow lobes are sampled better by themselves.
-  share_ = kMostGuided * query.diffuse * light / (light + media.in_scattered(query.p));
+  const float as_light = emission_sought ? kPi * all * media.emission_share() : 0.0f;
+  share_ = kMostGuided * query.diffuse * light / (light + as_light + media.in_scattered(query.p));
   if (share_ < kLeastGuided) share_ = 0;
 }
 

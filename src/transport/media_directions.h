@@ -10,7 +10,9 @@ namespace tyndall {
 /// sample() and pdf() belong together; a deterministic function of the query's place, normal and sides.
 class MediaDirections {
  public:
-  MediaDirections(const BrightMedia& media, const PointQuery& query);
+  /// `emission_sought`: next-event estimation finds what media emit. Then it is a light among others, whose light surfaces
+  /// scatter as well.
+  MediaDirections(const BrightMedia& media, const PointQuery& query, bool emission_sought);
 
   /// Share of directions that should be sampled here, [0, 1/2]: by the radiance of the media relative to the light that other
   /// surfaces receive and scatter.

@@ -90,6 +90,7 @@ class Path {
   bool lit_at_collisions(const Span& span) const;
   std::optional<Vertex> fly(const Span& span, const Trace& trace);
   void add_volume_emission(const Span& span);
+  int events_of_emission(bool weighed) const;
   void dim(const Span& span);
   Rgb light_at(const Directions& directions, Rgb beta);
   float scattering_mis_weight(LightId id, float light_pdf) const;

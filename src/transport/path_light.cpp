@@ -39,7 +39,7 @@ float Path::scattering_mis_weight(LightId id, float light_pdf) const {
     const SpanDensities others = span_densities(context_, *span_collision_, id);
     return mis_weight(span_collision_->density * pdf_, others.pair * light_pdf, others.tracked * light_pdf);
   }
-  return mis_weight(pdf_, context_.selector.n_pmf(search_.cut, search_.query, id) * light_pdf);
+  return mis_weight(pdf_, search_.among->n_pmf(search_.cut, search_.query, id) * light_pdf);
 }
 
 /// What a ray that was scattered from a vertex counts of the emission that it passes.
@@ -69,6 +69,10 @@ class Path::ScatteredEmission final : public EmissionGauge {
   const Path& path_;
 };
 
+/// What the ray of an offered collision passes comes to it from one direction, as later light does, and is shared like that.
+/// What next-event estimation weighs against, which is the path's own, is not.
+int Path::events_of_emission(bool weighed) const { return completes_collision() && !weighed ? depth_ + 1 : depth_; }
+
 /// All of it that reaches the span's origin: how far the path goes does not matter.
 void Path::add_volume_emission(const Span& span) {
   const auto emits = [](const SpanPart& part) { return any_emissive(part.view()); };
@@ -76,9 +80,10 @@ void Path::add_volume_emission(const Span& span) {
   if (last == span.parts.begin()) return;
   Rng rng = stream_for_emission();
   const ScatteredEmission gauge(*this);
-  const bool weighs = light_sampled_ && seeks_volume_lights(context_);
+  const bool weighs = light_sampled_ && (span_collision_ ? span_collision_->search.volumes : search_.volumes);
   DeepSample* const deep = depth_ == 0 ? context_.deep : nullptr;
   const EmissionLook look{weighs ? &gauge : nullptr, depth_ == 0 ? kSeenDensity : 1.0f, deep};
+  const int events = events_of_emission(weighs);
   Rgb T = beta_;
   for (auto part = span.parts.begin(); part != last && !is_black(T); ++part) {
     TrackingStats& stats = context_.counters.tracking;
@@ -86,9 +91,9 @@ void Path::add_volume_emission(const Span& span) {
       const Rng before = rng;
       if (deep) deep->begin_emission(*part, T);
       const auto passed = emission_and_transmittance(part->view(), ray_, part->t0, part->t1, look, rng, stats);
-      add(T * passed.emitted, depth_);
+      add(T * passed.emitted, events);
       if (context_.groups)
-        add_by_medium({*part, ray_, look, before}, passed.emitted, T, context_.groups->groups(), sums_by_group(depth_));
+        add_by_medium({*part, ray_, look, before}, passed.emitted, T, context_.groups->groups(), sums_by_group(events));
       T *= passed.transmittance;
     } else {
       T *= transmittance(span_method(context_), part->view(), ray_, part->t0, part->t1, rng, stats);

@@ -25,6 +25,6 @@ class Prices {
 };
 
 /// Of all that the context's thread has counted.
-inline double cost_so_far(const LightContext& context) { return Prices(context.world.lights.sought()).of(context.counters); }
+inline double cost_so_far(const LightContext& context) { return Prices(context.world.lights.size()).of(context.counters); }
 
 }  // namespace tyndall

@@ -96,9 +96,10 @@ class PairFinder {
   Rgb beta_;
 };
 
-Pairs all_lights(const LightContext& context, const PairFinder& finder, Sampler& sampler) {
+Pairs all_lights(const LightContext& context, const SpanSearch& search, const PairFinder& finder, Sampler& sampler) {
   Pairs pairs;
   for (LightId id = 0; id < context.world.lights.size(); ++id) {
+    if (!search.volumes && context.world.volume_lights.holds(id)) continue;
     finder.look_along({id, 1}, sampler, pairs);
   }
   return pairs;
@@ -106,7 +107,7 @@ Pairs all_lights(const LightContext& context, const PairFinder& finder, Sampler&
 
 Pairs chosen_lights(const LightContext& context, const SpanSearch& search, const PairFinder& finder, Sampler& sampler) {
   Pairs pairs;
-  for (const LightCandidate& candidate : context.selector.draw(search.cut, search.query, sampler.next_wide())) {
+  for (const LightCandidate& candidate : search.among->draw(search.cut, search.query, sampler.next_wide())) {
     ++context.counters.pairs;
     finder.look_along(candidate, sampler, pairs);
   }
@@ -171,7 +172,7 @@ SpanProfile::Bins bins_of_profile(const LightContext& context) {
 }  // namespace
 
 bool seeks_along_spans(const LightContext& context) {
-  return context.settings.media != MediaStrategy::vertex && context.world.lights.sought() > 0;
+  return context.settings.media != MediaStrategy::vertex && context.world.lights.sought(seeks_volume_lights(context)) > 0;
 }
 
 bool pairs_along_spans(const RenderSettings& settings) {
@@ -183,12 +184,18 @@ std::optional<SpanSearch> span_search(const LightContext& context, const Span& s
   if (!seeks_along_spans(context) || span.empty()) return std::nullopt;
   const auto profile = SpanProfile::of(span, bins_of_profile(context));
   if (!profile) return std::nullopt;
-  SpanSearch search{.query = {}, .cut = {}, .profile = *profile, .g = mean_cosine(span)};
+  const bool volumes = seeks_volume_lights(context);
+  SpanSearch search{.among = &selector(context, volumes),
+                    .volumes = volumes,
+                    .query = {},
+                    .cut = {},
+                    .profile = *profile,
+                    .g = mean_cosine(span)};
   search.query = query_of(settings, span, *profile, search.g);
   search.tracked = tracks(context);
-  if (!context.selector.exhaustive()) {
+  if (!search.among->exhaustive()) {
     const SpanCounts counts = counts_along_span(context, profile->scattered(), profile->optical_depth());
-    search.cut = context.selector.cut(search.query, cut_settings(context, counts.candidates));
+    search.cut = search.among->cut(search.query, cut_settings(context, counts.candidates));
     search.shadow_rays = counts.shadow_rays;
     search.distances = counts.distances;
     search.chance = counts.chance;
@@ -202,8 +209,8 @@ Rgb span_light(const LightContext& context, const Span& span, const SpanSearch& 
   const PairFinder finder(context, span, search, beta);
   return tried(context, {Spent::span_candidates, Spent::span_rays}, beta, [&](const LightContext& c, LightTrial* trial) {
     const float u = sampler.next_1d();
-    const bool all = c.selector.exhaustive();
-    const Pairs pairs = all ? all_lights(c, finder, sampler) : chosen_lights(c, search, finder, sampler);
+    const bool all = search.among->exhaustive();
+    const Pairs pairs = all ? all_lights(c, search, finder, sampler) : chosen_lights(c, search, finder, sampler);
     return evaluate({c, span, beta, trial}, pairs, resample(pairs, search.shadow_rays, u), sampler);
   });
 }
@@ -213,7 +220,7 @@ float collision_density(const Span& span, const SpanSearch& search, float t) {
 }
 
 SpanDensities span_densities(const LightContext& context, const SpanCollision& collision, LightId id) {
-  const float n_pmf = context.selector.n_pmf(collision.search.cut, collision.search.query, id);
+  const float n_pmf = collision.search.among->n_pmf(collision.search.cut, collision.search.query, id);
   const float pairs =
       collision.search.chance * static_cast<float>(collision.search.distances);  // for each candidate, on average
   return {.pair = pairs_along_spans(context.settings)

@@ -12,6 +12,8 @@ namespace tyndall {
 /// How lights are sampled along one span: span_light uses it, and MIS must know it when a ray that was scattered in the span
 /// hits a light.
 struct SpanSearch {
+  const LightSelector* among;  ///< the lights that are sought
+  bool volumes;                ///< media that emit are among them
   SegmentQuery query;
   LightCut cut;
   SpanProfile profile;

@@ -11,8 +11,8 @@
 
 namespace tyndall {
 
-/// A vertex whose light is sampled. `Search` has a query, the cut made for it and shadow_rays; `Share` is a function of a
-/// LightSample and the density of the candidates: its MIS weight.
+/// A vertex whose light is sampled. `Search` has a selector, whether volumes are among its lights, a query, the cut made for it
+/// and shadow_rays; `Share` is a function of a LightSample and the density of the candidates: its MIS weight.
 template <typename Search, typename Share>
 class VertexLight {
  public:
@@ -22,7 +22,7 @@ class VertexLight {
   /// Of all lights, or of the candidates that survive resampling.
   /// `trial`, unless null, is told what the choice adds to the noise.
   Rgb estimate(Sampler& sampler, LightTrial* trial = nullptr) const {
-    return context_.selector.exhaustive() ? all(sampler) : chosen(sampler, trial);
+    return search_.among->exhaustive() ? all(sampler) : chosen(sampler, trial);
   }
 
  private:
@@ -61,6 +61,7 @@ class VertexLight {
   Rgb all(Sampler& sampler) const {
     Rgb sum;
     for (LightId id = 0; id < context_.world.lights.size(); ++id) {
+      if (!search_.volumes && context_.world.volume_lights.holds(id)) continue;
       if (const auto c = look_at({id, 1}, sampler.next_2d())) sum += trace(*c, 1, sampler);
     }
     return sum;
@@ -69,7 +70,7 @@ class VertexLight {
   Rgb chosen(Sampler& sampler, LightTrial* trial) const {
     const float u = sampler.next_1d();
     SmallVector<Candidate, 8> candidates;
-    for (const LightCandidate& candidate : context_.selector.draw(search_.cut, search_.query, sampler.next_wide())) {
+    for (const LightCandidate& candidate : search_.among->draw(search_.cut, search_.query, sampler.next_wide())) {
       ++context_.counters.candidates;
       if (const auto c = look_at(candidate, sampler.next_2d())) candidates.push_back(*c);
     }

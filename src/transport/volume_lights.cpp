@@ -90,7 +90,7 @@ std::vector<std::string> VolumeLights::notes(const std::vector<Medium>& media) c
   std::vector<std::string> notes;
   for (const EmissiveMedium& medium : emissive_) {
     notes.push_back("medium \"" + media[medium.id].name + "\" emits light: its " + std::to_string(medium.cells.size()) +
-                    " cells that emit are lights with --emission lights");
+                    " cells that emit are lights, unless --emission is paths");
   }
   return notes;
 }

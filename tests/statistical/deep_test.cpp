@@ -45,7 +45,7 @@ class Shot {
 
  private:
   World build_world() const {
-    return build(scene_, {.lights = {settings_.lights}, .volume_lights = settings_.emission == EmissionStrategy::lights});
+    return build(scene_, {.lights = {settings_.lights}, .volume_lights = settings_.emission != EmissionStrategy::paths});
   }
 
   Scene scene_;

@@ -1,5 +1,8 @@
-/// Volume emission as lights: one picture whether scattered rays alone find it or next-event estimation samples it.
+/// Volume emission as lights: one picture whether scattered rays alone find it or next-event estimation samples it, at every
+/// vertex or at the first.
 #include <doctest/doctest.h>
+
+#include <utility>
 
 #include "support/agreement.h"
 #include "support/scene_text.h"
@@ -41,7 +44,7 @@ std::string walls() {
                                               "2] \"integer indices\" [0 1 2 0 2 3]\n");
 }
 
-constexpr Variant kPaths{.emission = EmissionStrategy::paths};
+constexpr Variant kPaths{.emission = EmissionStrategy::paths}, kAuto{.emission = EmissionStrategy::automatic};
 
 /// Volume emission sampled as lights.
 Variant sampled(Variant variant = {}) {
@@ -63,6 +66,7 @@ TEST_CASE("volume emission lights a diffuse room, however a brick is chosen") {
   const std::string scene = view(camera()) + walls() + emissive_grid() + point_light({-0.8f, 0.9f, -0.9f}, 0.3f);
   check_all_agree("fire in a room", scene,
                   {{"paths", kPaths},
+                   {"auto", kAuto},
                    {"tree", sampled()},
                    {"tree-binary", sampled({.lights = LightStrategy::tree_binary})},
                    {"power, 3 to 1", sampled({.lights = LightStrategy::power, .candidates = 3})},
@@ -84,6 +88,7 @@ TEST_CASE("volume emission in smoke that scatters, by every strategy along segme
   check_all_agree(
       "fire in smoke", scene,
       {{"paths", kPaths},
+       {"auto", kAuto},
        {"vertex", sampled({.media = MediaStrategy::vertex})},
        {"product", sampled()},
        {"product, 4 to 2", sampled({.candidates = 4, .shadow_rays = 2})},
@@ -95,8 +100,10 @@ TEST_CASE("volume emission in smoke that scatters, by every strategy along segme
 
 TEST_CASE("volume emission in smoke that scatters forward, g = 0.9") {
   const std::string scene = view(camera(5)) + emissive_grid() + smoke({.sigma_s = {1.2f, 1, 1.4f}, .g = 0.9f});
-  check_all_agree("fire in forward smoke", scene,
-                  {{"paths", kPaths}, {"vertex", sampled({.media = MediaStrategy::vertex})}, {"product", sampled()}}, at(0.03));
+  check_all_agree(
+      "fire in forward smoke", scene,
+      {{"paths", kPaths}, {"auto", kAuto}, {"vertex", sampled({.media = MediaStrategy::vertex})}, {"product", sampled()}},
+      at(0.03));
 }
 
 TEST_CASE("the camera in an emissive medium, and a wall in it") {
@@ -108,8 +115,10 @@ TEST_CASE("the camera in an emissive medium, and a wall in it") {
       block("Material \"diffuse\" \"rgb reflectance\" [0.7 0.7 0.7]\nShape \"disk\" \"float radius\" 0.3\n");
   const std::string scene =
       view(inside) + walls() + emissive_grid() + block("Translate 0.1 -0.4 0.2\nRotate 40 1 1 0\n" + wall);
-  check_all_agree("within fire", scene,
-                  {{"paths", kPaths}, {"product", sampled()}, {"vertex", sampled({.media = MediaStrategy::vertex})}}, at(0.03));
+  check_all_agree(
+      "within fire", scene,
+      {{"paths", kPaths}, {"auto", kAuto}, {"product", sampled()}, {"vertex", sampled({.media = MediaStrategy::vertex})}},
+      at(0.03));
 }
 
 TEST_CASE("bricks beyond the boundary of their medium, a group for each half, volume emission in an unbounded fog") {
@@ -117,14 +126,16 @@ TEST_CASE("bricks beyond the boundary of their medium, a group for each half, vo
   const Bounds3 left{kHearth.min, {-0.1f, 0.05f, 0.3f}}, right{{0.1f, -0.9f, -0.4f}, kHearth.max};
   const std::string scene = view(camera()) + walls() + uniform_grid("fire", kFire, grid) + medium_box("fire", "", left) +
                             medium_box("fire", "", right);
-  check_all_agree("halves of fire", scene,
-                  {{"paths", kPaths}, {"product", sampled()}, {"vertex", sampled({.media = MediaStrategy::vertex})}}, at(0.03));
+  check_all_agree(
+      "halves of fire", scene,
+      {{"paths", kPaths}, {"auto", kAuto}, {"product", sampled()}, {"vertex", sampled({.media = MediaStrategy::vertex})}},
+      at(0.03));
 
   View foggy = camera(4);
   foggy.before_camera = homogeneous("fog", {.sigma_s = {0.1f, 0.1f, 0.1f}, .Le = {}});
   foggy.medium = "fog";
   const std::string fog = view(foggy) + walls() + emissive_grid();
-  check_all_agree("fire in fog", fog, {{"paths", kPaths}, {"product", sampled()}}, at(0.03));
+  check_all_agree("fire in fog", fog, {{"paths", kPaths}, {"auto", kAuto}, {"product", sampled()}}, at(0.03));
 }
 
 TEST_CASE("thermal equilibrium with a white wall, volume emission sampled as lights") {
@@ -136,6 +147,9 @@ TEST_CASE("thermal equilibrium with a white wall, volume emission sampled as lig
   Agreement vertex = furnace;
   vertex.variant.media = MediaStrategy::vertex;
   check_agrees("equilibrium by vertices", scene, {1.0, 1.0, 1.0}, vertex);
+  Agreement first = furnace;
+  first.variant = kAuto;
+  check_agrees("equilibrium by first vertices", scene, {1.0, 1.0, 1.0}, first);
 }
 
 /// E = pi Le (R / d)^2 b in front of the sphere's centre, b = 1 - 2 (1 - (1 + tau) e^-tau) / tau^2, tau = 2 sigma_a R: the flux
@@ -159,10 +173,7 @@ TEST_CASE("irradiance of a sphere that emits and absorbs, thin and thick, in clo
   };
   for (const auto& [tau, b] : {Case{{0.01f, 0.1f, 0.5f}, {0.00664173, 0.06423197, 0.27836792}},
                                Case{{1, 5, 20}, {0.47151776, 0.92323421, 0.99500000}}}) {
-    for (const EmissionStrategy emission : {EmissionStrategy::paths, EmissionStrategy::lights}) {
-      const Agreement how{.variant = {.emission = emission}};
-      check_agrees("sphere of optical depth " + number(tau.r) + (emission == EmissionStrategy::lights ? ", lights" : ", paths"),
-                   scene(tau), expected(b), how);
-    }
+    for (const auto& [name, variant] : {std::pair{"auto", kAuto}, std::pair{"paths", kPaths}, std::pair{"lights", sampled()}})
+      check_agrees("sphere of optical depth " + number(tau.r) + ", " + name, scene(tau), expected(b), {.variant = variant});
   }
 }

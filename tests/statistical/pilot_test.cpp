@@ -90,7 +90,8 @@ LightBudget budget_of(const std::string& text, std::uint64_t seed = 1, PixelBoun
   settings.reuse = ReuseStrategy::pixels;
   settings.budget = BudgetStrategy::measured;
   ThreadPool pool(2);
-  const SampleContext context{world.parts(), world.parts().built.lights.selector(settings.lights), settings, {.max_depth = 4}};
+  const SampleContext context{
+      world.parts(), world.parts().built.lights.selector(settings.lights), nullptr, settings, {.max_depth = 4}};
   const auto budget = measured_budget(context, pool);
   REQUIRE(budget);
   return *budget;
@@ -157,7 +158,7 @@ TEST_CASE("nothing is measured where there is nothing to decide") {
   settings.budget = BudgetStrategy::measured;
   ThreadPool pool(1);
   const auto decides = [&](const World& w, const RenderSettings& s) {
-    return measured_budget({w.parts(), w.parts().built.lights.selector(s.lights), s, {.max_depth = s.max_depth}}, pool)
+    return measured_budget({w.parts(), w.parts().built.lights.selector(s.lights), nullptr, s, {.max_depth = s.max_depth}}, pool)
         .has_value();
   };
   CHECK_FALSE(decides(world, settings));

@@ -195,6 +195,20 @@ TEST_CASE("sharing changes the noise alone: smoke that leaves some ways open, fr
 }
 
 // Finds in media are scattered toward neighbours with the density of the direction that the sun's aureole drew.
+TEST_CASE("sharing changes the noise alone: a fire that scatters its own light") {
+  const Bounds3 hearth{{-0.7f, -1.8f, -0.6f}, {0.7f, -0.2f, 0.8f}};
+  Grid flames{hearth, 8, 8, 8, {}};
+  for (int i = 0; i < 512; ++i) {
+    const float v = 0.5f + std::sin(1.9f * (i % 8)) * std::cos(1.3f * (i / 64)) - 0.06f * (i / 8 % 8);
+    flames.density.push_back(std::max(v, 0.0f));
+  }
+  const Coefficients burning{.sigma_a = {1, 1.5f, 2}, .sigma_s = {3, 2.5f, 2}, .g = 0.4f, .Le = {8, 4, 1}};
+  const std::string fire =
+      camera(5) + room_without_lights() + uniform_grid("fire", burning, flames) + medium_box("fire", "", hearth);
+  for (const EmissionStrategy emission : {EmissionStrategy::automatic, EmissionStrategy::paths, EmissionStrategy::lights})
+    check_agree("fire", fire, {.emission = emission}, 1.05);
+}
+
 TEST_CASE("sharing changes the noise alone: a cloud under a sun") {
   const Coefficients drops{.sigma_a = {0.02f, 0.05f, 0.1f}, .sigma_s = {3, 2, 1.5f}, .g = 0.8f};
   Grid grid{{{-1.5f, -1.7f, -1.5f}, {0.6f, 1, 1.5f}}, 4, 4, 4, {}};

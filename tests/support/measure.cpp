@@ -37,7 +37,7 @@ RenderSettings settings_of(const Scene& scene, const Variant& variant) {
 BuildSettings build_settings_of(const Variant& variant) {
   BuildSettings settings;
   settings.lights = {variant.lights};
-  settings.volume_lights = variant.emission == EmissionStrategy::lights;
+  settings.volume_lights = variant.emission != EmissionStrategy::paths;
   settings.threads = variant.threads;
   return settings;
 }

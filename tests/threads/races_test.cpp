@@ -56,7 +56,7 @@ Image picture(const Scene& scene, LightStrategy lights, EmissionStrategy emissio
   settings.aovs = all_aovs();
   settings.reproducible = true;
   const World world =
-      build(scene, {.lights = {lights}, .volume_lights = emission == EmissionStrategy::lights, .threads = threads});
+      build(scene, {.lights = {lights}, .volume_lights = emission != EmissionStrategy::paths, .threads = threads});
   return render(world, settings).image;
 }
 

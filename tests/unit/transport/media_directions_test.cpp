@@ -43,7 +43,7 @@ TEST_CASE("directions toward smoke follow their density: from afar, beside it, i
                                 query_at(world, {-0.85f, -0.9f, -0.85f}, up), query_at(world, {1, -0.93f, -0.9f}, up),
                                 query_at(world, {-0.9f, 2, -0.8f}, up, true)};
   for (const PointQuery& query : queries) {
-    const MediaDirections directions(media, query);
+    const MediaDirections directions(media, query, false);
     REQUIRE(directions.share() > 0);
     CHECK(directions.share() <= 0.5f);
     const Vec3 axis = normalize(Vec3{media.x()[0], media.y()[0], media.z()[0]} - query.p);
@@ -59,9 +59,22 @@ TEST_CASE("directions toward smoke follow their density: from afar, beside it, i
   }
 }
 
+TEST_CASE("fire that is sought as a light counts among the lights: facing it alone, half as many directions are guided") {
+  Grid grid{kBox, 8, 8, 8, std::vector<float>(512, 0.0f)};
+  grid.density[0] = 1;
+  const test::Coefficients burning{.sigma_a = Rgb(8), .sigma_s = Rgb(1), .Le = Rgb(3)};
+  const World world =
+      world_of("Camera \"perspective\"\nWorldBegin\n" + uniform_grid("fire", burning, grid) + medium_box("fire", "", kBox), {});
+  const BrightMedia& media = world.parts().built.bright_media;
+  CHECK(media.emission_share() == 1);
+  const PointQuery query = query_at(world, {-0.9f, -30, -0.9f}, {0, 1, 0});
+  CHECK(MediaDirections(media, query, false).share() == doctest::Approx(0.5));
+  CHECK(MediaDirections(media, query, true).share() == doctest::Approx(0.25).epsilon(0.01));
+}
+
 TEST_CASE("no direction is guided where none can: beyond the horizon, without light, without smoke that varies") {
   const World world = world_of(corner_of_smoke(), {});
-  CHECK(MediaDirections(world.parts().built.bright_media, query_at(world, {0, 5, 0}, {0, 1, 0})).share() == 0);
+  CHECK(MediaDirections(world.parts().built.bright_media, query_at(world, {0, 5, 0}, {0, 1, 0}), false).share() == 0);
   std::string dark = corner_of_smoke();
   dark.erase(dark.find("LightSource"), dark.find("MakeNamedMedium") - dark.find("LightSource"));
   CHECK(world_of(dark, {}).parts().built.bright_media.empty());
