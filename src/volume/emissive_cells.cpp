@@ -76,10 +76,15 @@ Nodes along_x(const std::uint16_t* nodes, Between y, Between z) {
   return row;
 }
 
+Data with_totals(Data cells) {
+  for (std::uint32_t i = 0; i < cells.places.size(); ++i) cells.totals.push_back(integral(along_z(cells.nodes_of(i))));
+  return cells;
+}
+
 }  // namespace
 
 EmissiveCells::EmissiveCells(const ParticipatingMedium& medium, const Bounds3& reach, std::size_t most)
-    : data_(std::make_unique<const Data>(find_emissive_cells(medium, reach, most))) {}
+    : data_(std::make_unique<const Data>(with_totals(find_emissive_cells(medium, reach, most)))) {}
 EmissiveCells::EmissiveCells(EmissiveCells&&) noexcept = default;
 EmissiveCells& EmissiveCells::operator=(EmissiveCells&&) noexcept = default;
 EmissiveCells::~EmissiveCells() = default;
@@ -90,7 +95,7 @@ float EmissiveCells::radiance(std::uint32_t cell) const { return data_->radiance
 
 std::size_t EmissiveCells::memory_bytes() const {
   return data_->index.capacity() * sizeof(std::uint32_t) + data_->places.capacity() * sizeof(Place) +
-         (data_->intensities.capacity() + data_->radiances.capacity()) * sizeof(float) +
+         (data_->intensities.capacity() + data_->radiances.capacity() + data_->totals.capacity()) * sizeof(float) +
          data_->lattice.capacity() * sizeof(std::uint16_t);
 }
 
@@ -131,7 +136,7 @@ double EmissiveCells::pdf(std::uint32_t cell, Vec3 p) const {
   const std::uint16_t* nodes = data_->nodes_of(cell);
   const Nodes row = along_x(nodes, Between(at[1]), Between(at[2]));
   const Between x(at[0]);
-  const double total = integral(along_z(nodes));  // over 4^3 blocks
+  const double total = data_->totals[cell];
   return lerp(row[static_cast<std::size_t>(x.i)], row[static_cast<std::size_t>(x.i) + 1], x.t) * (kBlocks * kBlocks * kBlocks) /
          (total * data_->cell_volume);
 }

@@ -30,6 +30,7 @@ struct EmissiveCellData {
   std::vector<float> intensities;      ///< by cell
   std::vector<float> radiances;        ///< by cell
   std::vector<std::uint16_t> lattice;  ///< kNodesInCell a cell: the density of its points at the nodes, in any unit
+  std::vector<float> totals;           ///< by cell: the same, integrated over blocks
 
   std::size_t index_of(const Place& place) const {
     const auto at = [&](std::size_t i) { return static_cast<std::size_t>(place[i]); };
