@@ -84,12 +84,12 @@ struct BadSample {
   int x, y, sample;
 };
 
-/// Counts of a render. A correct render has 0 in the second group.
 /// How many lights are looked at, and to how many of them shadow rays are traced.
 struct AskedLights {
   int candidates = 0, shadow_rays = 0;
 };
 
+/// Counts of a render. A correct render has 0 in the second group.
 struct RenderReport {
   int samples = 0;                          ///< per pixel, done; with RenderSettings::adaptive in the mean, as everywhere
   int least_samples = 0, most_samples = 0;  ///< of any pixel

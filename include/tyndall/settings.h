@@ -46,8 +46,8 @@ enum class JointStrategy { automatic, off, points };
 enum class ReuseStrategy { automatic, off, pixels };
 /// How many lights are asked at a path's first vertex and along its first segment, where `candidates` and `shadow_rays` are not
 /// set: fixed numbers, or those that make variance x cost least as measured in a few blocks of the picture before it is
-/// rendered. `automatic`: measured with MediaStrategy::product, fixed with what stands for other programs' methods. Single
-/// scattering has fixed ones.
+/// rendered; which also tells whether paths that share do so beyond collisions in grids. `automatic`: measured with
+/// MediaStrategy::product, fixed with what stands for other programs' methods. Single scattering has fixed ones.
 enum class BudgetStrategy { automatic, fixed, measured };
 /// Estimator of transmittance along shadow rays.
 enum class TransmittanceStrategy { residual, ratio, delta, raymarch };

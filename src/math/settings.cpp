@@ -124,8 +124,10 @@ const std::vector<StrategyAxis>& strategy_axes() {
                                             "lights, and pixels toward small emissive surfaces"),
       axis<kReuses, &RenderSettings::reuse>("reuse",
                                             "whether neighbouring pixels share what paths find beyond the first bounce"),
-      axis<kBudgets, &RenderSettings::budget>("budget",
-                                              "how many lights are asked at a path's first vertex and along its first segment"),
+      axis<kBudgets, &RenderSettings::budget>(
+          "budget",
+          "how many lights are asked at a path's first vertex and along its first segment, and whether "
+          "collisions in grids are worth sharing"),
       axis<kTransmittances, &RenderSettings::transmittance>("transmittance", "estimator along shadow rays"),
   };
   return axes;

@@ -98,7 +98,7 @@ void PixelGroup::run(const SampleContext& context, Counters& counters) {
     if (sharing[i]->offers() && sharing[i]->offer().at) sharing[i]->complete_offer();
   }
   const std::optional<bool> collisions_shared = context.budget ? context.budget->collisions_shared : std::nullopt;
-  share_suffixes({context.world.built, context.settings.transmittance, counters, collisions_shared}, {sharing.data(), count});
+  share_suffixes({context.world.built, context.settings.transmittance, counters}, {sharing.data(), count}, collisions_shared);
 }
 
 }  // namespace tyndall

@@ -14,7 +14,6 @@ struct Between {
   const BuiltWorld& world;
   TransmittanceStrategy transmittance;
   Counters& counters;
-  std::optional<bool> collisions_shared{};  ///< as LightBudget has it
 };
 
 /// A scattering function and its density.

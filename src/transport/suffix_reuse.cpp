@@ -65,9 +65,10 @@ void share_among(Shares& shares, std::span<Path* const> finders, std::size_t rec
   }
 }
 
-void share_collisions(const Between& between, std::span<Path* const> finders, std::span<Path* const> paths) {
+void share_collisions(const Between& between, std::span<Path* const> finders, std::span<Path* const> paths,
+                      std::optional<bool> shared) {
   if (finders.empty()) return;
-  if (!(between.collisions_shared ? *between.collisions_shared : SegmentShares::near_each_other(paths))) {
+  if (!(shared ? *shared : SegmentShares::near_each_other(paths))) {
     for (Path* path : finders) keep(*path);
     return;
   }
@@ -79,7 +80,7 @@ void share_collisions(const Between& between, std::span<Path* const> finders, st
 }  // namespace
 
 /// Finders on surfaces and in media are not mixed: what they find is found so differently that it is not worth connecting.
-void share_suffixes(const Between& between, std::span<Path* const> paths) {
+void share_suffixes(const Between& between, std::span<Path* const> paths, std::optional<bool> collisions_shared) {
   if (paths.empty()) return;
   std::array<Path*, kMostSharing> finders;
   auto* const end = std::copy_if(paths.begin(), paths.end(), finders.begin(), [](const Path* path) { return path->offers(); });
@@ -89,7 +90,7 @@ void share_suffixes(const Between& between, std::span<Path* const> paths) {
   if (!SegmentShares::pay(paths)) {
     for (Path* path : on_surface) surfaces.add_arrived(*path);
     share_among(surfaces, on_surface, on_surface.size());
-    share_collisions(between, in_medium, paths);
+    share_collisions(between, in_medium, paths, collisions_shared);
     return;
   }
   for (Path* path : paths) surfaces.add_behind(*path);

@@ -6,6 +6,7 @@
 /// connection costs a shadow ray whatever it brings: finds that are worth little play roulette.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "transport/find_link.h"
@@ -14,6 +15,7 @@
 namespace tyndall {
 
 /// Hands out what the offers of `paths` are worth to each of them: at most kMostSharing, with complete offers or none.
-void share_suffixes(const Between& between, std::span<Path* const> paths);
+/// `collisions_shared`: whether those beyond collisions in grids are; nothing: by how far apart they are.
+void share_suffixes(const Between& between, std::span<Path* const> paths, std::optional<bool> collisions_shared);
 
 }  // namespace tyndall

@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "report/block_test.h"
+#include "support/block_image.h"
 #include "support/measure.h"
 #include "support/sanitized.h"
 #include "support/scene_text.h"
@@ -52,16 +53,7 @@ MeanImage blocks_of(const std::string& text, BudgetStrategy budget, std::uint64_
   Subject subject(text, {.reuse = ReuseStrategy::pixels, .budget = budget});
   MeanImageBuilder blocks;
   for (int i = 0; i < fewer(40); ++i) {
-    const Image image = subject.render(4, seed + static_cast<std::uint64_t>(i));
-    Image means;
-    means.data = means.display = {0, 0, kResolution / kBlock, kResolution / kBlock};
-    for (const char* name : {"R", "G", "B"}) {
-      auto& values = means.add_channel(name).values;
-      const auto& from = image.find(name)->values;
-      for (std::size_t p = 0; p < from.size(); ++p)
-        values[p / kResolution / kBlock * (kResolution / kBlock) + p % kResolution / kBlock] += from[p] / (kBlock * kBlock);
-    }
-    blocks.add(means);
+    blocks.add(block_image(subject.render(4, seed + static_cast<std::uint64_t>(i)), kBlock));
   }
   CHECK_MESSAGE(subject.faults().empty(), subject.faults());
   return blocks.result();

@@ -8,6 +8,7 @@
 
 #include "report/block_test.h"
 #include "report/image_test.h"
+#include "support/block_image.h"
 #include "support/measure.h"
 #include "support/sanitized.h"
 #include "support/scene_text.h"
@@ -79,15 +80,7 @@ Renders renders_of(const std::string& text, const Variant& variant, std::uint64_
   for (int i = 0; i < kRenders; ++i) {
     const Image image = subject.render(kSpp, seed + static_cast<std::uint64_t>(i));
     pixels.add(image);
-    Image means;
-    means.data = means.display = {0, 0, kResolution / kBlock, kResolution / kBlock};
-    for (const char* name : {"R", "G", "B"}) {
-      auto& values = means.add_channel(name).values;
-      const auto& from = image.find(name)->values;
-      for (std::size_t p = 0; p < from.size(); ++p)
-        values[p / kResolution / kBlock * (kResolution / kBlock) + p % kResolution / kBlock] += from[p] / (kBlock * kBlock);
-    }
-    blocks.add(means);
+    blocks.add(block_image(image, kBlock));
   }
   CHECK_MESSAGE(subject.faults().empty(), subject.faults());
   Renders result{blocks.result(), 0};
