@@ -16,6 +16,47 @@ expect() {
 # says TEXT FILE: the file holds the text.
 says() { grep -qF -- "$1" "$2" || fail "\"$1\" is not in $2: $(head -c 300 "$2")"; }
 
+# soon COMMAND...: waits until it succeeds. A slow machine, or a busy one, may need minutes.
+soon() {
+  local end=$((SECONDS + 300))
+  until "$@" >/dev/null 2>&1; do
+    [ $SECONDS -lt $end ] || { fail "in five minutes there was no: $*"; return 1; }
+    sleep 0.02
+  done
+}
+
+# interrupted SIGNAL WHEN COMMAND...: sends the signal to the command, which must not end before, once WHEN, which is evaluated,
+# succeeds. Its exit code is in `code`, its output in out.txt and err.txt.
+interrupted() {
+  local signal=$1 when=$2
+  shift 2
+  : >err.txt  # or WHEN may see that of an earlier command
+  "$@" >out.txt 2>err.txt &
+  local pid=$!
+  soon eval "$when || ! kill -0 $pid"
+  kill -s "$signal" $pid 2>/dev/null || fail "ended by itself: $* ($(head -c 300 err.txt))"
+  code=0
+  wait $pid 2>/dev/null || code=$?
+}
+
+# rendering [SAMPLES]: a render with --progress json told in err.txt that it has more samples a pixel than that, or than none.
+rendering() { grep -oE '"samples":[0-9]+' err.txt | awk -F: -v than="${1-0}" '$2 > than { found = 1 } END { exit !found }'; }
+
+# samples_of IMAGE: a pixel, as its header tells.
+samples_of() { "$TYNDALL_BIN" info "$1" | sed -n 's/.*tyndall\/samples *//p'; }
+
+# broken_off OUTPUT OPTION...: a render without end is killed, resumed and interrupted.
+broken_off() {
+  local output=$1
+  shift
+  local endless=("$TYNDALL_BIN" render "$@" --spp 1000000 --checkpoint 0.05 --reproducible --progress json -o "$output")
+  rm -f "$output.checkpoint"
+  interrupted KILL "test -s $output.checkpoint" "${endless[@]}"
+  interrupted INT rendering "${endless[@]}" --resume
+  [ $code = 130 ] || fail "an interrupted render does not exit with 130: $(cat err.txt)"
+  says 'going on from' err.txt
+}
+
 # sanitized: the program has sanitizers in it, which make it ten times as slow.
 sanitized() { grep -qE '__(asan|tsan)_init' "$TYNDALL_BIN"; }
 
