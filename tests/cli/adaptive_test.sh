@@ -4,7 +4,7 @@
 T=$TYNDALL_BIN
 rm -rf ./*.exr ./*.checkpoint
 small_scene >s.pbrt
-options="--resolution 96x64 --reproducible --aov Variance,Z --progress none"
+options="--resolution 96x64 --reproducible --aov Variance,Z"
 
 # An error is reached, with different numbers of samples, by any number of threads with the same bytes.
 expect 0 "$T" render s.pbrt $options --error 6e-6 --threads 1 -o one.exr --json
@@ -21,13 +21,11 @@ grep -E 'tyndall/samples +[0-9]+\.\.[0-9]+$' out.txt >/dev/null || fail "the hea
 grep -E 'tyndall/options .* --adaptive$' out.txt >/dev/null || fail "the header does not tell that it is adaptive"
 
 # Cut off, and taken up again: the unbroken picture.
-expect 0 "$T" render s.pbrt $options --error 1e-6 -o whole.exr
-"$T" render s.pbrt $options --error 1e-6 --checkpoint 60 -o cut.exr 2>err.txt &
-sleep 1.3
-kill -INT $!
-wait $!
-[ $? = 130 ] || fail "an interrupted render does not exit with 130: $(cat err.txt)"
-expect 0 "$T" render s.pbrt $options --error 1e-6 --resume -o cut.exr
+interrupted INT "rendering 64" "$T" render s.pbrt $options --error 1e-9 --checkpoint 60 --progress json --json -o cut.exr
+[ $code = 130 ] || fail "an interrupted render does not exit with 130: $(cat err.txt)"
+half=$(sed -nE 's/.*"estimated": ([0-9.e-]+).*/\1/p' out.txt | awk '{ print $1 / 2 }')
+expect 0 "$T" render s.pbrt $options --error "$half" -o whole.exr
+expect 0 "$T" render s.pbrt $options --error "$half" --resume -o cut.exr
 says 'going on from' err.txt
 cmp cut.exr whole.exr || fail "the resumed picture is not the unbroken one"
 

@@ -3,10 +3,8 @@
 T=$TYNDALL_BIN
 rm -rf ./*.exr ./*.checkpoint ./.*.part
 small_scene >s.pbrt
-options="--resolution 80x48 --spp 96 --reproducible --aov Albedo,Z,Variance --quiet"
-begun=$(date +%s%N)
+options="--resolution 80x48 --spp 512 --reproducible --aov Albedo,Z,Variance --quiet"
 expect 0 "$T" render s.pbrt $options --threads 1 -o whole.exr
-whole=$((($(date +%s%N) - begun) / 1000000 + 20))  # milliseconds that the unbroken render takes here and now
 [ ! -e whole.exr.checkpoint ] || fail "a checkpoint nobody asked for"
 RANDOM=${TYNDALL_SEED:-1}
 kills=20
@@ -16,14 +14,17 @@ sanitized && kills=5
 # Killed again and again, with any number of threads: the picture is never half a file, and in the end the unbroken one.
 "$T" render s.pbrt --spp 1 --quiet -o old.exr
 cp old.exr a.exr
+stamp() { stat -c %y.%i a.exr.checkpoint 2>&1; }
 killed=0 resumed=0
+longest=500  # milliseconds from a new checkpoint to the kill; less where the render is complete by then
 for attempt in $(seq $((3 * kills))); do
   [ $killed -lt $kills ] || break
+  before=$(stamp)
   "$T" render s.pbrt $options --threads $((RANDOM % 3 + 1)) --checkpoint 0.01 --resume -o a.exr 2>err.txt &
   render=$!
-  wait_for=$((RANDOM % (whole * 5 / 4)))
-  sleep $((wait_for / 1000)).$(printf %03d $((wait_for % 1000)))
-  if kill -KILL $render 2>/dev/null; then killed=$((killed + 1)); fi
+  soon eval '[ "$(stamp)" != "$before" ] || ! kill -0 $render'
+  sleep "0.$(printf %03d $((RANDOM % longest)))"
+  if kill -KILL $render 2>/dev/null; then killed=$((killed + 1)); else longest=$((longest * 3 / 4 + 1)); fi
   wait $render 2>/dev/null
   [ -e a.exr.checkpoint ] && resumed=$((resumed + 1))
   cmp -s a.exr old.exr || cmp -s a.exr whole.exr || fail "kill $killed left a picture that is neither the old nor the new one"
@@ -39,24 +40,16 @@ cmp a.exr whole.exr || fail "the resumed picture is not the unbroken one"
 rm -f ./.*.part
 
 # Interrupted, then resumed with another end.
-"$T" render s.pbrt --resolution 80x48 --reproducible --time 60 --quiet --checkpoint 60 -o b.exr 2>err.txt &
-sleep 0.5
-kill -INT $!
-wait $!
-[ $? = 130 ] || fail "an interrupted render does not exit with 130"
+endless=("$T" render s.pbrt --resolution 80x48 --reproducible --time 600 --progress json)
+interrupted INT "rendering 4" "${endless[@]}" --checkpoint 60 -o b.exr  # more than the 4 that are too few for it below
+[ $code = 130 ] || fail "an interrupted render does not exit with 130"
 [ -s b.exr.checkpoint ] || fail "an interrupted render leaves no checkpoint"
-expect 0 "$T" info b.exr
-samples=$(sed -n 's/.*tyndall\/samples *//p' out.txt)
+held=$(samples_of b.exr)
 cp b.exr.checkpoint kept.checkpoint
-held=$samples
 # --resume alone goes on for as long as it likes, and keeps what it has when it is interrupted again.
-"$T" render s.pbrt --resolution 80x48 --reproducible --time 60 --quiet --resume -o b.exr 2>err.txt &
-sleep 0.5
-kill -INT $!
-wait $!
-[ $? = 130 ] || fail "an interrupted, resumed render does not exit with 130"
-expect 0 "$T" info b.exr
-samples=$(sed -n 's/.*tyndall\/samples *//p' out.txt)
+interrupted INT "rendering $held" "${endless[@]}" --resume -o b.exr
+[ $code = 130 ] || fail "an interrupted, resumed render does not exit with 130"
+samples=$(samples_of b.exr)
 [ "$samples" -gt $held ] || fail "a resumed render did not go on: $held, then $samples samples"
 expect 0 "$T" render s.pbrt --resolution 80x48 --reproducible --spp $((samples + 3)) --resume --progress none -o b.exr
 says "going on from $samples samples" err.txt
@@ -64,10 +57,7 @@ expect 0 "$T" render s.pbrt --resolution 80x48 --reproducible --spp $((samples +
 cmp b.exr c.exr || fail "an interrupted and resumed picture is not the unbroken one"
 
 # Less time than the checkpoint has taken is refused, and the checkpoint kept; as much is complete.
-"$T" render s.pbrt --resolution 80x48 --reproducible --time 60 --quiet --checkpoint 60 -o t.exr 2>err.txt &
-sleep 3
-kill -INT $!
-wait $!
+interrupted INT 'grep -E "\"samples\":[0-9]{2,},.*\"seconds\":([3-9]|[0-9]{2,})\." err.txt' "${endless[@]}" --checkpoint 60 -o t.exr
 cp t.exr.checkpoint t.kept
 expect 3 "$T" render s.pbrt --resolution 80x48 --reproducible --time 0.1 --quiet --resume -o t.exr
 says "seconds of rendering, more than the 0.1 asked for; give --time" err.txt
@@ -75,13 +65,9 @@ cmp t.exr.checkpoint t.kept || fail "a refused checkpoint is gone or another one
 
 # The error log goes on too: a line for each power of two, none from after the checkpoint.
 expect 0 "$T" render s.pbrt --resolution 80x48 --seed 77 --spp 4 --quiet -o reference.exr
-logged="--resolution 80x48 --reproducible --quiet --reference reference.exr --error-log log.jsonl -o e.exr"
-"$T" render s.pbrt $logged --time 60 --checkpoint 60 2>err.txt &
-sleep 0.5
-kill -INT $!
-wait $!
-expect 0 "$T" info e.exr
-samples=$(sed -n 's/.*tyndall\/samples *//p' out.txt)
+logged="--resolution 80x48 --reproducible --reference reference.exr --error-log log.jsonl -o e.exr"
+interrupted INT rendering "$T" render s.pbrt $logged --time 600 --progress json --checkpoint 60
+samples=$(samples_of e.exr)
 cp log.jsonl before.jsonl
 echo '{"seconds":9,"samples":1000000000,"mse":0}' >>log.jsonl
 expect 0 "$T" render s.pbrt $logged --spp $((samples + 3)) --resume
