@@ -67,11 +67,8 @@ expect 3 "$T" compare s.pbrt --crop 20,40,0,24 --reference left.exr --spp 2 -o r
 # Given up: nothing to compare with. Stopped: no report, or one of the seeds that are complete.
 expect 7 "$T" compare s.pbrt --time 1e-7 --reference-time 0.1 -o hurried
 says 'given up' out.txt
-"$T" compare s.pbrt --spp 1000000 --reference-time 0.2 --quiet -o stopped 2>err.txt &
-sleep 2
-kill -INT $!
-wait $!
-[ $? = 130 ] || fail "an interrupted compare does not exit with 130"
+interrupted INT 'grep -q variants err.txt' "$T" compare s.pbrt --spp 1000000 --reference-time 0.2 --progress json -o stopped
+[ $code = 130 ] || fail "an interrupted compare does not exit with 130"
 [ -e stopped ] && fail "an interrupted compare leaves an empty folder"
 expect 3 "$T" compare absent.pbrt -o r
 expect 3 "$T" compare s.pbrt --reference absent.exr --resolution 24x16 -o r

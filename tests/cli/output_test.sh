@@ -37,36 +37,29 @@ done
 
 # A disk that fills up while the picture is rendered: the picture ends up elsewhere, whole. Needs a disk of our own.
 cat >full_disk.sh <<'INNER'
-set -e
+. "$TYNDALL_SOURCE_DIR/tests/cli/support.bash"
 mount -t tmpfs -o size=1m none full
 cp old full/a.exr
-"$T" render s.pbrt --spp 100000 --time 2 --reproducible --quiet -o full/a.exr >out.txt 2>err.txt &
-render=$!
-sleep 0.7
-cat /dev/zero >full/fill 2>/dev/null || true
-code=0
-wait $render || code=$?
-[ $code = 4 ] || { echo "exit code $code, not 4: $(cat err.txt)"; exit 1; }
-[ -s full/a.exr ] || { echo "the old file is gone"; exit 1; }
+interrupted INT 'rendering && ! cat /dev/zero >full/fill' \
+  "$T" render s.pbrt --spp 1000000 --reproducible --progress json -o full/a.exr
+[ $code = 4 ] || fail "exit code $code, not 4: $(cat err.txt)"
+[ -s full/a.exr ] || fail "the old file is gone"
+exit $failures
 INNER
 # The checkpoint of a complete render makes room for its image.
 cat >checkpoint_disk.sh <<'INNER'
-set -e
+. "$TYNDALL_SOURCE_DIR/tests/cli/support.bash"
 mount -t tmpfs -o size=200k none full
-code=0
-"$T" render s.pbrt --quiet --checkpoint 60 -o full/a.exr 2>err.txt || code=$?
-[ $code = 4 ] && grep -q 'a checkpoint and its successor may take' err.txt || { echo "no room for two checkpoints: exit code $code, $(cat err.txt)"; exit 1; }
+expect 4 "$T" render s.pbrt --quiet --checkpoint 60 -o full/a.exr
+says 'a checkpoint and its successor may take' err.txt
 mount -t tmpfs -o size=1m none full
-"$T" render s.pbrt --spp 100000 --time 2 --reproducible --quiet --checkpoint 0.2 -o full/a.exr >out.txt 2>err.txt &
-render=$!
-for _ in $(seq 200); do [ -s full/a.exr.checkpoint ] || sleep 0.05; done
-[ -s full/a.exr.checkpoint ] || { echo "no checkpoint: the test shows nothing"; exit 1; }
-cat /dev/zero >full/fill 2>/dev/null || true
-code=0
-wait $render || code=$?
-[ $code = 0 ] || { echo "exit code $code: $(cat err.txt)"; exit 1; }
-"$T" info full/a.exr >/dev/null
-[ ! -e full/a.exr.checkpoint ] || { echo "the checkpoint of a complete render is left"; exit 1; }
+# Stopped while the disk is filled, or it might be complete before.
+interrupted CONT 'test -s full/a.exr.checkpoint && kill -STOP $pid && ! cat /dev/zero >full/fill' \
+  "$T" render s.pbrt --time 5 --reproducible --quiet --checkpoint 0.0001 -o full/a.exr
+[ $code = 0 ] || fail "exit code $code: $(cat err.txt)"
+expect 0 "$T" info full/a.exr
+[ ! -e full/a.exr.checkpoint ] || fail "the checkpoint of a complete render is left"
+exit $failures
 INNER
 # Reports of compare and images of merge are kept too.
 cat >other_disk.sh <<'INNER'

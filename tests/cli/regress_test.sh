@@ -83,48 +83,29 @@ grep -qE '^broken +error .*WorldBegun' out.txt || fail "the broken scene is not 
 grep -qE '^hang +timeout .*0.5 s' out.txt || fail "the hang is not named: $(cat out.txt)"
 says '2 pass' out.txt
 rm suite/broken.pbrt suite/hang.*
-echo '{"spp": 100000, "timeout": 6}' >suite/crash.json  # what the other renders of the case get
+echo '{"spp": 1000000, "timeout": 6}' >suite/crash.json  # what the other renders of the case get
+# renders_of PID: the processes of the renders that it runs.
+renders_of() { for child in $(cat /proc/$1/task/$1/children); do grep -qzx render /proc/$child/cmdline && echo $child; done; }
 "$T" regress suite --filter 'crash' --junit junit.xml >out.txt 2>err.txt &
 parent=$!
-for _ in $(seq 100); do
-  sleep 0.1
-  child=$(cat /proc/$parent/task/$parent/children 2>/dev/null | cut -d' ' -f1)
-  [ -n "$child" ] && [ "$(tr '\0' ' ' </proc/$child/cmdline 2>/dev/null | grep -c ' render ')" = 1 ] && break
-done
-sleep 0.3
-kill -KILL "$child"
+soon eval 'kill -KILL $(renders_of $parent | head -n 1)'
 wait $parent
 [ $? = 7 ] || fail "a crash does not give exit code 7"
 grep -qE '^crash +crash .*Killed' out.txt || fail "the crash is not named: $(cat out.txt)"
 says '<error type="crash"' junit.xml
-echo '{"spp": 100000, "timeout": 60}' >suite/crash.json
+echo '{"spp": 1000000, "timeout": 600}' >suite/crash.json
 
 # Ctrl-C ends it soon, leaves no process and no scratch folder behind.
 mkdir -p scratch
-TMPDIR=$PWD/scratch "$T" regress suite --filter crash >out.txt 2>err.txt &
-parent=$!
-sleep 1
-kill -INT $parent
-wait $parent
-[ $? = 130 ] || fail "an interrupted suite does not exit with 130"
+interrupted INT '[ "$(renders_of $pid)" ]' env TMPDIR=$PWD/scratch "$T" regress suite --filter crash
+[ $code = 130 ] || fail "an interrupted suite does not exit with 130"
 [ -z "$(ls -A scratch)" ] || fail "a scratch folder is left: $(ls -A scratch)"
 
 # Killed, it takes its renders with it; a zombie, which nobody may have fetched, is gone too.
-TMPDIR=$PWD/scratch "$T" regress suite --filter crash --jobs 2 >out.txt 2>err.txt &
-parent=$!
-for _ in $(seq 50); do
-  sleep 0.1
-  children=$(cat /proc/$parent/task/$parent/children)
-  [ "$(echo $children | wc -w)" = 2 ] && break
-done
-[ "$(echo $children | wc -w)" = 2 ] || fail "two jobs have not two renders: $children"
-kill -KILL $parent
-wait $parent 2>/dev/null
-sleep 1
-for child in $children; do
-  state=$(sed -n 's/^State:[[:space:]]*\([A-Z]\).*/\1/p' /proc/$child/status 2>/dev/null)
-  case "$state" in '' | Z | X) ;; *) fail "render $child outlives the suite, in state $state" ;; esac
-done
+interrupted KILL 'children=$(renders_of $pid); [ "$(echo $children | wc -w)" = 2 ]' \
+  env TMPDIR=$PWD/scratch "$T" regress suite --filter crash --jobs 2
+gone() { ! grep -q '^State:[[:space:]]*[^ZX[:space:]]' /proc/$1/status; }
+for child in $children; do soon gone $child; done
 # So does a table that cannot be printed, with its own exit code.
 TMPDIR=$PWD/scratch "$T" regress suite --filter crash >/dev/full 2>err.txt
 [ $? = 4 ] || fail "a table that cannot be printed does not exit with 4"

@@ -76,16 +76,10 @@ cp t1.exr keep.exr
 cmp t1.exr keep.exr || fail "a failed write harmed the old file"
 
 # Ctrl-C writes what there is.
-"$T" render s.pbrt --time 60 -o int.exr >out.txt 2>err.txt &
-sleep 1
-kill -INT $!
-wait $!
-[ $? = 130 ] || fail "an interrupted render does not exit with 130"
+interrupted INT rendering "$T" render s.pbrt --time 600 --progress json -o int.exr
+[ $code = 130 ] || fail "an interrupted render does not exit with 130"
 expect 0 "$T" info int.exr
-"$T" render s.pbrt --time 60 -o term.exr >out.txt 2>err.txt &
-sleep 1
-kill -TERM $!
-wait $!
-[ $? = 143 ] || fail "a terminated render does not exit with 143"
+interrupted TERM rendering "$T" render s.pbrt --time 600 --progress json -o term.exr
+[ $code = 143 ] || fail "a terminated render does not exit with 143"
 [ -s term.exr ] || fail "a terminated render wrote nothing"
 finish

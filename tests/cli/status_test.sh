@@ -19,10 +19,8 @@ expect 2 "$T" status
 render --slice 1/4 -o slices/1.exr
 sed 's/xresolution" 40/xresolution" 640/; s/yresolution" 24/yresolution" 360/' s.pbrt >large.pbrt
 checkpoint_of() {
-  "$T" render large.pbrt --spp 1000000 --slice "$1/4" --quiet --checkpoint 0.1 -o "slices/$1.exr" &
-  local render=$!
-  for _ in $(seq 600); do [ -s "slices/$1.exr.checkpoint" ] && break; sleep 0.1; done
-  kill -9 $render && wait $render 2>/dev/null
+  interrupted KILL "test -s slices/$1.exr.checkpoint" \
+    "$T" render large.pbrt --spp 1000000 --slice "$1/4" --quiet --checkpoint 0.1 -o "slices/$1.exr"
 }
 mv slices/1.exr other/
 for i in 2 3; do checkpoint_of $i; done
