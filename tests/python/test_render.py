@@ -62,10 +62,8 @@ def test_an_exception_of_the_callback_ends_the_render(floor):
         raise LookupError("enough")
 
     floor.resolution = 320, 192
-    began = time.monotonic()
     with pytest.raises(LookupError, match="enough"):
-        floor.render(spp=1 << 20, progress=refuse)
-    assert time.monotonic() - began < 10
+        floor.render(spp=1 << 24, progress=refuse)
 
 
 def test_other_threads_run_meanwhile(floor):
