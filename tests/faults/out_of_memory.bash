@@ -10,7 +10,7 @@
 render=("$TYNDALL_BIN" render scene.pbrt --threads 2 --reproducible -o out.exr)
 
 # A render that hangs does not end at the first signal either: it is to wait for the pass.
-patience=(timeout --kill-after 5 20)
+patience=(timeout --kill-after 5 120)
 
 # judged WHAT CODE: of the run that ended with CODE. One that got over it must have the whole picture.
 judged() {
@@ -22,7 +22,7 @@ judged() {
       [ ! -e out.exr ] || cmp -s out.exr whole.exr || fail "$what: exit code $code, and another picture"
       [ "$(wc -l <err.txt)" -le 3 ] && [ -s err.txt ] || fail "$what: not one message: $(head -c 300 err.txt)"
       ;;
-    124 | 137) fail "$what: no end after 20 seconds" ;;
+    124 | 137) fail "$what: no end after two minutes" ;;
     *) fail "$what: exit code $code: $(head -c 300 err.txt)" ;;
   esac
   [ -z "$(find . -maxdepth 1 -name 'out.exr?*' -o -maxdepth 1 -name '.out*')" ] || fail "$what: left $(ls -A | tr '\n' ' ')"
