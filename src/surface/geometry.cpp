@@ -34,12 +34,16 @@ GeometryQuery make_query(const GeometryImpl& impl, const Ray& ray) {
 
 Crossings find_crossings(const GeometryImpl& impl, RTCRayHit ray, GeometryQuery::Boundaries which, const Ray& world_ray) {
   RTCScene scene = impl.world().boundary.get();
-  if (!scene || !(ray.ray.tnear < ray.ray.tfar) || !traceable(ray.ray)) return {};
+  if (!scene && impl.simple.empty()) return {};
+  if (!(ray.ray.tnear < ray.ray.tfar) || !traceable(ray.ray)) return {};
   BoundaryRecords records;
-  GeometryQuery query = make_query(impl, world_ray);
-  query.boundaries = which;
-  query.records = &records;
-  rtcIntersect1(scene, &query.context, &ray);
+  for (const SimpleBoundary& boundary : impl.simple) boundary.record(impl, ray.ray, records);
+  if (scene) {
+    GeometryQuery query = make_query(impl, world_ray);
+    query.boundaries = which;
+    query.records = &records;
+    rtcIntersect1(scene, &query.context, &ray);
+  }
   return records.empty() ? Crossings{} : crossings_of(records, world_ray);
 }
 

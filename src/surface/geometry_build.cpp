@@ -99,6 +99,7 @@ GeometryImpl::GeometryImpl(const Scene& scene, const Textures* textures, int thr
   create_device(threads);
   place_shapes(scene);
   sets.push_back(make_set(scene, scene.shapes, textures));
+  find_simple_boundaries();
   for (const Object& object : scene.objects) sets.push_back(make_set(scene, object.shapes, textures));
   for (std::size_t i = 1; i < sets.size(); ++i) build_set(*sets[i], false);
 
@@ -240,7 +241,9 @@ Embree<RTCScene> GeometryImpl::build_scene(PartSet& set, bool real, bool with_ob
   rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
   bool empty = true;
   for (Part& part : set.parts) {
-    const bool belongs = real ? part.real : part.shape->boundary.has_value();
+    const auto is_this = [&](const SimpleBoundary& boundary) { return boundary.part == &part; };
+    const bool is_simple = std::any_of(simple.begin(), simple.end(), is_this);
+    const bool belongs = real ? part.real : part.shape->boundary && !is_simple;
     if (!belongs || part.primitive_count() == 0) continue;
     attach_part(scene.get(), part, real);
     empty = false;

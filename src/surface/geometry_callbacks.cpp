@@ -132,10 +132,13 @@ void part_record(const RTCIntersectFunctionNArguments* args) {
     if (!(root.t > ray.tnear && root.t < ray.tfar)) continue;
     if (only_if_passed && stops(part, query, args->primID, root, number)) continue;
     const std::uint32_t group = query.impl->placed[shape].group;
-    const int outward = part.orientation(args->primID) * (query.impl->groups[group].inverted ? -1 : 1);
-    const int sign = -root.facing * outward;
+    const int sign = boundary_sign(*query.impl, part, args->primID, group, root.facing);
     query.records->push_back({root.t, root.cosine, group, shape, args->primID, sign});
   }
+}
+
+int boundary_sign(const GeometryImpl& impl, const Part& part, std::uint32_t primitive, std::uint32_t group, int facing) {
+  return -facing * part.orientation(primitive) * (impl.groups[group].inverted ? -1 : 1);
 }
 
 void part_alpha_filter(const RTCFilterFunctionNArguments* args) {

@@ -37,6 +37,11 @@ int net_crossings(const Record* begin, const Record* end) {
 }  // namespace
 
 Crossings crossings_of(BoundaryRecords& records, const Ray& ray) {
+  if (records.size() == 1) {  // most rays leave what they are in
+    Crossings crossing;
+    crossing.push_back({static_cast<float>(records[0].t), records[0].group, records[0].sign});
+    return crossing;
+  }
   const auto order = [](const Record& a, const Record& b) {
     return std::tie(a.group, a.t, a.shape, a.primitive, a.sign) < std::tie(b.group, b.t, b.shape, b.primitive, b.sign);
   };

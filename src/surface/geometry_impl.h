@@ -10,6 +10,7 @@
 
 #include <embree3/rtcore.h>
 
+#include "surface/convex_boundary.h"
 #include "surface/geometry.h"
 #include "surface/shape_mesh.h"
 #include "surface/shape_quadric.h"
@@ -78,6 +79,15 @@ struct BoundaryRecord {
 };
 using BoundaryRecords = SmallVector<BoundaryRecord, 16>;
 
+/// A boundary of the world that bounds media alone and is simple enough to be asked without a hierarchy (geometry_simple.cpp).
+struct SimpleBoundary {
+  const Part* part;  ///< the only one of its group
+  std::uint32_t group;
+  std::optional<ConvexBoundary> convex;  ///< nothing: the part is a quadric
+
+  void record(const GeometryImpl& impl, const RTCRay& ray, BoundaryRecords& records) const;
+};
+
 struct GeometryImpl {
   GeometryImpl(const Scene& scene, const Textures* textures, int threads);
 
@@ -90,6 +100,7 @@ struct GeometryImpl {
   std::vector<PlacedShape> placed;
   std::vector<BoundaryGroup> groups;
   std::vector<std::unique_ptr<PartSet>> sets;  ///< the world, then one for each object
+  std::vector<SimpleBoundary> simple;          ///< left out of the world's set of boundaries; few
   std::vector<PlacedObject> objects;           ///< one for each instance; Embree id: parts of the world + index
   Bounds3 bounds;
   std::size_t triangle_count = 0;
@@ -101,6 +112,7 @@ struct GeometryImpl {
   void create_device(int threads);
   void bound_groups();
   void turn_groups();
+  void find_simple_boundaries();
   void place_shapes(const Scene& scene);
   std::unique_ptr<PartSet> make_set(const Scene& scene, const std::vector<Shape>& shapes, const Textures* textures);
   void build_set(PartSet& set, bool with_objects);
@@ -132,6 +144,9 @@ void object_bounds(const RTCBoundsFunctionArguments* args);
 void object_intersect(const RTCIntersectFunctionNArguments* args);
 void object_occluded(const RTCOccludedFunctionNArguments* args);
 void object_record(const RTCIntersectFunctionNArguments* args);
+
+/// Of the part's primitive, as a boundary of `group`.
+int boundary_sign(const GeometryImpl& impl, const Part& part, std::uint32_t primitive, std::uint32_t group, int facing);
 
 /// Crossings from records: sorted, without duplicates (geometry_crossings.cpp).
 Crossings crossings_of(BoundaryRecords& records, const Ray& ray);

@@ -1,0 +1,113 @@
+#include "surface/convex_boundary.h"
+
+#include <algorithm>
+#include <map>
+#include <tuple>
+#include <utility>
+
+namespace tyndall {
+namespace {
+
+/// Two planes a side of a box whose vertices were rounded, and to spare. Beyond, a hierarchy of triangles is as fast.
+constexpr std::size_t kMostPlanes = 32;
+constexpr std::size_t kMostTriangles = 64;
+/// Vertices may be this far outside of a plane, relative to coordinates: two roundings.
+constexpr double kRounding = 0x1p-23;
+/// Planes that differ by less are one.
+constexpr double kSame = 1e-12;
+
+using Triangle = std::array<Vec3d, 3>;
+
+std::vector<Triangle> triangles_of(const PlacedMesh& mesh) {
+  std::vector<Triangle> triangles;
+  for (std::uint32_t i = 0; 3 * i < mesh.indices->size(); ++i) {
+    const auto c = mesh.corners<3>(i);
+    triangles.push_back({mesh.position(c[0]), mesh.position(c[1]), mesh.position(c[2])});
+  }
+  return triangles;
+}
+
+/// Each edge is passed once in either direction.
+bool is_closed(const std::vector<Triangle>& triangles) {
+  using Point = std::tuple<double, double, double>;
+  std::map<std::pair<Point, Point>, int> edges;
+  const auto key = [](Vec3d p) { return Point(p.x, p.y, p.z); };
+  for (const Triangle& t : triangles) {
+    for (std::size_t i = 0; i < 3; ++i) ++edges[{key(t[i]), key(t[(i + 1) % 3])}];
+  }
+  return std::all_of(edges.begin(), edges.end(), [&](const auto& edge) {
+    const auto back = edges.find({edge.first.second, edge.first.first});
+    return edge.second == 1 && back != edges.end();
+  });
+}
+
+}  // namespace
+
+std::optional<ConvexBoundary> ConvexBoundary::of(const PlacedMesh& mesh) {
+  if (mesh.indices->empty() || mesh.indices->size() > 3 * kMostTriangles) return {};
+  const std::vector<Triangle> triangles = triangles_of(mesh);
+  if (!is_closed(triangles)) return {};
+  Vec3d center;
+  double reach = 0;
+  for (const Triangle& t : triangles) {
+    for (const Vec3d& p : t) {
+      center = center + p * (1.0 / static_cast<double>(3 * triangles.size()));
+      reach = std::max(reach, max_component(abs(p)));
+    }
+  }
+  ConvexBoundary boundary(center);
+  double side = 0;  // of the first triangle: the winding of all
+  for (const Triangle& t : triangles) {
+    const Vec3d winding = cross(t[1] - t[0], t[2] - t[0]);
+    const double area = length(winding), h = dot(winding, t[0] - center);
+    if (!(area > 0) || h == 0 || h * side < 0) return {};
+    side = h;
+    boundary.add({winding * ((h < 0 ? -1 : 1) / area), std::abs(h) / area}, reach);
+  }
+  if (boundary.planes_.size() > kMostPlanes) return {};
+  for (const Plane& plane : boundary.planes_) {
+    if (!(plane.h > 4 * kRounding * reach)) return {};  // as thin as its vertices are exact
+    for (const Triangle& t : triangles) {
+      for (const Vec3d& p : t) {
+        if (dot(plane.n, p - center) > plane.h + kRounding * reach) return {};
+      }
+    }
+  }
+  return boundary;
+}
+
+void ConvexBoundary::add(const Plane& plane, double size) {
+  const auto same = [&](const Plane& other) {
+    return length(plane.n - other.n) <= kSame && std::abs(plane.h - other.h) <= kSame * size;
+  };
+  if (std::none_of(planes_.begin(), planes_.end(), same)) planes_.push_back(plane);
+}
+
+// [Cyrus and Beck 1978]: the last plane that is entered, the first that is left. The sign of t is that of the distance from
+// the plane, in whatever direction the ray goes.
+std::optional<ConvexBoundary::Passage> ConvexBoundary::passage(const ShapeRay& ray) const {
+  Passage passage{-kInfinity, kInfinity, 0, 0};
+  const Vec3d o = ray.o - center_;
+  for (const Plane& plane : planes_) {
+    const double inward = plane.h - dot(plane.n, o), slope = dot(plane.n, ray.d);
+    if (slope == 0) {
+      if (!(inward > 0)) return {};
+      continue;
+    }
+    const double t = inward / slope;
+    if (slope > 0 && t < passage.leaves) {
+      passage.leaves = t;
+      passage.leaves_cosine = slope;
+    } else if (slope < 0 && t > passage.enters) {
+      passage.enters = t;
+      passage.enters_cosine = -slope;
+    }
+  }
+  if (!(passage.enters < passage.leaves)) return {};
+  const double scale = 1 / length(ray.d);
+  passage.enters_cosine *= scale;
+  passage.leaves_cosine *= scale;
+  return passage;
+}
+
+}  // namespace tyndall
