@@ -8,13 +8,10 @@
 namespace tyndall {
 namespace {
 
-/// Two planes a side of a box whose vertices were rounded, and to spare. Beyond, a hierarchy of triangles is as fast.
-constexpr std::size_t kMostPlanes = 32;
-constexpr std::size_t kMostTriangles = 64;
-/// Vertices may be this far outside of a plane, relative to coordinates: two roundings.
+/// Beyond, a hierarchy of triangles is as fast.
+constexpr std::size_t kMostPlanes = 32, kMostTriangles = 64;
+/// Vertices may be this far off a plane, relative to coordinates: two roundings.
 constexpr double kRounding = 0x1p-23;
-/// Planes that differ by less are one.
-constexpr double kSame = 1e-12;
 
 using Triangle = std::array<Vec3d, 3>;
 
@@ -55,6 +52,7 @@ std::optional<ConvexBoundary> ConvexBoundary::of(const PlacedMesh& mesh) {
       reach = std::max(reach, max_component(abs(p)));
     }
   }
+  const double rounding = kRounding * reach;
   ConvexBoundary boundary(center);
   double side = 0;  // of the first triangle: the winding of all
   for (const Triangle& t : triangles) {
@@ -62,25 +60,25 @@ std::optional<ConvexBoundary> ConvexBoundary::of(const PlacedMesh& mesh) {
     const double area = length(winding), h = dot(winding, t[0] - center);
     if (!(area > 0) || h == 0 || h * side < 0) return {};
     side = h;
-    boundary.add({winding * ((h < 0 ? -1 : 1) / area), std::abs(h) / area}, reach);
+    if (std::abs(h) <= 4 * rounding * area) return {};  // as thin as its vertices are exact
+    if (!boundary.has(t, rounding)) boundary.planes_.push_back({winding * ((h < 0 ? -1 : 1) / area), std::abs(h) / area});
   }
   if (boundary.planes_.size() > kMostPlanes) return {};
   for (const Plane& plane : boundary.planes_) {
-    if (!(plane.h > 4 * kRounding * reach)) return {};  // as thin as its vertices are exact
     for (const Triangle& t : triangles) {
       for (const Vec3d& p : t) {
-        if (dot(plane.n, p - center) > plane.h + kRounding * reach) return {};
+        if (dot(plane.n, p - center) > plane.h + rounding) return {};
       }
     }
   }
   return boundary;
 }
 
-void ConvexBoundary::add(const Plane& plane, double size) {
-  const auto same = [&](const Plane& other) {
-    return length(plane.n - other.n) <= kSame && std::abs(plane.h - other.h) <= kSame * size;
-  };
-  if (std::none_of(planes_.begin(), planes_.end(), same)) planes_.push_back(plane);
+bool ConvexBoundary::has(const Triangle& triangle, double rounding) const {
+  return std::any_of(planes_.begin(), planes_.end(), [&](const Plane& plane) {
+    return std::all_of(triangle.begin(), triangle.end(),
+                       [&](Vec3d p) { return std::abs(dot(plane.n, p - center_) - plane.h) <= rounding; });
+  });
 }
 
 // [Cyrus and Beck 1978]: the last plane that is entered, the first that is left. The sign of t is that of the distance from

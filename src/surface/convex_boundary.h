@@ -1,6 +1,7 @@
 /// Closed convex meshes as what they are: the common part of half-spaces.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -28,7 +29,8 @@ class ConvexBoundary {
     double h;  ///< its distance from center_
   };
   explicit ConvexBoundary(Vec3d center) : center_(center) {}
-  void add(const Plane& plane, double size);
+  /// Whether a plane has the whole triangle, to rounding.
+  bool has(const std::array<Vec3d, 3>& triangle, double rounding) const;
 
   Vec3d center_;  ///< within; planes are about it, so that far from the world's origin no precision is lost
   std::vector<Plane> planes_;

@@ -44,6 +44,7 @@ struct SeenEmitter {
 struct InPixel {
   std::uint32_t emitter;  ///< of the list of all
   float mass;             ///< of the filter, that its image covers
+  bool hull;              ///< the polygon is but a hull of what ends there
 };
 
 /// What the pixels of one row draw, one after the other.
@@ -90,7 +91,8 @@ class Search {
       for (int x = begin; x < end; ++x) {
         const ConvexPolygon about = image->moved({-center(x), -center(y)});
         const double mass = about.covers(cells_.support()) ? 1 : cells_.mass(about);
-        if (mass > 0) found[static_cast<std::size_t>(x - pixels.x0)].push_back({e, static_cast<float>(mass)});
+        const bool hull = mass < 1 && is_curved(all[e]) && !cells_.support().holds(about.bounds());
+        if (mass > 0) found[static_cast<std::size_t>(x - pixels.x0)].push_back({e, static_cast<float>(mass), hull});
       }
     }
     Row row;
@@ -115,6 +117,9 @@ class Search {
   }
 
  private:
+  bool is_curved(const SeenEmitter& emitter) const {
+    return !std::holds_alternative<TriangleMesh>(world_.geometry.placed()[emitter.shape].shape->kind);
+  }
   static double center(int pixel) { return pixel + 0.5; }
   static Range range(double from, double to, int least, int most) {
     const double first = std::clamp<double>(std::ceil(from - 0.5), least, most),
@@ -150,7 +155,7 @@ class Search {
       const SeenEmitter& emitter = all[f.emitter];
       const float seen = seen_part(center, emitter, std::max<std::size_t>(kLooks / found.size(), 1));
       some |= seen > 0;
-      partly |= seen > 0 && seen < 1;
+      partly |= seen > 0 && (seen < 1 || f.hull);  // few looks do not tell of a narrow rest
       chosen.push_back({emitter.shape, emitter.primitive, emitter.brightness * f.mass * std::max(seen, kLeastSeen)});
       sum += chosen.back().share;
     }

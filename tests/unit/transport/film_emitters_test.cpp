@@ -135,6 +135,32 @@ TEST_CASE("pixels draw the emitters that end in them, in crops too; none where o
   CHECK(drawing > 40);
 }
 
+TEST_CASE("pixels through which a curved outline goes draw several places, straight ones one") {
+  const auto places = [](const std::string& shape) {
+    const World world = test::world_of(
+        "Film \"rgb\" \"integer xresolution\" 24 \"integer yresolution\" 18\nPixelFilter \"box\"\n"
+        "LookAt 0.1 0.2 -3  0 0 0  0 1 0\n" +
+            kPerspective + "\nWorldBegin\n" + emitter("", shape),
+        {});
+    const FilmEmitters all = search(world, with_points(), {0, 0, 24, 18});
+    std::array<int, 2> pixels{};  // that draw one place, several
+    for (int y = 0; y < 18; ++y) {
+      for (int x = 0; x < 24; ++x) {
+        const PixelEmitters emitters = all.of(x, y);
+        if (!emitters.empty()) ++pixels[emitters.positions > 1];
+      }
+    }
+    return pixels;
+  };
+  const auto [round_one, round_several] = places("Shape \"sphere\" \"float radius\" 0.6\n");
+  CHECK(round_one == 0);
+  CHECK(round_several > 30);
+  const auto [straight_one, straight_several] =
+      places("Shape \"trianglemesh\" \"point3 P\" [-0.6 -0.5 0  0.6 -0.5 0  0 0.6 0] \"integer indices\" [0 1 2]\n");
+  CHECK(straight_one > 30);
+  CHECK(straight_several == 0);
+}
+
 TEST_CASE("emitters are drawn with their shares") {
   const std::vector<FilmEmitter> list{{0, 0, 0.6f}, {1, 0, 0.2f}, {1, 1, 0.1f}, {2, 0, 0.1f}};
   const PixelEmitters emitters{list, 1};
