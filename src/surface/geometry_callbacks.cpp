@@ -14,6 +14,13 @@ ShapeRay shape_ray(const RTCRay& ray) {
   return {Vec3d(ray.org_x, ray.org_y, ray.org_z), Vec3d(ray.dir_x, ray.dir_y, ray.dir_z)};
 }
 
+/// Alpha counts roots, wherever the ray ends.
+ShapeRay ray_toward(const Part& part, const RTCRay& ray) {
+  ShapeRay r = shape_ray(ray);
+  if (!part.alpha_textures) r.t_min = ray.tnear, r.t_max = ray.tfar;
+  return r;
+}
+
 /// A number in [0, 1) that depends on the ray and the place it meets, and on nothing else.
 float alpha_threshold(const Ray& ray, std::uint32_t shape, std::uint32_t primitive, int which) {
   const auto pair = [](float a, float b) {
@@ -41,7 +48,7 @@ std::optional<ShapeRoot> nearest_stop(const Part& part, const GeometryQuery& que
                                       const RTCRay& ray) {
   std::optional<ShapeRoot> best;
   int which = 0;
-  for (const ShapeRoot& root : part.intersect(primitive, shape_ray(ray))) {
+  for (const ShapeRoot& root : part.intersect(primitive, ray_toward(part, ray))) {
     const int number = which++;
     const auto t = static_cast<float>(root.t);
     if (!(t > ray.tnear && t < ray.tfar) || (best && best->t <= root.t)) continue;
@@ -127,7 +134,7 @@ void part_record(const RTCIntersectFunctionNArguments* args) {
   const RTCRay& ray = reinterpret_cast<const RTCRayHit*>(args->rayhit)->ray;
   const std::uint32_t shape = query.first_placed + part.index;
   int which = 0;
-  for (const ShapeRoot& root : part.intersect(args->primID, shape_ray(ray))) {
+  for (const ShapeRoot& root : part.intersect(args->primID, ray_toward(part, ray))) {
     const int number = which++;
     if (!(root.t > ray.tnear && root.t < ray.tfar)) continue;
     if (only_if_passed && stops(part, query, args->primID, root, number)) continue;

@@ -73,7 +73,10 @@ bool PlacedQuadric::keeps(double phi, double z, double radius) const {
   return false;
 }
 
+/// Angles take longer than all the rest, and rays toward emitters end before them.
 void PlacedQuadric::push_root(ShapeRoots& roots, const ShapeRay& local, double t, int facing) const {
+  const auto rounded = static_cast<float>(t);
+  if (rounded < local.t_min || rounded > local.t_max) return;
   const Vec3d p = local.o + local.d * t;
   const double phi = angle_of(p.y, p.x);
   const double rho = std::sqrt(p.x * p.x + p.y * p.y);
@@ -87,7 +90,7 @@ void PlacedQuadric::push_root(ShapeRoots& roots, const ShapeRay& local, double t
 // |o + t d|^2 = r^2, over xyz for a sphere and over xy for a cylinder. The discriminant is taken at the ray's point
 // nearest to the centre or axis, as (r - l)(r + l), which does not cancel for small or distant shapes [pbrt-v4, 6.8.2].
 ShapeRoots PlacedQuadric::intersect(const ShapeRay& ray) const {
-  const ShapeRay local{map_.inverse_point(ray.o), map_.inverse_vector(ray.d)};
+  const ShapeRay local{map_.inverse_point(ray.o), map_.inverse_vector(ray.d), ray.t_min, ray.t_max};
   ShapeRoots roots;
   if (kind_ == Kind::disk) {
     if (local.d.z != 0) push_root(roots, local, (z_min_ - local.o.z) / local.d.z, local.d.z > 0 ? 1 : -1);

@@ -27,6 +27,7 @@ struct ShapeRoots {
 
 struct ShapeRay {
   Vec3d o, d;
+  float t_min = -kInfinity, t_max = kInfinity;  ///< roots beyond may be left out
 };
 
 /// From where a shape is seen: from a point, or along a direction from infinity.
