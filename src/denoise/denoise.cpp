@@ -64,7 +64,7 @@ bool without_noise(const Halves& halves) {
 }
 
 LightEstimate mean_of(const Halves& halves, ThreadPool& pool) {
-  LightEstimate estimate;
+  LightEstimate estimate(halves.width(), halves.height());
   for (std::size_t c = 0; c < 3; ++c) {
     estimate.values[c] = make_plane(halves.width(), halves.height(), pool, [&](int x, int y) { return halves.mean(c, x, y); });
     estimate.mse[c] = halves.variance[c];
@@ -77,13 +77,27 @@ LightEstimate mean_of(const Halves& halves, ThreadPool& pool) {
 LightEstimate denoise_component(Halves halves, const Component& component, const Knowledge& known, ThreadPool& pool) {
   const Energy energy(halves);
   if (!component.emitters) take_out_fireflies(halves, pool);
-  pool_variance(halves, component.emitters ? kOutline : kNoise, pool);
+  const int radius = component.emitters ? kOutline : kNoise;
+  pool_variance(halves, radius, pool);
   if (without_noise(halves)) return mean_of(halves, pool);
   const PaddedPlane& clear = known.features.clear;
-  const Selection select{known.weight, component.emitters && !clear.empty() ? &clear : nullptr};
+  const Selection select{known.weight, radius, component.emitters && !clear.empty() ? &clear : nullptr};
   LightEstimate estimate = select(halves, regress(halves, known.features.explaining(component.explained), pool), pool);
   energy.restore(estimate.values, halves.variance, pool);
   return estimate;
+}
+
+/// All light with little noise and with its edges. A firefly, or a bright neighbour, would have the errors of dark pixels count
+/// for nothing, and be stated as large as itself.
+ColorPlanes quiet_light(const Image& image, ThreadPool& pool) {
+  Halves halves = read_halves(image, "");
+  take_out_fireflies(halves, pool);
+  Feature light;
+  for (std::size_t h = 0; h < 2; ++h) {
+    for (PaddedPlane& plane : halves.values[h]) light.halves[h].push_back(std::move(plane));
+  }
+  std::vector<PaddedPlane> planes = prefiltered(light, pool);
+  return {std::move(planes[0]), std::move(planes[1]), std::move(planes[2])};
 }
 
 void add(ColorPlanes& sum, const ColorPlanes& part) {
@@ -91,6 +105,16 @@ void add(ColorPlanes& sum, const ColorPlanes& part) {
     for (int y = 0; y < sum[c].height(); ++y) {
       for (int x = 0; x < sum[c].width(); ++x) sum[c].at(x, y) += part[c].at(x, y);
     }
+  }
+}
+
+/// What is stated relative to the picture's brightness counts by the filtered one: around a bright outline others are too
+/// bright.
+void add_relative(LightEstimate& total, ThreadPool& pool) {
+  const PaddedPlane weight = relative_weight(total.values, pool);
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (int y = 0; y < weight.height(); ++y)
+      for (int x = 0; x < weight.width(); ++x) total.mse[c].at(x, y) += total.relative[c].at(x, y) / weight.at(x, y);
   }
 }
 
@@ -139,7 +163,7 @@ std::string header_text(const std::vector<Component>& components, const std::vec
 std::vector<std::string> denoise_aovs() { return input_aovs(); }
 
 /// Planes that are there at once: features in two halves, a component, its fits by two bandwidths, and what selects among them.
-std::size_t denoise_memory(std::size_t pixels) { return pixels * sizeof(float) * (2 * 11 + 11 + 9 + 20 + 20 + 16); }
+std::size_t denoise_memory(std::size_t pixels) { return pixels * sizeof(float) * (2 * 11 + 11 + 15 + 20 + 20 + 25); }
 
 Denoised denoise(const Image& image, const DenoiseSettings& settings, const std::string& name) {
   const Timer timer;
@@ -149,9 +173,9 @@ Denoised denoise(const Image& image, const DenoiseSettings& settings, const std:
   Denoised result{image, {}};
   result.report.missing = std::move(inputs.missing);
   const ColorPlanes light = read_light(image);
-  const Knowledge known{CleanFeatures(inputs, pool), relative_weight(light, pool)};
+  const Knowledge known{CleanFeatures(inputs, pool), relative_weight(quiet_light(image, pool), pool)};
   inputs = {};
-  LightEstimate total{color_planes(image.width(), image.height()), color_planes(image.width(), image.height())};
+  LightEstimate total(image.width(), image.height());
   ColorPlanes noise = color_planes(image.width(), image.height());
   for (const Component& component : components) {
     Halves halves = read_halves(image, component.prefix);
@@ -160,7 +184,9 @@ Denoised denoise(const Image& image, const DenoiseSettings& settings, const std:
     if (settings.components && !component.prefix.empty()) store(part.values, result.image, component.prefix);
     add(total.values, part.values);
     add(total.mse, part.mse);
+    add(total.relative, part.relative);
   }
+  add_relative(total, pool);
   const std::vector<std::string> groups = groups_of(image);
   for (const std::string& group : groups)
     store(denoise_component(read_halves(image, group), {group, Explained::by_all}, known, pool).values, result.image, group);

@@ -25,9 +25,13 @@ struct Halves {
   }
 };
 
-/// Values, and the squared error that is expected of them.
+/// Values, and the squared error that is expected of them: `mse` and, over the square of the picture's brightness as
+/// relative_weight() has it, `relative`.
 struct LightEstimate {
-  ColorPlanes values, mse;
+  LightEstimate(int width, int height)
+      : values(color_planes(width, height)), mse(color_planes(width, height)), relative(color_planes(width, height)) {}
+
+  ColorPlanes values, mse, relative;
 };
 
 }  // namespace tyndall

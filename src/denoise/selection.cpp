@@ -6,7 +6,13 @@
 namespace tyndall {
 namespace {
 
-constexpr int kSmooth = 5;              ///< radius over which errors are pooled, twice
+constexpr int kSmooth = 5;   ///< radius over which errors are pooled, twice
+constexpr int kRegion = 20;  ///< the same for what is known of a region only
+/// Of the variance among errors pooled over kSmooth that is left in their mean over kRegion: the areas' ratio.
+constexpr float kPooledShare =
+    static_cast<float>((2 * kSmooth + 1) * (2 * kSmooth + 1)) / ((2 * kRegion + 1) * (2 * kRegion + 1));
+constexpr float kMostTimes = 10;        ///< the noise: an error counts as no more in what is known of a region
+constexpr float kMostBias = 100;        ///< squared, in variances
 constexpr float kRelativeFloor = 0.1f;  ///< of the picture's mean: darker pixels count as this
 
 /// One bandwidth: the mean of both halves, and planes by pixel that are sums over channels, relative to the picture.
@@ -76,16 +82,55 @@ Candidate better_of(Candidate first, const Candidate& second, ThreadPool& pool) 
   return first;
 }
 
-/// Pooled, but no more than its own value and the difference of its halves can be wrong: what is black beside an outline is.
-float variance_of_mean(const Halves& halves, std::size_t c, int x, int y) {
-  const float mean = halves.mean(c, x, y);
-  return std::min(halves.variance[c].at(x, y), halves.raw_variance(c, x, y) + mean * mean);
+/// Squared error over variance, at least 1. Error that is not variance is a small difference of large numbers: it is known of a
+/// region, not of a pixel, and there by pixels that have as much to say each, not by the noisiest. What chance might have made
+/// of it does not count.
+PaddedPlane times_variance(const Candidate& filtered, const PaddedPlane& noise, ThreadPool& pool) {
+  const int width = noise.width(), height = noise.height();
+  const auto of_region = [&](const auto& value) {
+    return box_mean(box_mean(make_plane(width, height, pool, value), kRegion, pool), kRegion, pool);
+  };
+  const auto per_noise = [&](const PaddedPlane& plane, int x, int y) {
+    const float v = noise.at(x, y);
+    return v > 0 ? std::clamp(plane.at(x, y) / v, -kMostTimes, kMostTimes) : 0.0f;
+  };
+  const auto bias = [&](int x, int y) { return per_noise(filtered.error, x, y) - per_noise(filtered.variance, x, y); };
+  const PaddedPlane variance = of_region([&](int x, int y) { return per_noise(filtered.variance, x, y); });
+  const PaddedPlane mean = of_region(bias);
+  const PaddedPlane square = of_region([&](int x, int y) { return bias(x, y) * bias(x, y); });
+  return make_plane(width, height, pool, [&](int x, int y) {
+    const float m = std::max(mean.at(x, y), 0.0f), v = variance.at(x, y);
+    const float chance = kPooledShare * std::max(square.at(x, y) - m * m, 0.0f);
+    return m > 0 && v > 0 ? 1 + std::min(m / (1 + chance / m / m) / v, kMostBias) : 1.0f;
+  });
+}
+
+/// Pooled relative to the picture, so that bright outlines state nothing for what is dark beside them, and no more than a
+/// pixel's own value and the difference of its halves can be wrong.
+ColorPlanes variance_of_mean(const Halves& halves, const Selection& how, ThreadPool& pool) {
+  ColorPlanes variances;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto relative = [&](int x, int y) { return halves.raw_variance(c, x, y) * how.weight.at(x, y); };
+    const PaddedPlane pooled = box_mean(make_plane(halves.width(), halves.height(), pool, relative), how.noise_radius, pool);
+    variances[c] = make_plane(halves.width(), halves.height(), pool, [&](int x, int y) {
+      const float mean = halves.mean(c, x, y);
+      return std::min(pooled.at(x, y) / how.weight.at(x, y), halves.raw_variance(c, x, y) + mean * mean);
+    });
+  }
+  return variances;
+}
+
+/// Of the noise: light of one colour has none in the others.
+float share_of_channel(const Halves& halves, std::size_t c, int x, int y) {
+  float sum = 0;
+  for (const PaddedPlane& plane : halves.variance) sum += plane.at(x, y);
+  return sum > 0 ? halves.variance[c].at(x, y) / sum : 1.0f / 3;
 }
 
 /// The mean of all samples with weight m, the filtered value with 1 - m: least squared error where C is their covariance.
 LightEstimate combine(const Halves& halves, const Candidate& filtered, const Selection& how, ThreadPool& pool) {
   const PaddedPlane& weight = how.weight;
-  LightEstimate result{color_planes(halves.width(), halves.height()), color_planes(halves.width(), halves.height())};
+  LightEstimate result(halves.width(), halves.height());
   const PaddedPlane noise = pooled(make_plane(halves.width(), halves.height(), pool,
                                               [&](int x, int y) {
                                                 float sum = 0;
@@ -93,9 +138,8 @@ LightEstimate combine(const Halves& halves, const Candidate& filtered, const Sel
                                                 return sum * weight.at(x, y);
                                               }),
                                    pool);
-  // Error that is not variance is a small difference of large numbers: it is known of the picture, not of a place in it.
-  const double variance = sum_of(filtered.variance);
-  const float with_bias = variance > 0 ? static_cast<float>(std::max(sum_of(filtered.error) / variance, 1.0)) : 1.0f;
+  const ColorPlanes variances = variance_of_mean(halves, how, pool);
+  const PaddedPlane with_bias = times_variance(filtered, noise, pool);
   pool.for_each(static_cast<std::size_t>(halves.height()), 16, [&](std::size_t row) {
     const int y = static_cast<int>(row);
     for (int x = 0; x < halves.width(); ++x) {
@@ -104,13 +148,14 @@ LightEstimate combine(const Halves& halves, const Candidate& filtered, const Sel
       const float spread = error + v - 2 * covariance;
       const float best = spread > 0 ? std::clamp((error - covariance) / spread, 0.0f, 1.0f) : 0.0f;
       const float m = how.unfiltered ? std::max(best, how.unfiltered->at(x, y)) : best;
-      const float stated = (1 - m) * (1 - m) * filtered.variance.at(x, y) * with_bias;
+      const float stated = (1 - m) * (1 - m) * filtered.variance.at(x, y) * with_bias.at(x, y);
       const float of_mean = m * m + 2 * m * (1 - m) * filtered.leverage.at(x, y);
       for (std::size_t c = 0; c < 3; ++c) {
         float& value = result.values[c].at(x, y);
         value = filtered.values[c].at(x, y);
         value += m * (halves.mean(c, x, y) - value);
-        result.mse[c].at(x, y) = stated / weight.at(x, y) * (1.0f / 3) + of_mean * variance_of_mean(halves, c, x, y);
+        result.relative[c].at(x, y) = stated * share_of_channel(halves, c, x, y);
+        result.mse[c].at(x, y) = of_mean * variances[c].at(x, y);
       }
     }
   });
@@ -121,13 +166,11 @@ LightEstimate combine(const Halves& halves, const Candidate& filtered, const Sel
 
 PaddedPlane relative_weight(const ColorPlanes& light, ThreadPool& pool) {
   const int width = light[0].width(), height = light[0].height();
-  const PaddedPlane brightness = box_mean(make_plane(width, height, pool,
-                                                     [&](int x, int y) {
-                                                       float sum = 0;
-                                                       for (const PaddedPlane& plane : light) sum += std::abs(plane.at(x, y));
-                                                       return sum * (1.0f / 3);
-                                                     }),
-                                          1, pool);
+  const PaddedPlane brightness = make_plane(width, height, pool, [&](int x, int y) {
+    float sum = 0;
+    for (const PaddedPlane& plane : light) sum += std::abs(plane.at(x, y));
+    return sum * (1.0f / 3);
+  });
   const float floor = kRelativeFloor * static_cast<float>(sum_of(brightness) / (static_cast<double>(width) * height));
   return make_plane(width, height, pool, [&](int x, int y) {
     const float value = brightness.at(x, y);

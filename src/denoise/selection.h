@@ -10,6 +10,7 @@ namespace tyndall {
 /// with ever more samples the result is the mean.
 struct Selection {
   const PaddedPlane& weight;                ///< of a pixel's squared error beside its neighbours': relative_weight
+  int noise_radius;                         ///< over which variance is pooled
   const PaddedPlane* unfiltered = nullptr;  ///< 1 where the result is the mean in any case
 
   LightEstimate operator()(const Halves& halves, const FilteredHalves& filtered, ThreadPool& pool) const;

@@ -106,6 +106,32 @@ TEST_CASE("each component is filtered by its own noise, and they add up") {
   CHECK(value("SurfaceDirect.G") + value("SurfaceIndirect.G") == doctest::Approx(value("G")));
 }
 
+TEST_CASE("errors are stated for the channel that has them, and for the dark beside the bright") {
+  const FakeRender render{.width = 96, .height = 72};
+  const OfPixel light = [](int x, int) { return x < 48 ? 20.0f : 2.0f; };
+  Image image = render.image();
+  for (const char* channel : {"R", "G", "B"}) {
+    const float noise = channel[0] == 'B' ? 0.01f : 1.0f;
+    render.add(image, channel, light, [&](int x, int y) { return noise * light(x, y); });
+  }
+  const Image result = denoise(image).image;
+  for (const char* channel : {"R", "B"}) {
+    for (const bool dark : {false, true}) {
+      double after = 0, stated = 0;
+      for (int y = 0; y < 72; ++y) {
+        for (int x = dark ? 48 : 0; x < (dark ? 96 : 48); ++x) {
+          const std::size_t i = image.data.index(x, y);
+          after += std::pow(double{result.find(channel)->values[i]} - double{light(x, y)}, 2);
+          stated += result.find("Mse." + std::string(channel))->values[i];
+        }
+      }
+      INFO(std::string(channel) << std::string(dark ? " dark" : " bright") << " stated / true " << stated / after);
+      CHECK(stated / after > 0.25);
+      CHECK(stated / after < 4);
+    }
+  }
+}
+
 TEST_CASE("without noise, and with ever less of it, the picture stays") {
   const FakeRender render;
   const OfPixel edges = [](int x, int y) { return x * 7 % 11 + (y * 5 % 7 == 0 ? 100.0f : 0.0f); };
