@@ -117,7 +117,7 @@ BuiltWorld::BuiltWorld(Scene unit_scene, const BuildSettings& settings, std::siz
       materials(scene, textures),
       geometry(build_geometry(scene, textures, settings.threads, summary)),
       media(build_media(scene, settings, volume_memory, summary)),
-      volume_lights(settings.volume_lights ? VolumeLights(media, geometry.groups(), scene.camera.medium) : VolumeLights()),
+      volume_lights(settings.volume_lights ? VolumeLights(media, geometry, scene.camera.medium) : VolumeLights()),
       has_volume_lights(settings.volume_lights),
       camera(scene.camera, scene.film),
       filter(scene.filter),

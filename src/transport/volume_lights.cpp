@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "math/hash.h"
-#include "transport/media/media_state.h"
+#include "transport/media/span_walk.h"
 
 namespace tyndall {
 namespace {
@@ -16,16 +16,29 @@ float third(Vec2 u) {
   return static_cast<float>(hash(bits) >> 40) * 0x1p-24f;
 }
 
+/// Where a ray that begins outside of all groups is in `medium`.
+std::vector<Chord> chords_of(const ParticipatingMedium& medium, const SpanWalk::Context& world, const Geometry& geometry,
+                             const Ray& ray) {
+  std::vector<Chord> chords;
+  const Crossings crossings = geometry.trace_all(ray, 0, kInfinity);
+  SpanWalk walk(world, MediaState(), crossings, kInfinity);
+  while (const auto i = walk.next()) {
+    if (std::find(i->media.begin(), i->media.end(), &medium) != i->media.end()) chords.push_back({i->t0, i->t1});
+  }
+  return chords;
+}
+
 }  // namespace
 
-VolumeLights::VolumeLights(const std::vector<ParticipatingMedium>& media, const std::vector<BoundaryGroup>& groups,
+VolumeLights::VolumeLights(const std::vector<ParticipatingMedium>& media, const Geometry& geometry,
                            std::optional<MediumId> unbounded) {
   LightId next = 0;
   for (std::size_t i = 0; i < media.size(); ++i) {
     if (!media[i].emissive()) continue;
-    const Bounds3 reach = reach_of(static_cast<MediumId>(i), groups, unbounded);
+    const Bounds3 reach = reach_of(static_cast<MediumId>(i), geometry.groups(), unbounded);
     if (reach.empty()) continue;
-    EmissiveCells cells(media[i], reach);
+    const auto chords = [&](const Ray& ray) { return chords_of(media[i], {geometry.groups(), media}, geometry, ray); };
+    EmissiveCells cells(media[i], {reach, chords});
     if (cells.empty()) continue;
     const auto count = static_cast<LightId>(cells.size());
     emissive_.push_back({&media[i], i, next, std::move(cells), reach});
@@ -39,7 +52,7 @@ std::vector<VolumeEmitter> VolumeLights::emitters() const {
   for (const EmissiveMedium& medium : emissive_) {
     for (std::uint32_t i = 0; i < medium.cells.size(); ++i) {
       const Bounds3 box = medium.cells.box(i);
-      all.push_back({box, overlap(box, medium.reach).empty() ? 0.0f : medium.cells.intensity(i)});
+      all.push_back({box, overlap(box, medium.reach).empty() ? 0.0f : medium.cells.power(i)});
     }
   }
   return all;

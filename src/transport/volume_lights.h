@@ -1,11 +1,13 @@
 /// The media of a world that emit, as lights.
 ///
-/// Each cell of a medium that emits (volume/emissive_cells.h) is a light among the others of the tree. What makes it one like
-/// any other is a unit: next-event estimation draws a point y of it with density p_V(y) per volume, at distance t, while rays
-/// that are scattered toward it gather all emission along their line, about L_c = EmissiveCells::radiance. A cell of intensity
-/// I is therefore taken for a disk of area I / L_c that faces whatever it illuminates: density t^2 L_c / I per solid angle,
-/// radiance sigma_a Le L_c / (I p_V). Their quotient is exact, sigma_a Le / (p_V t^2); the density alone is the proxy that MIS
-/// compares with that of scattered rays, point by point, so that what is close is left to them.
+/// Each cell of a medium that emits (volume/emissive_cells.h) is a light among the others of the tree, chosen by what of its
+/// emission leaves the medium. What makes it one like any other is a unit: next-event estimation draws a point y of it with
+/// density p_V(y) per volume, at distance t, while rays that are scattered toward it gather all emission along their line,
+/// about L_c = EmissiveCells::radiance. A cell of intensity I is therefore taken for a disk of area I / L_c that faces whatever
+/// it illuminates: density t^2 L_c / I per solid angle, radiance sigma_a Le L_c / (I p_V). Their quotient is exact, sigma_a Le
+/// / (p_V t^2); the density alone is the proxy that MIS compares with that of scattered rays, point by point, so that what is
+/// close is left to them. What does not leave counts in I: the more of it there is, the more the points of a cell differ in
+/// what arrives from them, and the better it is to leave it to rays (docs/measurements.md).
 #pragma once
 
 #include <cstdint>
@@ -23,8 +25,7 @@ class VolumeLights {
  public:
   VolumeLights() = default;
   /// Of the media that fill some space: the inside of a group, or `unbounded`. Keeps the media's addresses.
-  VolumeLights(const std::vector<ParticipatingMedium>& media, const std::vector<BoundaryGroup>& groups,
-               std::optional<MediumId> unbounded);
+  VolumeLights(const std::vector<ParticipatingMedium>& media, const Geometry& geometry, std::optional<MediumId> unbounded);
 
   bool empty() const { return emissive_.empty(); }
   std::vector<VolumeEmitter> emitters() const;       ///< in the order of their ids; cells beyond their groups have no power

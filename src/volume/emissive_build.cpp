@@ -1,6 +1,5 @@
 // Finds the cells of a medium that emit, and gathers them into larger ones while there are too many.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 
@@ -11,9 +10,6 @@ namespace tyndall {
 namespace {
 
 constexpr int kBlocks = EmissiveCellData::kBlocks;
-constexpr int kHomogeneousSide = 8;  ///< cells along an edge of what a homogeneous medium fills
-/// Of a cell's points these lie anywhere in it: what its lattice reads may miss thin sheets.
-constexpr float kEven = 0.1f;
 
 Transform transform_of(const Affine& map) {
   Transform::Matrix rows = Transform().matrix();
@@ -255,26 +251,15 @@ float CellFinder::read_node(const GridVec& p) const {
 }
 
 void CellFinder::append_lattice(EmissiveCellData& cells, const Place& place) const {
-  std::array<float, EmissiveCellData::kNodesInCell> nodes;
+  EmissiveCellData::Lattice nodes;
   const double block = double(side_) / kBlocks;
-  float most = 0, mean = 0;
   for (int i = 0; i < static_cast<int>(nodes.size()); ++i) {
-    constexpr int kNodes = EmissiveCellData::kNodes;
-    const std::array<int, 3> number{i % kNodes, i / kNodes % kNodes, i / (kNodes * kNodes)};
+    const Place number = EmissiveCellData::place_of_node(i);
     GridVec at;
-    float share = 1.0f / (kBlocks * kBlocks * kBlocks);  // of the cell's integral
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      at.v[axis] = double(place[axis]) * double(side_) + number[axis] * block;
-      if (number[axis] % kBlocks == 0) share *= 0.5f;
-    }
-    float& node = nodes[static_cast<std::size_t>(i)];
-    node = read_node(at);
-    most = std::max(most, node);
-    mean += share * node;
+    for (std::size_t axis = 0; axis < 3; ++axis) at.v[axis] = double(place[axis]) * double(side_) + number[axis] * block;
+    nodes[static_cast<std::size_t>(i)] = read_node(at);
   }
-  const float even = most > 0 ? kEven / (1 - kEven) * mean : 1.0f;
-  const float scale = 65535 / (most + even);
-  for (const float node : nodes) cells.lattice.push_back(static_cast<std::uint16_t>((node + even) * scale + 0.5f));
+  cells.append_lattice(nodes);
 }
 
 EmissiveCellData CellFinder::placed(const Extent& box) const {
@@ -297,6 +282,7 @@ EmissiveCellData CellFinder::placed(const Extent& box) const {
     append_lattice(cells, corner);
   }
   gather_radiances(cells, sigma_t);
+  gather_powers(cells, sigma_t);
   return cells;
 }
 
@@ -308,33 +294,12 @@ EmissiveCellData CellFinder::find() {
   return placed(extent());
 }
 
-EmissiveCellData homogeneous_cells(const ParticipatingMedium& medium, const Bounds3& reach) {
-  EmissiveCellData cells;
-  const Vec3 side = reach.extent() / float{kHomogeneousSide};
-  cells.to_world = Transform::translate(reach.min.x, reach.min.y, reach.min.z) * Transform::scale(side.x, side.y, side.z);
-  cells.cell_volume = double{side.x} * side.y * side.z;
-  const Coefficients c = medium.at(reach.min);
-  const auto intensity = static_cast<float>(double{mean(c.sigma_a * c.Le)} * cells.cell_volume);
-  if (!(intensity > 0 && std::isfinite(intensity))) return {};
-  cells.to_local = Affine::of(cells.to_world.inverse());
-  cells.size = {kHomogeneousSide, kHomogeneousSide, kHomogeneousSide};
-  for (int i = 0; i < kHomogeneousSide * kHomogeneousSide * kHomogeneousSide; ++i) {
-    cells.index.push_back(static_cast<std::uint32_t>(i));
-    cells.places.push_back(
-        {i % kHomogeneousSide, i / kHomogeneousSide % kHomogeneousSide, i / (kHomogeneousSide * kHomogeneousSide)});
-  }
-  cells.intensities.assign(cells.places.size(), intensity);
-  cells.lattice.assign(cells.places.size() * EmissiveCellData::kNodesInCell, 65535);
-  gather_radiances(cells, std::vector<float>(cells.places.size(), mean(c.sigma_t())));
-  return cells;
-}
-
 }  // namespace
 
-EmissiveCellData find_emissive_cells(const ParticipatingMedium& medium, const Bounds3& reach, std::size_t most) {
+EmissiveCellData find_emissive_cells(const ParticipatingMedium& medium, const MediumReach& reach, std::size_t most) {
   if (!medium.emissive()) return {};
   const MediumData& data = medium.data();
-  if (medium.homogeneous() && length(reach.extent()) < kInfinity) return homogeneous_cells(medium, reach);
+  if (medium.homogeneous()) return homogeneous_cells(medium, reach);
   if (data.kind != MediumData::Kind::grid || data.density.grid.empty()) return {};
   return CellFinder(GridEmission(medium), most).find();
 }

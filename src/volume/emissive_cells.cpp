@@ -10,6 +10,8 @@ namespace {
 
 using Data = EmissiveCellData;
 constexpr int kBlocks = Data::kBlocks, kNodes = Data::kNodes;
+/// Of a cell's points these lie anywhere in it: what its lattice reads may miss thin sheets.
+constexpr float kEven = 0.1f;
 
 /// A density on [0, kBlocks] that is linear between its values at whole numbers.
 using Nodes = std::array<float, kNodes>;
@@ -83,7 +85,20 @@ Data with_totals(Data cells) {
 
 }  // namespace
 
-EmissiveCells::EmissiveCells(const ParticipatingMedium& medium, const Bounds3& reach, std::size_t most)
+void Data::append_lattice(const Lattice& nodes) {
+  float most = 0, mean = 0;
+  for (int i = 0; i < static_cast<int>(nodes.size()); ++i) {
+    const Place number = place_of_node(i);
+    const float node = nodes[static_cast<std::size_t>(i)];
+    most = std::max(most, node);
+    mean += node * trapezoid(number[0]) * trapezoid(number[1]) * trapezoid(number[2]) / (kBlocks * kBlocks * kBlocks);
+  }
+  const float even = most > 0 ? kEven / (1 - kEven) * mean : 1.0f;
+  const float scale = 65535 / (most + even);
+  for (const float node : nodes) lattice.push_back(static_cast<std::uint16_t>((node + even) * scale + 0.5f));
+}
+
+EmissiveCells::EmissiveCells(const ParticipatingMedium& medium, const MediumReach& reach, std::size_t most)
     : data_(std::make_unique<const Data>(with_totals(find_emissive_cells(medium, reach, most)))) {}
 EmissiveCells::EmissiveCells(EmissiveCells&&) noexcept = default;
 EmissiveCells& EmissiveCells::operator=(EmissiveCells&&) noexcept = default;
@@ -91,11 +106,13 @@ EmissiveCells::~EmissiveCells() = default;
 
 std::size_t EmissiveCells::size() const { return data_->places.size(); }
 float EmissiveCells::intensity(std::uint32_t cell) const { return data_->intensities[cell]; }
+float EmissiveCells::power(std::uint32_t cell) const { return data_->powers[cell]; }
 float EmissiveCells::radiance(std::uint32_t cell) const { return data_->radiances[cell]; }
 
 std::size_t EmissiveCells::memory_bytes() const {
   return data_->index.capacity() * sizeof(std::uint32_t) + data_->places.capacity() * sizeof(Place) +
-         (data_->intensities.capacity() + data_->radiances.capacity() + data_->totals.capacity()) * sizeof(float) +
+         (data_->intensities.capacity() + data_->powers.capacity() + data_->radiances.capacity() + data_->totals.capacity()) *
+             sizeof(float) +
          data_->lattice.capacity() * sizeof(std::uint16_t);
 }
 

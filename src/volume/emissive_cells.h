@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "tyndall/math.h"
 #include "volume/medium.h"
@@ -13,15 +15,29 @@ namespace tyndall {
 
 struct EmissiveCellData;  // emissive_data.h
 
+/// A part of a straight line: distances along it.
+struct Chord {
+  float t0, t1;
+};
+
+/// Where a medium is.
+struct MediumReach {
+  /// Holds all of it.
+  Bounds3 box;
+  /// The parts of a ray that are in the medium, apart and in order; what is beyond the box does not matter.
+  std::function<std::vector<Chord>(const Ray&)> chords = [](const Ray&) { return std::vector<Chord>{{0, kInfinity}}; };
+};
+
 /// Cubes of 4^3 voxels of the medium's grid, or of more where these would be too many, that emit something; of a homogeneous
-/// medium equal parts of the box that it lies in. In each, points are drawn by a trilinear density on a lattice of 5^3 points:
-/// a tenth of it is even, the rest is the emission there. Immutable.
+/// medium equal parts of the box that it lies in, smaller ones where it is thick. In each, points are drawn by a trilinear
+/// density on a lattice of 5^3 points: a tenth of it is even, the rest is the emission there, in a homogeneous medium what of
+/// it gets out. Immutable.
 class EmissiveCells {
  public:
   static constexpr std::size_t kMost = 100'000;
 
-  /// `reach` holds the medium. None in a medium that does not emit, nor in a homogeneous one whose reach is infinite.
-  EmissiveCells(const ParticipatingMedium& medium, const Bounds3& reach, std::size_t most = kMost);
+  /// None in a medium that does not emit, nor in a homogeneous one whose box is infinite.
+  EmissiveCells(const ParticipatingMedium& medium, const MediumReach& reach, std::size_t most = kMost);
   EmissiveCells(EmissiveCells&&) noexcept;
   EmissiveCells& operator=(EmissiveCells&&) noexcept;
   ~EmissiveCells();
@@ -30,6 +46,8 @@ class EmissiveCells {
   bool empty() const { return size() == 0; }
   Bounds3 box(std::uint32_t cell) const;      ///< world space
   float intensity(std::uint32_t cell) const;  ///< int sigma_a Le dV, mean of channels
+  /// What of the intensity leaves the medium, on average over both ways along each of the grid's axes.
+  float power(std::uint32_t cell) const;
   /// What a ray through the cell gathers of the whole medium's emission, about: the mean over the grid's axes of what leaves
   /// the row of cells that it lies in, attenuated by these cells. Above 0; mean of channels.
   float radiance(std::uint32_t cell) const;

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include "volume/affine.h"
+#include "volume/emissive_cells.h"
 #include "volume/medium.h"
 
 namespace tyndall {
@@ -19,6 +21,8 @@ struct EmissiveCellData {
   static constexpr std::size_t kNodesInCell = 125;
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
   static constexpr std::size_t node(int x, int y, int z) { return static_cast<std::size_t>((z * kNodes + y) * kNodes + x); }
+  static constexpr Place place_of_node(int i) { return {i % kNodes, i / kNodes % kNodes, i / (kNodes * kNodes)}; }
+  using Lattice = std::array<float, kNodesInCell>;
 
   // Local coordinates: a cell is a unit cube, the corner of the box of cells the origin.
   Affine to_local;
@@ -28,6 +32,7 @@ struct EmissiveCellData {
   std::vector<std::uint32_t> index;    ///< by place in the box; kNone
   std::vector<Place> places;           ///< by cell
   std::vector<float> intensities;      ///< by cell
+  std::vector<float> powers;           ///< by cell
   std::vector<float> radiances;        ///< by cell
   std::vector<std::uint16_t> lattice;  ///< kNodesInCell a cell: the density of its points at the nodes, in any unit
   std::vector<float> totals;           ///< by cell: the same, integrated over blocks
@@ -36,13 +41,24 @@ struct EmissiveCellData {
     const auto at = [&](std::size_t i) { return static_cast<std::size_t>(place[i]); };
     return (at(2) * static_cast<std::size_t>(size[1]) + at(1)) * static_cast<std::size_t>(size[0]) + at(0);
   }
+  /// Of the next cell: `nodes`, and a tenth that is even.
+  void append_lattice(const Lattice& nodes);
   const std::uint16_t* nodes_of(std::uint32_t cell) const { return lattice.data() + cell * kNodesInCell; }
 };
 
 /// At most `most` cells.
-EmissiveCellData find_emissive_cells(const ParticipatingMedium& medium, const Bounds3& reach, std::size_t most);
+EmissiveCellData find_emissive_cells(const ParticipatingMedium& medium, const MediumReach& reach, std::size_t most);
+
+/// None where the box is infinite.
+EmissiveCellData homogeneous_cells(const ParticipatingMedium& medium, const MediumReach& reach);
 
 /// Fills `radiances`; `sigma_t`: of each cell, mean of channels.
 void gather_radiances(EmissiveCellData& cells, const std::vector<float>& sigma_t);
+
+/// Fills `powers` likewise.
+void gather_powers(EmissiveCellData& cells, const std::vector<float>& sigma_t);
+
+/// Mean transmittance from the points of a stretch of that optical depth to its end.
+inline double mean_transmittance(double depth) { return depth > 0 ? -std::expm1(-depth) / depth : 1; }
 
 }  // namespace tyndall

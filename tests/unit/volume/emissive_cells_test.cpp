@@ -28,7 +28,7 @@ Transform skewed() {
 
 ParticipatingMedium emissive_clumps(const Transform& to_world = {}) { return clumpy(kHot, 3, kLe, to_world); }
 
-constexpr Bounds3 kAnywhere{{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
+const MediumReach kAnywhere{{{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}}};
 
 Vec3 random_point(const Bounds3& box, Rng& rng) {
   return box.min + box.extent() * Vec3{rng.uniform(), rng.uniform(), rng.uniform()};
@@ -37,6 +37,12 @@ Vec3 random_point(const Bounds3& box, Rng& rng) {
 double total_intensity(const EmissiveCells& cells) {
   double sum = 0;
   for (std::uint32_t i = 0; i < cells.size(); ++i) sum += cells.intensity(i);
+  return sum;
+}
+
+double total_power(const EmissiveCells& cells) {
+  double sum = 0;
+  for (std::uint32_t i = 0; i < cells.size(); ++i) sum += cells.power(i);
   return sum;
 }
 
@@ -198,22 +204,72 @@ TEST_CASE("emissive cells: emission at the ends of index space") {
 TEST_CASE("emissive cells: none without emission, in a medium without end, or where nothing absorbs") {
   CHECK(EmissiveCells(clumpy(kHot, 3), kAnywhere).empty());
   CHECK(EmissiveCells(homogeneous(kHot, kLe), kAnywhere).empty());
-  CHECK(EmissiveCells(homogeneous(kHot), {{0, 0, 0}, {1, 1, 1}}).empty());
+  CHECK(EmissiveCells(homogeneous(kHot), {{{0, 0, 0}, {1, 1, 1}}}).empty());
   CHECK(EmissiveCells(clumpy({.sigma_a = {}, .sigma_s = {1, 1, 1}}, 3, kLe), kAnywhere).empty());
 }
 
-TEST_CASE("emissive cells: a homogeneous medium fills the box that it lies in") {
+TEST_CASE("emissive cells: a thin homogeneous medium fills the box that it lies in") {
   const Bounds3 box{{-1, 2, 0}, {3, 2.5f, 7}};
-  const EmissiveCells cells(homogeneous(kHot, kLe), box);
+  const Optics thin{.sigma_a = kHot.sigma_a * 1e-4f, .sigma_s = kHot.sigma_s * 1e-4f};
+  const EmissiveCells cells(homogeneous(thin, kLe), {box});
   REQUIRE(cells.size() == 512);
-  CHECK(total_intensity(cells) == doctest::Approx(4 * 0.5 * 7 * mean(kHot.sigma_a * kLe)).epsilon(1e-5));
+  const double emitted = 4 * 0.5 * 7 * mean(thin.sigma_a * kLe);
+  CHECK(total_intensity(cells) == doctest::Approx(emitted).epsilon(1e-5));
+  CHECK(total_power(cells) == doctest::Approx(emitted).epsilon(2e-3));
   Bounds3 all;
   for (std::uint32_t i = 0; i < cells.size(); ++i) {
     all.expand(cells.box(i));
-    CHECK(cells.pdf(i, cells.box(i).center()) == doctest::Approx(512 / 14.0).epsilon(1e-4));
+    CHECK(cells.pdf(i, cells.box(i).center()) == doctest::Approx(512 / 14.0).epsilon(2e-3));
   }
   CHECK(length(all.min - box.min) < 1e-5f);
   CHECK(length(all.max - box.max) < 1e-5f);
+}
+
+/// What leaves a cube along its axes of what it emits: (1 - e^-depth) / depth, by channel.
+TEST_CASE("emissive cells: what leaves a cube, homogeneous and as a grid, by optical depth") {
+  const auto leaving = [](double depth) { return -std::expm1(-depth) / depth; };
+  for (const float scale : {1e-2f, 0.3f, 1.2f, 5.0f}) {
+    const Bounds3 cube{{0, 0, 0}, {4, 4, 4}};
+    const Rgb sigma_a{scale, 2 * scale, 4 * scale};
+    const EmissiveCells cells(homogeneous({.sigma_a = sigma_a, .sigma_s = Rgb{scale}}, kLe), {cube});
+    double expected = 0;
+    for (int k = 0; k < 3; ++k) expected += 64 / 3.0 * double{sigma_a[k] * kLe[k]} * leaving(4.0 * double{sigma_a[k] + scale});
+    CHECK(total_power(cells) == doctest::Approx(expected).epsilon(1e-4));
+    CHECK(total_intensity(cells) == doctest::Approx(64 * mean(sigma_a * kLe)).epsilon(1e-5));
+
+    const ParticipatingMedium blocks = grid(
+        {16, 0, 16}, {.sigma_a = Rgb{scale}, .sigma_s = Rgb{0.5f * scale}}, [](int) { return 1.0f; }, kLe);
+    const EmissiveCells voxels(blocks, kAnywhere);
+    const double share = total_power(voxels) / total_intensity(voxels);
+    CHECK(share == doctest::Approx(leaving(16 * 1.5 * double{scale})).epsilon(0.1));  // voxels at its faces are half within
+  }
+}
+
+/// A ball, by the chords of lines through it: what is outside emits nothing, and points deep inside are rare.
+TEST_CASE("emissive cells: a homogeneous ball, thin and thick") {
+  const auto chords = [](const Ray& ray) {
+    const float b = dot(ray.o, ray.d), root = b * b - length_squared(ray.o) + 1;
+    return root > 0 ? std::vector<Chord>{{-b - std::sqrt(root), -b + std::sqrt(root)}} : std::vector<Chord>{};
+  };
+  Rng rng(29);
+  for (const float sigma : {0.01f, 20.0f}) {
+    const EmissiveCells cells(homogeneous({.sigma_a = Rgb{sigma}, .sigma_s = {}}, Rgb{1.0f}),
+                              {{{-1, -1, -1}, {1, 1, 1}}, chords});
+    CHECK(total_intensity(cells) == doctest::Approx(4 / 3.0 * double{kPi} * double{sigma}).epsilon(0.01));
+    CHECK(!cells.at({0.95f, 0.95f, 0.95f}));
+    const auto middle = cells.at({0.01f, 0.01f, 0.01f}), skin = cells.at({0.97f, 0.01f, 0.01f});
+    REQUIRE((middle && skin));
+    const double depth_ratio = cells.power(*middle) / cells.intensity(*middle) / (cells.power(*skin) / cells.intensity(*skin));
+    CHECK(depth_ratio > (sigma < 1 ? 0.98 : 0.0));
+    CHECK(depth_ratio < (sigma < 1 ? 1.02 : 1e-3));
+    if (sigma < 1) continue;
+    int outer = 0;
+    for (int i = 0; i < 10'000; ++i) {
+      const Vec3 p = cells.sample(*skin, {rng.uniform(), rng.uniform(), rng.uniform()});
+      outer += p.x > cells.box(*skin).center().x;
+    }
+    CHECK(outer > 7'500);
+  }
 }
 
 TEST_CASE("emissive cells: points lie in the cell that they were drawn in, where their density is above 0") {
