@@ -17,9 +17,7 @@ struct Point2 {
 /// Sides along the axes; empty where it does not begin before it ends.
 struct Rectangle {
   Point2 min, max;
-  bool holds(const Rectangle& r) const {
-    return min.x <= r.min.x && min.y <= r.min.y && r.max.x <= max.x && r.max.y <= max.y;
-  }
+  bool holds(const Rectangle& r) const { return min.x <= r.min.x && min.y <= r.min.y && r.max.x <= max.x && r.max.y <= max.y; }
 };
 
 class ConvexPolygon {
