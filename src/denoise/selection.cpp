@@ -92,7 +92,7 @@ PaddedPlane times_variance(const Candidate& filtered, const PaddedPlane& noise, 
   };
   const auto per_noise = [&](const PaddedPlane& plane, int x, int y) {
     const float v = noise.at(x, y);
-    return v > 0 ? std::clamp(plane.at(x, y) / v, -kMostTimes, kMostTimes) : 0.0f;
+    return v > 0 ? std::max(std::min(plane.at(x, y) / v, kMostTimes), -kMostTimes) : 0.0f;
   };
   const auto bias = [&](int x, int y) { return per_noise(filtered.error, x, y) - per_noise(filtered.variance, x, y); };
   const PaddedPlane variance = of_region([&](int x, int y) { return per_noise(filtered.variance, x, y); });

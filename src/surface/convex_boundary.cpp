@@ -24,6 +24,21 @@ std::vector<Triangle> triangles_of(const PlacedMesh& mesh) {
   return triangles;
 }
 
+/// How far coordinates reach, which their roundings go with.
+double reach_of(const std::vector<Triangle>& triangles) {
+  double reach = 0;
+  for (const Triangle& t : triangles) {
+    for (const Vec3d& p : t) reach = std::max(reach, max_component(abs(p)));
+  }
+  return reach;
+}
+
+Vec3d center_of(const std::vector<Triangle>& triangles) {
+  Vec3d sum;
+  for (const Triangle& t : triangles) sum = sum + t[0] + t[1] + t[2];
+  return sum * (1.0 / static_cast<double>(3 * triangles.size()));
+}
+
 /// Each edge is passed once in either direction.
 bool is_closed(const std::vector<Triangle>& triangles) {
   using Point = std::tuple<double, double, double>;
@@ -44,15 +59,8 @@ std::optional<ConvexBoundary> ConvexBoundary::of(const PlacedMesh& mesh) {
   if (mesh.indices->empty() || mesh.indices->size() > 3 * kMostTriangles) return {};
   const std::vector<Triangle> triangles = triangles_of(mesh);
   if (!is_closed(triangles)) return {};
-  Vec3d center;
-  double reach = 0;
-  for (const Triangle& t : triangles) {
-    for (const Vec3d& p : t) {
-      center = center + p * (1.0 / static_cast<double>(3 * triangles.size()));
-      reach = std::max(reach, max_component(abs(p)));
-    }
-  }
-  const double rounding = kRounding * reach;
+  const Vec3d center = center_of(triangles);
+  const double rounding = kRounding * reach_of(triangles);
   ConvexBoundary boundary(center);
   double side = 0;  // of the first triangle: the winding of all
   for (const Triangle& t : triangles) {
@@ -64,14 +72,16 @@ std::optional<ConvexBoundary> ConvexBoundary::of(const PlacedMesh& mesh) {
     if (!boundary.has(t, rounding)) boundary.planes_.push_back({winding * ((h < 0 ? -1 : 1) / area), std::abs(h) / area});
   }
   if (boundary.planes_.size() > kMostPlanes) return {};
-  for (const Plane& plane : boundary.planes_) {
-    for (const Triangle& t : triangles) {
-      for (const Vec3d& p : t) {
-        if (dot(plane.n, p - center) > plane.h + rounding) return {};
-      }
-    }
-  }
-  return boundary;
+  const bool convex =
+      std::all_of(triangles.begin(), triangles.end(), [&](const Triangle& t) { return boundary.holds(t, rounding); });
+  return convex ? std::optional(std::move(boundary)) : std::nullopt;
+}
+
+bool ConvexBoundary::holds(const Triangle& triangle, double rounding) const {
+  return std::all_of(triangle.begin(), triangle.end(), [&](Vec3d p) {
+    return std::all_of(planes_.begin(), planes_.end(),
+                       [&](const Plane& plane) { return dot(plane.n, p - center_) <= plane.h + rounding; });
+  });
 }
 
 bool ConvexBoundary::has(const Triangle& triangle, double rounding) const {

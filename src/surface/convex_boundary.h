@@ -29,6 +29,7 @@ class ConvexBoundary {
     double h;  ///< its distance from center_
   };
   explicit ConvexBoundary(Vec3d center) : center_(center) {}
+  bool holds(const std::array<Vec3d, 3>& triangle, double rounding) const;
   /// Whether a plane has the whole triangle, to rounding.
   bool has(const std::array<Vec3d, 3>& triangle, double rounding) const;
 

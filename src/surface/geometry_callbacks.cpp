@@ -14,13 +14,6 @@ ShapeRay shape_ray(const RTCRay& ray) {
   return {Vec3d(ray.org_x, ray.org_y, ray.org_z), Vec3d(ray.dir_x, ray.dir_y, ray.dir_z)};
 }
 
-/// Alpha counts roots, wherever the ray ends.
-ShapeRay ray_toward(const Part& part, const RTCRay& ray) {
-  ShapeRay r = shape_ray(ray);
-  if (!part.alpha_textures) r.t_min = ray.tnear, r.t_max = ray.tfar;
-  return r;
-}
-
 /// A number in [0, 1) that depends on the ray and the place it meets, and on nothing else.
 float alpha_threshold(const Ray& ray, std::uint32_t shape, std::uint32_t primitive, int which) {
   const auto pair = [](float a, float b) {
@@ -104,6 +97,13 @@ void write_bounds(const Bounds3& b, RTCBounds& out) {
 }
 
 }  // namespace
+
+/// Alpha counts roots, wherever the ray ends.
+ShapeRay ray_toward(const Part& part, const RTCRay& ray) {
+  ShapeRay r = shape_ray(ray);
+  if (!part.alpha_textures) r.t_min = ray.tnear, r.t_max = ray.tfar;
+  return r;
+}
 
 void part_bounds(const RTCBoundsFunctionArguments* args) {
   write_bounds(static_cast<const Part*>(args->geometryUserPtr)->primitive_bounds(args->primID), *args->bounds_o);

@@ -145,6 +145,9 @@ void object_intersect(const RTCIntersectFunctionNArguments* args);
 void object_occluded(const RTCOccludedFunctionNArguments* args);
 void object_record(const RTCIntersectFunctionNArguments* args);
 
+/// For a part's roots: those beyond the ray's ends may be left out.
+ShapeRay ray_toward(const Part& part, const RTCRay& ray);
+
 /// Of the part's primitive, as a boundary of `group`.
 int boundary_sign(const GeometryImpl& impl, const Part& part, std::uint32_t primitive, std::uint32_t group, int facing);
 

@@ -35,15 +35,15 @@ void GeometryImpl::find_simple_boundaries() {
 
 /// What is convex is entered and left as a solid, whichever way its normals point: a group that is closed is turned by them.
 void SimpleBoundary::record(const GeometryImpl& impl, const RTCRay& ray, BoundaryRecords& records) const {
-  const ShapeRay shape_ray{Vec3d(ray.org_x, ray.org_y, ray.org_z), Vec3d(ray.dir_x, ray.dir_y, ray.dir_z), ray.tnear, ray.tfar};
+  const ShapeRay line = ray_toward(*part, ray);
   const auto add = [&](double t, double cosine, std::uint32_t side, int sign) {
     if (t > ray.tnear && t < ray.tfar) records.push_back({t, cosine, group, part->index, side, sign});
   };
   if (!convex) {
-    for (const ShapeRoot& root : part->intersect(0, shape_ray)) {
+    for (const ShapeRoot& root : part->intersect(0, line)) {
       add(root.t, root.cosine, 0, boundary_sign(impl, *part, 0, group, root.facing));
     }
-  } else if (const auto passage = convex->passage(shape_ray)) {
+  } else if (const auto passage = convex->passage(line)) {
     add(passage->enters, passage->enters_cosine, 0, 1);
     add(passage->leaves, passage->leaves_cosine, 1, -1);
   }

@@ -58,7 +58,7 @@ void gather_radiances(EmissiveCellData& cells, const std::vector<float>& sigma_t
 /// Fills `powers` likewise.
 void gather_powers(EmissiveCellData& cells, const std::vector<float>& sigma_t);
 
-/// Mean transmittance from the points of a stretch of that optical depth to its end.
+/// Mean transmittance from the points of a segment of that optical depth to its end.
 inline double mean_transmittance(double depth) { return depth > 0 ? -std::expm1(-depth) / depth : 1; }
 
 }  // namespace tyndall
