@@ -55,6 +55,7 @@ TriedBlock try_block(const SampleContext& context, const PixelBlock& block) {
   TriedBlock tried{.pixels = std::vector<Tried>(block.pixels().size())};
   const auto group = std::make_unique<PixelGroup>();
   Counters counters;
+  const double exposure{context.world.built.scene.film.imaging_ratio};  // trials see light as it is found
   for (int s = 0; s < kSamples; ++s) {
     group->clear();
     for (std::size_t i = 0; i < tried.pixels.size(); ++i) {
@@ -65,7 +66,7 @@ TriedBlock try_block(const SampleContext& context, const PixelBlock& block) {
     group->run(context, counters);
     for (std::size_t i = 0; i < tried.pixels.size(); ++i) {
       const PathRecord record = (*group)[i].record();
-      const auto L = double{mean(record.radiance() - record.emission)};
+      const auto L = double{mean(record.radiance() - record.emission)} / exposure;
       tried.pixels[i].sum += L;
       tried.pixels[i].squares += L * L;
     }

@@ -1,16 +1,37 @@
 #include "transport/direct_light.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "transport/joint_ray.h"
 #include "transport/light_counts.h"
 #include "transport/vertex_light.h"
+#include "volume/coarse.h"
 
 namespace tyndall {
 namespace {
 
 /// Shadow rays end this fraction short of the light, so that they do not meet the emitter itself.
 constexpr float kShadowEnd = 1 - 1e-4f;
+
+/// Of light that comes through less of the media around a vertex than this, rays are traced with a lower probability: it hardly
+/// shows, and what is dark is dear to march through (docs/measurements.md).
+constexpr float kFaint = 0.1f;
+/// Media are known coarsely: what gets through more than expected must still be found, with a bounded weight.
+constexpr float kLeastChance = 1 / 16.0f;
+constexpr float kDeepest = 8;  ///< where that is reached
+
+/// By the media that hold the ray's origin, as far as they reach. Not for single scattering, whose noise nothing else hides.
+float chance_of_tracing(const LightContext& context, const MediaState& media, const Ray& ray, float distance) {
+  if (is_single_scattering(context)) return 1;
+  const auto& groups = context.world.geometry.groups();
+  const ActiveMedia around = media.active(groups, context.world.media);
+  if (around.empty()) return 1;
+  const float end = std::min(distance, exit_distance(media.bounds(groups), ray));
+  const float depth = nearby_optical_depth({around.data(), around.size()}, ray, end, kDeepest);
+  const float T = std::pow(1 + depth / 8, -8.0f);  // with a longer tail than e^-depth, as the depth is a guess
+  return std::clamp(T / kFaint, kLeastChance, 1.0f);
+}
 
 /// How many of the groups that hold a point bring the medium whose emission the light is.
 float times_present(const BuiltWorld& world, LightId light, const MediaState& there) {
@@ -38,18 +59,25 @@ std::optional<LightSample> sample_light(const LightContext& context, LightId lig
 
 Rgb arriving(const LightContext& context, const MediaState& media, Vec3 origin, const LightSample& light, Sampler& sampler) {
   const BuiltWorld& world = context.world;
-  ++context.counters.shadow_rays;
   const Ray ray{origin, light.wi};
-  const auto crossings = world.geometry.trace_shadow(ray, 0, light.volume ? light.distance : light.distance * kShadowEnd);
-  if (!crossings) return {};
-  if (!world.has_media()) return Rgb(1.0f);
-
+  const float end = light.volume ? light.distance : light.distance * kShadowEnd;
+  if (!world.has_media()) {
+    ++context.counters.shadow_rays;
+    return world.geometry.trace_shadow(ray, 0, end) ? Rgb(1.0f) : Rgb();
+  }
   Rng rng = sampler.stream();
+  const float chance = chance_of_tracing(context, media, ray, light.distance);
+  if (chance < 1 && rng.uniform() >= chance) return {};
+  ++context.counters.shadow_rays;
+  const auto crossings = world.geometry.trace_shadow(ray, 0, end);
+  if (!crossings) return {};
+
   // Through media the whole distance counts: at optical depth 4 the last 1e-4 of it is 4e-4 of the light.
   SpanWalk walk(world.media_context(), media, *crossings, light.distance);
-  const Rgb T = transmittance_along(context, walk, ray, rng);
+  Rgb T = transmittance_along(context, walk, ray, rng);
   context.counters.parity_errors += walk.parity_errors();
-  return light.volume && !is_black(T) ? T * times_present(world, *light.volume, walk.state()) : T;
+  if (light.volume && !is_black(T)) T *= times_present(world, *light.volume, walk.state());
+  return T * (1 / chance);
 }
 
 LightSearch light_search(const LightContext& context, const Vertex& vertex) {
