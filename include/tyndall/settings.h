@@ -13,7 +13,7 @@
 namespace tyndall {
 
 /// How one light is chosen for next-event estimation. Methods: docs/methods.md.
-enum class LightStrategy { uniform, power, exhaustive, tree, tree_binary, cycles_rule };
+enum class LightStrategy { uniform, power, exhaustive, tree, tree_binary, cycles_rule, lightcuts, cells };
 /// What stands for a segment of a ray in media when its light is chosen: a tracked collision, the point of the ray closest to
 /// the lights, the integral of 1/r^2 along it, or that times transmittance, scattering and phase function.
 enum class MediaStrategy { vertex, closest, integral, product };
@@ -70,10 +70,12 @@ struct RenderSettings {
   int threads = 0;                             ///< 0: all cores
   LightStrategy lights = LightStrategy::tree;  ///< one that the World was built with
   /// Candidates at a vertex or along a segment in media, >= 0; 0: as many as splitting makes clusters, one without a tree.
-  /// Exhaustive takes all lights and traces all. Unset: as `budget` has it, later 1 to 4.
+  /// Exhaustive takes all lights and traces all; lightcuts takes the cut's, at most so many, 0 or unset: 1,000. Unset: as
+  /// `budget` has it, later 1 to 4.
   /// Single scattering (max_depth 1) takes 8, along media 16.
   std::optional<int> candidates{};
-  /// Of the candidates, are traced, >= 0; 0: every one. Unset: likewise, later 1 or 2, in single scattering all or most.
+  /// Of the candidates, are traced, >= 0; 0: every one. Unset: likewise, later 1 or 2, in single scattering all or most; with
+  /// lightcuts all.
   std::optional<int> shadow_rays{};
   /// Clusters of the light tree that are predicted worse than this are split, in [0, 1]; 0: none, 1: down to single lights. Up
   /// to 15 clusters are made, or as many as there are candidates if those are more; with 0 candidates there is no limit. Not

@@ -112,19 +112,21 @@ void declare(CLI::App& command, MethodOptions& o) {
   command
       .add_option("--candidates", o.candidates,
                   "lights chosen at a vertex or along a segment and looked at without visibility; 0: one for each "
-                  "cluster that --splitting makes [the Integrator's, else as --budget has it at first, later 1 to 4, but not "
-                  "more than there are lights; more with --max-depth 1]; --candidates 8")
+                  "cluster that --splitting makes; with --lights lightcuts the most nodes that a cut has, 0: 1,000 [the "
+                  "Integrator's, else as --budget has it at first, later 1 to 4, but not more than there are lights; more with "
+                  "--max-depth 1; with lightcuts 0]; --candidates 8")
       ->check(CLI::Range(0, 4096));
   command
       .add_option("--splitting", o.splitting,
-                  "clusters of the light tree predicted worse than this are split, up to 15 or as many as --candidates, 0..1; "
-                  "0: none, 1: down to single lights [the Integrator's, else 0.5 for 8 candidates or more and for --candidates "
-                  "0, 0 elsewhere]; --splitting 0.7")
+                  "clusters of the light tree predicted worse than this are split, with --lights tree, up to 15 or as many as "
+                  "--candidates, 0..1; 0: none, 1: down to single lights [the Integrator's, else 0.5 for 8 candidates or more "
+                  "and for --candidates 0, 0 elsewhere]; --splitting 0.7")
       ->check(fraction());
   command
       .add_option("--shadow-rays", o.shadow_rays,
                   "of these are traced, resampled by their contribution; 0: all [the Integrator's, else as --budget has it at "
-                  "first, later 1 or 2, but not more than half the lights; all or most with --max-depth 1]; --shadow-rays 0")
+                  "first, later 1 or 2, but not more than half the lights; all or most with --max-depth 1; with lightcuts "
+                  "all]; --shadow-rays 0")
       ->check(CLI::Range(0, 4096));
 }
 

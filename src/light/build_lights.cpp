@@ -279,6 +279,7 @@ Lights Builder::finish(const Bounds3& scene_bounds) {
     if (radius > 0 && std::isfinite(radius)) parts_->scene_radius = radius;
   }
   SelectionInput input = selection_input(*parts_, options_);
+  input.region = scene_bounds;
   count(input);
   enclose();
   gather_far();

@@ -26,6 +26,10 @@ struct ClusterBounds {
 /// [Conty Estevez and Kulla 2018, eq. 3], with the distance kept above half the cluster's radius.
 double importance(const ClusterBounds& cluster, bool two_sided, const PointQuery& query);
 
+/// What the cluster's intensity gives the point at most, wherever in the box its lights are: as importance(), at the distance
+/// of the box. Infinite for points within it.
+double greatest_importance(const ClusterBounds& cluster, bool two_sided, const PointQuery& query);
+
 /// What the cluster's intensity gives the point at least, wherever in the box and however within the cones it is: 0 for
 /// points that are inside, outside some light's emission or under some part of the horizon; and in media.
 double least_importance(const ClusterBounds& cluster, bool two_sided, const PointQuery& query);

@@ -53,14 +53,21 @@ class LightTree {
   };
   /// Descends by one number u in [0, 1), rescaled after every decision. Nothing: u fell on a branch whose lights all
   /// have importance 0.
-  std::optional<Choice> select(const PointQuery& query, double u) const;
-  std::optional<Choice> select(const Segment& query, double u) const;
+  std::optional<Choice> select(const PointQuery& query, double u) const { return select_below(0, query, u); }
+  std::optional<Choice> select(const Segment& query, double u) const { return select_below(0, query, u); }
   /// Probability of select() giving the light whose leaf is `leaf`: the same decisions from the leaf upward.
-  double pmf(const PointQuery& query, std::uint32_t leaf) const;
-  double pmf(const Segment& query, std::uint32_t leaf) const;
+  double pmf(const PointQuery& query, std::uint32_t leaf) const { return pmf_below(0, query, leaf); }
+  double pmf(const Segment& query, std::uint32_t leaf) const { return pmf_below(0, query, leaf); }
+  /// The same among the lights of one node; 0 for leaves elsewhere.
+  std::optional<Choice> select_below(std::uint32_t node, const PointQuery& query, double u) const;
+  std::optional<Choice> select_below(std::uint32_t node, const Segment& query, double u) const;
+  double pmf_below(std::uint32_t node, const PointQuery& query, std::uint32_t leaf) const;
+  double pmf_below(std::uint32_t node, const Segment& query, std::uint32_t leaf) const;
   /// Importance of all lights together, in W/sr / length^2; for segments in W/sr / length.
   double importance(const PointQuery& query) const;
   double importance(const Segment& query) const;
+
+  double intensity() const { return intensity_; }  ///< of all lights, W/sr: the unit of those in the nodes' bounds
 
   bool empty() const { return nodes_.empty(); }
   std::span<const Node> nodes() const { return nodes_; }
@@ -87,9 +94,9 @@ class LightTree {
   template <typename Query>
   double averaged(double share, std::uint32_t node, const Query& query) const;
   template <typename Query>
-  std::optional<Choice> descend(const Query& query, double u) const;
+  std::optional<Choice> descend(std::uint32_t node, const Query& query, double u) const;
   template <typename Query>
-  double ascend(const Query& query, std::uint32_t leaf) const;
+  double ascend(std::uint32_t top, const Query& query, std::uint32_t leaf) const;
 
   std::vector<Node> nodes_;
   double intensity_ = 0;  ///< of all lights, W/sr

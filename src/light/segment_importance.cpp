@@ -151,4 +151,15 @@ double importance(const ClusterBounds& cluster, bool two_sided, const Segment& s
   return factor * cluster.intensity * std::max(scattered, kLeastScattering * angle) / h;
 }
 
+double greatest_importance(const ClusterBounds& cluster, bool two_sided, const Segment& s) {
+  const double predicted = importance(cluster, two_sided, s);
+  const Vec3d low(cluster.box.min), high(cluster.box.max);
+  const View view(s, low * 0.5 + high * 0.5);
+  const double distance = std::sqrt(view.h * view.h + view.nearest * view.nearest), radius = length((high - low) * 0.5);
+  if (!(predicted > 0)) return 0;
+  if (!(distance > radius)) return kInfinity;
+  const double nearer = distance / (distance - radius);
+  return predicted * nearer * nearer;
+}
+
 }  // namespace tyndall

@@ -66,6 +66,10 @@ double largest_cosine(Vec3d axis, Vec3d aside, Vec3d d, double from, double till
 /// the cluster's radius.
 double importance(const ClusterBounds& cluster, bool two_sided, const Segment& segment);
 
+/// That, were the whole intensity at the point of the sphere around the box closest to the segment; infinite for segments that
+/// meet the sphere. Of distances a bound; not of what phase function and transmittance vary by over the cluster.
+double greatest_importance(const ClusterBounds& cluster, bool two_sided, const Segment& segment);
+
 /// The rule that asks for it takes none in media.
 inline double least_importance(const ClusterBounds&, bool, const Segment&) { return 0; }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "light/alias_selector.h"
+#include "light/cell_selector.h"
+#include "light/lightcuts_selector.h"
 #include "light/tree_selector.h"
 #include "light/wide_selector.h"
 
@@ -59,7 +61,19 @@ SelectionInput expanded(SelectionInput input, LightStrategy strategy) {
 }  // namespace
 
 bool uses_bounds(LightStrategy strategy) {
-  return strategy == LightStrategy::tree || strategy == LightStrategy::tree_binary || strategy == LightStrategy::cycles_rule;
+  switch (strategy) {
+    case LightStrategy::uniform:
+    case LightStrategy::power:
+    case LightStrategy::exhaustive:
+      return false;
+    case LightStrategy::tree:
+    case LightStrategy::tree_binary:
+    case LightStrategy::cycles_rule:
+    case LightStrategy::lightcuts:
+    case LightStrategy::cells:
+      return true;
+  }
+  return false;
 }
 
 LightCut LightSelector::cut(const PointQuery&, const CutSettings& settings) const { return all_as_one(settings); }
@@ -100,6 +114,10 @@ std::unique_ptr<const LightSelector> make_selector(LightStrategy strategy, Selec
       return std::make_unique<TreeSelector<LightTree>>(LightTree(std::move(input.near)), input);
     case LightStrategy::cycles_rule:
       return std::make_unique<TreeSelector<LightTree>>(LightTree(std::move(input.near), ChildRule::averaged), input);
+    case LightStrategy::lightcuts:
+      return std::make_unique<LightcutsSelector>(LightTree(std::move(input.near)), input);
+    case LightStrategy::cells:
+      return std::make_unique<CellSelector>(LightTree(std::move(input.near)), input);
   }
   return nullptr;
 }

@@ -42,6 +42,9 @@ class LightSelector {
 
   /// Callers loop over all lights, each with pmf 1, in place of select().
   virtual bool exhaustive() const { return false; }
+  /// The strategy itself says how many candidates there are, and unless told otherwise all are traced: CutSettings::candidates
+  /// is then the most that a cut may have, 0 for the strategy's own limit.
+  virtual bool sizes_cut() const { return false; }
   virtual std::size_t memory_bytes() const = 0;
 };
 
@@ -53,6 +56,7 @@ struct SelectionInput {
   std::vector<SharedLights> objects{};
   std::vector<LightInstance> instances{};  ///< in the order of their lights
   int threads = 0;                         ///< to build with; 0: one a core
+  Bounds3 region{};                        ///< encloses what can be lit, but for media without bounds; empty: not known
 };
 
 /// Whether a strategy looks at `near` and `far`.

@@ -30,9 +30,8 @@ double LightTree::averaged(double share, std::uint32_t node, const Query& query)
 }
 
 template <typename Query>
-std::optional<LightTree::Choice> LightTree::descend(const Query& query, double u) const {
-  if (nodes_.empty() || !(node_importance(0, query) > 0)) return std::nullopt;
-  std::uint32_t node = 0;
+std::optional<LightTree::Choice> LightTree::descend(std::uint32_t node, const Query& query, double u) const {
+  if (nodes_.empty() || !(node_importance(node, query) > 0)) return std::nullopt;
   double pmf = 1;
   while (!nodes_[node].leaf) {
     const auto p = first_probability(node, query);
@@ -51,11 +50,13 @@ std::optional<LightTree::Choice> LightTree::descend(const Query& query, double u
 }
 
 template <typename Query>
-double LightTree::ascend(const Query& query, std::uint32_t leaf) const {
-  if (!(node_importance(0, query) > 0)) return 0;
+double LightTree::ascend(std::uint32_t top, const Query& query, std::uint32_t leaf) const {
+  // In preorder what a node holds comes after it.
+  if (leaf < top || !(node_importance(top, query) > 0)) return 0;
   double pmf = 1;
-  for (std::uint32_t node = leaf; nodes_[node].parent != kNoParent && pmf > 0; node = nodes_[node].parent) {
+  for (std::uint32_t node = leaf; node != top && pmf > 0; node = nodes_[node].parent) {
     const std::uint32_t parent = nodes_[node].parent;
+    if (parent == kNoParent || parent < top) return 0;
     const auto p = first_probability(parent, query);
     if (!p) return 0;
     pmf *= node == parent + 1 ? *p : 1 - *p;
@@ -66,8 +67,12 @@ double LightTree::ascend(const Query& query, std::uint32_t leaf) const {
 std::optional<double> LightTree::child_probability(std::uint32_t node, const PointQuery& query) const {
   return first_probability(node, query);
 }
-std::optional<LightTree::Choice> LightTree::select(const PointQuery& query, double u) const { return descend(query, u); }
-double LightTree::pmf(const PointQuery& query, std::uint32_t leaf) const { return ascend(query, leaf); }
+std::optional<LightTree::Choice> LightTree::select_below(std::uint32_t node, const PointQuery& query, double u) const {
+  return descend(node, query, u);
+}
+double LightTree::pmf_below(std::uint32_t node, const PointQuery& query, std::uint32_t leaf) const {
+  return ascend(node, query, leaf);
+}
 double LightTree::importance(const PointQuery& query) const {
   return nodes_.empty() ? 0 : node_importance(0, query) * intensity_;
 }
@@ -75,8 +80,12 @@ double LightTree::importance(const PointQuery& query) const {
 std::optional<double> LightTree::child_probability(std::uint32_t node, const Segment& query) const {
   return first_probability(node, query);
 }
-std::optional<LightTree::Choice> LightTree::select(const Segment& query, double u) const { return descend(query, u); }
-double LightTree::pmf(const Segment& query, std::uint32_t leaf) const { return ascend(query, leaf); }
+std::optional<LightTree::Choice> LightTree::select_below(std::uint32_t node, const Segment& query, double u) const {
+  return descend(node, query, u);
+}
+double LightTree::pmf_below(std::uint32_t node, const Segment& query, std::uint32_t leaf) const {
+  return ascend(node, query, leaf);
+}
 double LightTree::importance(const Segment& query) const { return nodes_.empty() ? 0 : node_importance(0, query) * intensity_; }
 
 }  // namespace tyndall

@@ -11,13 +11,15 @@ namespace {
 template <typename Strategy, std::size_t N>
 using Table = std::array<std::pair<std::string_view, Strategy>, N>;
 
-constexpr Table<LightStrategy, 6> kLights{{
+constexpr Table<LightStrategy, 8> kLights{{
     {"uniform", LightStrategy::uniform},
     {"power", LightStrategy::power},
     {"exhaustive", LightStrategy::exhaustive},
     {"tree", LightStrategy::tree},
     {"tree-binary", LightStrategy::tree_binary},
     {"cycles-rule", LightStrategy::cycles_rule},
+    {"lightcuts", LightStrategy::lightcuts},
+    {"cells", LightStrategy::cells},
 }};
 constexpr Table<MediaStrategy, 4> kMedia{{
     {"vertex", MediaStrategy::vertex},

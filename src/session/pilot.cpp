@@ -98,7 +98,7 @@ Trials sum_up(const std::vector<Tried>& pixels) {
 bool decides_lights(const SampleContext& context) {
   const RenderSettings& settings = context.settings;
   return context.world.built.lights.sought(context.selector_with_volumes != nullptr) > 1 && settings.max_depth > 1 &&
-         !context.selector.exhaustive() && !(settings.candidates && settings.shadow_rays);
+         !context.selector.exhaustive() && !context.selector.sizes_cut() && !(settings.candidates && settings.shadow_rays);
 }
 
 /// Connections through homogeneous media have no noise of their own, and always pay.

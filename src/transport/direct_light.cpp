@@ -87,7 +87,8 @@ LightSearch light_search(const LightContext& context, const Vertex& vertex) {
   search.among = &selector(context, search.volumes);
   search.query = vertex.light_query();
   if (!vertex.has_smooth() || search.among->exhaustive()) return search;
-  const auto [candidates, shadow_rays] = counts_at_vertex(context, search.query);
+  const auto [candidates, shadow_rays] =
+      search.among->sizes_cut() ? limits_of_cut(context.settings) : counts_at_vertex(context, search.query);
   search.cut = search.among->cut(search.query, cut_settings(context, candidates));
   search.shadow_rays = shadow_rays;
   return search;

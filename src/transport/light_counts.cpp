@@ -67,6 +67,8 @@ LightCounts counts_along_bounce(const LightContext& context) {
 
 }  // namespace
 
+LightCounts limits_of_cut(const RenderSettings& settings) { return chosen(settings, LightCounts{0, 0}); }
+
 CutSettings cut_settings(const LightContext& context, int candidates) {
   const float unless_set = candidates == 0 || candidates >= kSplitFrom ? kSplitting : 0.0f;
   return {.candidates = candidates, .splitting = context.settings.splitting.value_or(unless_set)};

@@ -12,6 +12,9 @@ struct SpanCounts : LightCounts {
   float chance = 1;   ///< probability of drawing any
 };
 
+/// For a strategy that sizes its cuts itself (LightSelector::sizes_cut): the settings are limits, and unset ones none.
+LightCounts limits_of_cut(const RenderSettings& settings);
+
 /// How clusters are split for that many candidates.
 CutSettings cut_settings(const LightContext& context, int candidates);
 

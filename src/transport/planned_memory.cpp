@@ -5,6 +5,7 @@
 #include <string>
 #include <utility>
 
+#include "light/cell_densities.h"
 #include "light/instance_runs.h"
 #include "texture/mip_map.h"
 #include "transport/film_emitters.h"
@@ -42,15 +43,21 @@ std::vector<double> emitters_of(const std::vector<Object>& objects) {
   return counts;
 }
 
-/// The lists of pixels that emissive surfaces end in (film_emitters.h). A surface of about a pixel is in the lists of those
-/// whose filters cover it.
-std::size_t plan_film_search(const Scene& scene) {
-  const double radius = std::max(scene.filter.radius.x, scene.filter.radius.y);
+/// Those of instances are as many as there are instances.
+double emissive_surfaces_of(const Scene& scene) {
   const std::vector<double> of_object = emitters_of(scene.objects);
   double surfaces = emitters_of(scene.shapes);
   for (const Instance& instance : scene.instances) {
     if (instance.object < of_object.size()) surfaces += of_object[instance.object];
   }
+  return surfaces;
+}
+
+/// The lists of pixels that emissive surfaces end in (film_emitters.h). A surface of about a pixel is in the lists of those
+/// whose filters cover it.
+std::size_t plan_film_search(const Scene& scene) {
+  const double radius = std::max(scene.filter.radius.x, scene.filter.radius.y);
+  const double surfaces = emissive_surfaces_of(scene);
   if (surfaces == 0 || !(radius <= FilmEmitters::kWidestFilter)) return 0;
   const double pixels = pixels_of(scene), pixels_of_surface = (4 * radius + 1) * (4 * radius + 1);
   ByteCount sum;
@@ -73,6 +80,11 @@ std::size_t plan_lights(const Scene& scene, bool shared) {
     sum.add(shares ? 1 : lights, shares ? kLightInstance : kLight);
   }
   return sum.bytes();
+}
+
+/// Media that emit are not counted among the lights.
+std::size_t plan_cells(const Scene& scene) {
+  return CellDensities::most_bytes(static_cast<double>(scene.lights.size()) + emissive_surfaces_of(scene));
 }
 
 std::size_t plan_geometry(const Scene& scene) {
@@ -153,9 +165,10 @@ double pixels_of(const Scene& scene) {
 
 PlannedMemory plan_built_world(const Scene& scene, std::span<const LightStrategy> lights, KeptFiles* kept) {
   const bool shared = std::all_of(lights.begin(), lights.end(), [](LightStrategy s) { return s == LightStrategy::tree; });
+  const bool cells = std::find(lights.begin(), lights.end(), LightStrategy::cells) != lights.end();
   return {.on_film = plan_film_search(scene),
           .geometry = plan_geometry(scene),
-          .lights = plan_lights(scene, shared),
+          .lights = plan_lights(scene, shared) + (cells ? plan_cells(scene) : 0),
           .textures = plan_pictures(scene, kept),
           .volumes = plan_volumes(scene)};
 }

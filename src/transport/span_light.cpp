@@ -194,7 +194,9 @@ std::optional<SpanSearch> span_search(const LightContext& context, const Span& s
   search.query = query_of(settings, span, *profile, search.g);
   search.tracked = tracks(context);
   if (!search.among->exhaustive()) {
-    const SpanCounts counts = counts_along_span(context, profile->scattered(), profile->optical_depth());
+    const SpanCounts counts = search.among->sizes_cut()
+                                  ? SpanCounts{limits_of_cut(context.settings)}
+                                  : counts_along_span(context, profile->scattered(), profile->optical_depth());
     search.cut = search.among->cut(search.query, cut_settings(context, counts.candidates));
     search.shadow_rays = counts.shadow_rays;
     search.distances = counts.distances;

@@ -10,7 +10,7 @@ for file in index.html results.json error.csv reference.exr uniform.exr tree-bin
 for key in scene reference machine variants name options samples seconds relmse slope efficiency efficiency_trimmed relative low high mean_rgb checkpoints mse; do
   says "\"$key\"" report/results.json
 done
-for name in uniform power exhaustive tree tree-binary cycles-rule; do says "\"name\": \"$name\"" report/results.json; done
+for name in uniform power exhaustive tree tree-binary cycles-rule lightcuts cells; do says "\"name\": \"$name\"" report/results.json; done
 says 'variant,seconds,samples,mse' report/error.csv
 [ "$(grep -c '^power,' report/error.csv)" = 5 ] || fail "error.csv has no point at 1, 2, 4, 8, 16 samples"
 says 'tree-binary' out.txt

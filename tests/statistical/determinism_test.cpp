@@ -52,7 +52,8 @@ TEST_CASE("the same bits for 1, 2 and 4 threads, and for every repetition") {
   std::vector<std::string> aovs;
   for (const std::string_view name : aov_names()) aovs.emplace_back(name);
   for (const std::string& scene : scenes()) {
-    for (const LightStrategy lights : {LightStrategy::tree, LightStrategy::tree_binary, LightStrategy::power}) {
+    for (const LightStrategy lights : {LightStrategy::tree, LightStrategy::tree_binary, LightStrategy::power,
+                                       LightStrategy::lightcuts, LightStrategy::cells}) {
       const Image one =
           Subject(scene, {.lights = lights, .threads = 1, .emission = EmissionStrategy::lights, .reuse = ReuseStrategy::pixels})
               .render(kSpp, 5, aovs);

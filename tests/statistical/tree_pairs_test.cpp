@@ -2,6 +2,8 @@
 // question for each kind of both, half of them where trees break; 10^7 under TYNDALL_NIGHTLY.
 #include <doctest/doctest.h>
 
+#include <array>
+
 #include "light/selection.h"
 #include "support/measure.h"
 #include "unit/light/segment_cases.h"
@@ -26,6 +28,17 @@ SelectionInput input_of(const std::vector<LightBounds>& lights) {
 struct Tally {
   std::size_t pairs = 0, none = 0;
 };
+
+/// The same of what a cut's candidates say.
+template <typename Query>
+void check_cut(const LightSelector& selector, const Query& q, double u) {
+  const LightCut cut = selector.cut(q, {.candidates = 20});
+  for (const LightCandidate& c : selector.draw(cut, q, u)) {
+    const double n_pmf = selector.n_pmf(cut, q, c.light);
+    REQUIRE(c.n_pmf > 0);
+    REQUIRE(std::abs(n_pmf - c.n_pmf) <= 1e-6 * c.n_pmf);
+  }
+}
 
 template <typename Query>
 void check_pair(const LightSelector& selector, const Query& q, double u, Tally& tally) {
@@ -58,25 +71,28 @@ void check_cases(LightStrategy strategy, const std::vector<test::LightCase>& cas
       const double u = i % 64 == 0 ? rng.uniform_wide() * 0x1p-20 : rng.uniform_wide();
       check_pair(*selector, places[i % questions], u, points);
       check_pair(*selector, spans[i % questions], u, segments);
+      if (!selector->sizes_cut()) continue;
+      check_cut(*selector, places[i % questions], u);
+      check_cut(*selector, spans[i % questions], u);
     }
   }
   CHECK(points.none < points.pairs / 2);
   CHECK(segments.none < segments.pairs / 2);
 }
 
+constexpr std::array kTrees{LightStrategy::tree, LightStrategy::tree_binary, LightStrategy::cycles_rule,
+                            LightStrategy::lightcuts, LightStrategy::cells};
 const std::size_t kPairs = test::nightly() ? 10'000'000 : 100'000;
 
 TEST_CASE("select() and pmf() agree: ordinary lights") {
   auto cases = test::light_cases();
   cases.push_back({"100,000 mixed lights", test::mixed_lights(100'000, 8)});
-  for (const LightStrategy s : {LightStrategy::tree, LightStrategy::tree_binary, LightStrategy::cycles_rule})
-    check_cases(s, cases, s == LightStrategy::tree ? kPairs / 2 : kPairs / 20);
+  for (const LightStrategy s : kTrees) check_cases(s, cases, s == LightStrategy::tree ? kPairs / 2 : kPairs / 20);
 }
 
 TEST_CASE("select() and pmf() agree: where trees break") {
   const auto cases = test::degenerate_cases(test::nightly() ? 1000 : 150);
-  for (const LightStrategy s : {LightStrategy::tree, LightStrategy::tree_binary, LightStrategy::cycles_rule})
-    check_cases(s, cases, s == LightStrategy::tree ? kPairs / 2 : kPairs / 20);
+  for (const LightStrategy s : kTrees) check_cases(s, cases, s == LightStrategy::tree ? kPairs / 2 : kPairs / 20);
 }
 
 }  // namespace

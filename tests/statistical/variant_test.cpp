@@ -19,7 +19,7 @@ TEST_CASE("a variant that names nothing is the default render, method by method"
 }
 
 TEST_CASE("lists of strategies hold all that there are") {
-  CHECK(every_lights().size() == 6);
+  CHECK(every_lights().size() == 8);
   CHECK(every_media().size() == 4);
   CHECK(every_distance().size() == 5);
   CHECK(every_transmittance().size() == 4);

@@ -64,7 +64,8 @@ Image picture(const Scene& scene, LightStrategy lights, EmissionStrategy emissio
 
 TEST_CASE("worlds built and rendered by several threads") {
   const Scene scene = read_scene_text(everything(3000), "test.pbrt").scene;
-  for (const LightStrategy lights : {LightStrategy::tree, LightStrategy::tree_binary, LightStrategy::power}) {
+  for (const LightStrategy lights : {LightStrategy::tree, LightStrategy::tree_binary, LightStrategy::power,
+                                     LightStrategy::lightcuts, LightStrategy::cells}) {
     const Image many = picture(scene, lights, EmissionStrategy::paths, kThreads),
                 one = picture(scene, lights, EmissionStrategy::paths, 1);
     CHECK(many.find("R")->values == one.find("R")->values);

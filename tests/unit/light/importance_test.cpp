@@ -74,6 +74,50 @@ TEST_CASE("the least importance is no more than what any point of any light give
   CHECK(positive > 20'000);
 }
 
+TEST_CASE("the greatest importance is no less than what all lights of a cluster give together, wherever they are") {
+  Rng rng(12);
+  int finite = 0, tight = 0;
+  for (int i = 0; i < 200'000; ++i) {
+    std::array<test::ContributionOracle, 3> lights;
+    LightBounds cluster;
+    for (auto& l : lights) {
+      const float size = 0.3f * rng.uniform();
+      l = {.kind = test::ContributionOracle::Kind::triangle, .a = test::random_in_cube(rng, 0.3f), .b = {}, .c = {}};
+      l.b = l.a + test::random_in_cube(rng, size);
+      l.c = l.a + test::random_in_cube(rng, size);
+      cluster = bounds_union(cluster, l.bounds());
+    }
+    if (!(cluster.intensity > 0)) continue;
+    PointQuery q{test::random_direction(rng) * (2 * rng.uniform()), test::random_direction(rng)};
+    if (i % 4 == 0) q.n = {};
+    const ClusterBounds bounds = ClusterBounds::from(cluster);
+    const double most = greatest_importance(bounds, cluster.two_sided, q);
+    REQUIRE(most >= importance(bounds, cluster.two_sided, q) * (1 - 1e-9));
+    if (std::isinf(most)) {
+      for (int axis = 0; axis < 3; ++axis) {
+        CHECK(q.p[axis] >= cluster.box.min[axis] - 1e-6f);
+        CHECK(q.p[axis] <= cluster.box.max[axis] + 1e-6f);
+      }
+      continue;
+    }
+    ++finite;
+    double given = 0;
+    for (const auto& l : lights) {
+      const float u = rng.uniform(), v = rng.uniform() * (1 - u);
+      const Vec3d x = Vec3d(l.a) + (Vec3d(l.b) - Vec3d(l.a)) * u + (Vec3d(l.c) - Vec3d(l.a)) * v, to = x - Vec3d(q.p);
+      const Vec3d normal = cross(Vec3d(l.b) - Vec3d(l.a), Vec3d(l.c) - Vec3d(l.a));
+      if (!(l.bounds().intensity > 0)) continue;
+      const double d = std::sqrt(dot(to, to)), out = -dot(normalize(normal), to) / d;
+      const double in = length_squared(q.n) > 0 ? dot(Vec3d(q.n), to) / d : 1;
+      given += l.bounds().intensity * std::max(out, 0.0) * std::max(in, 0.0) / (d * d);
+    }
+    REQUIRE(given <= most * (1 + 1e-5));
+    tight += given > 0.5 * most;
+  }
+  CHECK(finite > 150'000);
+  CHECK(tight > 1000);  // it is a bound that says something
+}
+
 TEST_CASE("importance of a small far light is its irradiance") {
   const LightBounds light = test::triangle_bounds({0, 0, 0}, {0.001f, 0, 0}, {0, 0.001f, 0}, false, 2);
   const ClusterBounds b = ClusterBounds::from(light);

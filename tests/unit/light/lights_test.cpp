@@ -68,7 +68,7 @@ TEST_CASE("irradiance of emitters with a closed form") {
   CHECK(irradiance(lights_of({emissive(rectangle, Rgb(3))}), {0, 0, 0.8f}, {0, 0, -1}, 60'000) ==
         doctest::Approx(expected).epsilon(5e-3));
   for (const LightStrategy s : {LightStrategy::uniform, LightStrategy::power, LightStrategy::tree, LightStrategy::tree_binary,
-                                LightStrategy::cycles_rule})
+                                LightStrategy::cycles_rule, LightStrategy::lightcuts, LightStrategy::cells})
     CHECK(irradiance(lights_of({emissive(triangles, Rgb(3))}, {{s}}), {0, 0, 0.8f}, {0, 0, -1}, 100'000) ==
           doctest::Approx(expected).epsilon(8e-3));
 }
@@ -333,7 +333,7 @@ TEST_CASE("all kinds together: every strategy gives the same irradiance") {
       expected_variance += (second - first * first) / samples;
     }
     for (const LightStrategy s : {LightStrategy::uniform, LightStrategy::power, LightStrategy::tree, LightStrategy::tree_binary,
-                                  LightStrategy::cycles_rule}) {
+                                  LightStrategy::cycles_rule, LightStrategy::lightcuts, LightStrategy::cells}) {
       const Lights lights = zoo.build(s);
       double sum = 0, sum2 = 0;
       constexpr int kBatches = 20;

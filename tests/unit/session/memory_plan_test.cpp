@@ -96,6 +96,9 @@ TEST_CASE("lights that instances share are planned once, for who shares them") {
   CHECK(lights({LightStrategy::tree}) < 2'000'000);
   CHECK(lights({LightStrategy::power}) > 150'000'000);
   CHECK(lights({LightStrategy::tree, LightStrategy::power}) > 150'000'000);
+  // The grid of cells has a limit, whatever there is.
+  CHECK(lights({LightStrategy::cells}) > lights({LightStrategy::power}) + 16'000'000);
+  CHECK(lights({LightStrategy::cells}) < lights({LightStrategy::power}) + 40'000'000);
   for (int i = 0; i < 100; ++i) scene.instances.push_back({0, Transform::scale(1, 2, 1)});
   CHECK(lights({LightStrategy::tree}) > 15'000'000);
 }
