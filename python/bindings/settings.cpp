@@ -47,6 +47,8 @@ const std::vector<Option>& options() {
       plain("spp", &RenderSettings::spp),
       plain("time", &RenderSettings::time),
       plain("error", &RenderSettings::error),
+      plain("error_max", &RenderSettings::error_max),
+      plain("adaptive", &RenderSettings::adaptive),
       plain("max_depth", &RenderSettings::max_depth),
       plain("seed", &RenderSettings::seed),
       plain("threads", &RenderSettings::threads),
@@ -97,7 +99,7 @@ RenderSettings with_options(RenderSettings settings, const py::dict& given) {
   for (const auto& [name, value] : given) set(settings, name.cast<std::string>(), value);
   // A limit of time or error alone leaves the number of samples open.
   const auto has = [&](const char* name) { return given.contains(name) && !given[name].is_none(); };
-  if (!has("spp") && (has("time") || has("error"))) settings.spp = std::numeric_limits<int>::max();
+  if (!has("spp") && (has("time") || has("error") || has("error_max"))) settings.spp = std::numeric_limits<int>::max();
   return settings;
 }
 

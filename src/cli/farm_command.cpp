@@ -222,6 +222,14 @@ void declare(CLI::App& command, FarmOptions& o) {
       ->required()
       ->check(CLI::IsMember({"slurm", "openjd", "parallel"}));
   declare_task(command, o.render);
+  command
+      .add_flag_function("--adaptive",
+                         [](std::int64_t) {
+                           throw Error(Failure::usage,
+                                       "a farm's slices cannot be adaptive: where the error is only all of them together tell; "
+                                       "leave --adaptive out, or render without slices");
+                         })
+      ->group("");  // not listed: it is told to those who look for it
   command.add_option("--slices", o.slices, "how many, of each frame; each begins at a multiple of 16 samples; --slices 64")
       ->required()
       ->check(CLI::Range(1, 100000));

@@ -60,6 +60,7 @@ bool says_options(const Image& header, const RenderSettings& settings) {
 PictureRender::PictureRender(const RenderOptions& options, Scene& scene, LivePage* page)
     : options_(options), checkpoint_(std::string()) {
   apply(options, scene);
+  require_end(scene.settings);
   asked_aovs_ = scene.settings.aovs;
   if (options.denoise) denoiser_.emplace(options, scene.settings);
   settings_ = scene.settings;
@@ -90,7 +91,7 @@ bool PictureRender::is_finished(std::uint64_t scene_hash) const {
   if (!options_.deep.empty() && !fs::exists(options_.deep, absent)) return false;
   try {
     const Image header = read_exr_header(output_);
-    const bool open_end = settings_.time || settings_.error;  // it ended where these say
+    const bool open_end = settings_.time || settings_.error || settings_.error_max;  // it ended where these say
     return says(header, "tyndall/sceneHash", scene_hash_text(scene_hash, settings_)) &&
            says(header, "tyndall/seed", std::to_string(settings_.seed)) && says_options(header, settings_) &&
            !header.attributes.contains("tyndall/stopped") && (open_end || says(header, "tyndall/samples", settings_.spp)) &&

@@ -83,11 +83,10 @@ void set_samples(const RenderOptions& options, RenderSettings& settings) {
   if (options.spp) settings.spp = *options.spp;
   if (options.time) settings.time = *options.time;
   if (options.error) settings.error = *options.error;
+  if (options.error_max) settings.error_max = *options.error_max;
   if (options.adaptive) settings.adaptive = *options.adaptive;
-  if (settings.adaptive.value_or(false) && !settings.error && !settings.time)
-    throw Error(Failure::usage, "--adaptive says where samples go, not how many; give --error or --time with it");
   // A limit of time or error alone leaves the number of samples open.
-  if (!options.spp && (options.time || options.error)) settings.spp = std::numeric_limits<int>::max();
+  if (!options.spp && (options.time || options.error || options.error_max)) settings.spp = std::numeric_limits<int>::max();
 }
 
 void set_slice(const RenderOptions& options, RenderSettings& settings) {
@@ -197,10 +196,16 @@ void declare(CLI::App& command, RenderOptions& o) {
           "samples a pixel are 32, 40, 48, 56, 64, 72 ... in the mean, with --no-adaptive when they are 64, 128, 256 ... "
           "[none]; --error 0.001")
       ->check(positive());
+  command
+      .add_option("--error-max", o.error_max,
+                  "stop when the estimated relMSE of no part of the picture, a block of 8 x 8 pixels with those around it, is "
+                  "above this; beside --error both must hold; looked at as often, and samples go where it takes them "
+                  "[none]; --error-max 0.01")
+      ->check(positive());
   command.add_flag_function(
       "--adaptive,!--no-adaptive", [&o](std::int64_t times) { o.adaptive = times > 0; },
       "more samples where the error is, after 32 everywhere; --spp is then the most that a pixel gets [with "
-      "--error, else not]; --adaptive");
+      "--error or --error-max, else not]; --adaptive");
   command.add_option(
       "--slice", o.slice,
       "only the I-th of N slices of the samples, of which --spp is the number of all; tyndall merge adds them up to the "
@@ -309,6 +314,11 @@ void require_exact_mattes(const ImageOptions& image, const std::string& path, co
 }
 
 }  // namespace
+
+void require_end(const RenderSettings& settings) {
+  if (settings.adaptive.value_or(false) && !settings.error && !settings.error_max && !settings.time)
+    throw Error(Failure::usage, "--adaptive says where samples go, not how many; give --error, --error-max or --time with it");
+}
 
 void require_deep_name(const std::string& deep, const std::string& output) {
   if (std::filesystem::path(deep).extension() != ".exr") bad("--deep", deep, "a name that ends in .exr");

@@ -34,7 +34,7 @@ struct RenderOptions {
   PictureOptions picture;
   ImageOptions image;
   std::optional<int> spp, threads, deep_bins;
-  std::optional<double> time, error, checkpoint, max_memory, preview_every;
+  std::optional<double> time, error, error_max, checkpoint, max_memory, preview_every;
   std::optional<std::uint64_t> seed;
   std::optional<bool> adaptive;
   std::string reference, error_log, aovs, slice, frames, display, deep, progress = "auto";
@@ -56,6 +56,8 @@ void declare_scene(CLI::App& command, std::string& scene);
 void apply(const MethodOptions& options, RenderSettings& settings);
 void apply(const PictureOptions& options, Scene& scene);
 void apply(const RenderOptions& options, Scene& scene);
+/// Throws Error (usage) for an adaptive render that has no end but its samples, at which all pixels have as many.
+void require_end(const RenderSettings& settings);
 
 /// Where the image goes: --output, else what the scene's Film names, else the scene's name with .exr, in the
 /// current folder. Throws Error (usage) for an ending that no image is written with, and for image options that do not fit.

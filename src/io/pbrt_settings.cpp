@@ -45,6 +45,12 @@ void read_light_sampler(ParamList& params, RenderSettings& settings) {
   if (sampler == "exhaustive") settings.lights = LightStrategy::exhaustive;
 }
 
+std::optional<double> maybe_relmse(ParamList& params, const std::string& name) {
+  const auto error = params.maybe_number(name);
+  if (error && !(*error > 0)) throw params.error(name, name + " must be above 0; it is a relMSE, as 0.001");
+  return error;
+}
+
 /// Tyndall's options under the names of the command line.
 void read_own_options(State& state, ParamList& params) {
   RenderSettings& s = state.scene.settings;
@@ -57,10 +63,8 @@ void read_own_options(State& state, ParamList& params) {
     s.time = *time;
   }
   s.threads = at_least(params, "threads", s.threads, 0);
-  if (const auto error = params.maybe_number("error")) {
-    if (!(*error > 0)) throw params.error("error", "error must be above 0; it is a relMSE, as 0.001");
-    s.error = *error;
-  }
+  if (const auto error = maybe_relmse(params, "error")) s.error = error;
+  if (const auto error = maybe_relmse(params, "error-max")) s.error_max = error;
   if (params.find("adaptive", {ParamType::boolean})) s.adaptive = params.boolean("adaptive", false);
   if (params.find("candidates", {ParamType::integer})) s.candidates = at_least(params, "candidates", 0, 0);
   if (const auto splitting = params.maybe_number("splitting")) {
@@ -95,7 +99,8 @@ void ask_for_foreign_parameters(ParamList& params, const std::string& type) {
 
 void finish_settings(State& state) {
   RenderSettings& s = state.scene.settings;
-  if (!state.spp_from_sampler && !state.spp_from_integrator && (s.time || s.error)) s.spp = std::numeric_limits<int>::max();
+  if (!state.spp_from_sampler && !state.spp_from_integrator && (s.time || s.error || s.error_max))
+    s.spp = std::numeric_limits<int>::max();
 }
 
 void read_sampler(State& state, Tokenizer& in, const Location& where) {

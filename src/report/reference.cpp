@@ -84,6 +84,7 @@ Reference render_reference(const World& world, RenderSettings settings, const Re
                            const RenderControl& control) {
   settings.aovs = {"Variance"};
   settings.error = goal.relmse;
+  settings.error_max.reset();
   settings.adaptive = false;  // all pixels are to be as good
   settings.spp = goal.samples;
   settings.time.reset();

@@ -41,9 +41,9 @@ struct Planner {
     Run run{.of_case = index, .image = base + ".exr", .command = {{}, suite.folder, base + ".json", base + ".log", c.timeout}};
     // In the suite's folder and by its bare name: the scene's path is in the header, and so in the bytes.
     std::vector<std::string>& arguments = run.command.arguments;
-    arguments = {settings.program,      "render", c.name + ".pbrt",     "-o",        run.image, "--spp",
-                 std::to_string(c.spp), "--seed", std::to_string(seed), "--threads", "1",       "--json",
-                 "--progress",          "none",   "--reproducible"};
+    arguments = {settings.program,      "render", c.name + ".pbrt",     "-o",           run.image, "--spp",
+                 std::to_string(c.spp), "--seed", std::to_string(seed), "--threads",    "1",       "--json",
+                 "--progress",          "none",   "--reproducible",     "--no-adaptive"};
     // Pixels that share their noise would tell less; a case may ask for them in its options.
     if (std::find(c.options.begin(), c.options.end(), "--reuse") == c.options.end())
       arguments.insert(arguments.end(), {"--reuse", "off"});

@@ -19,8 +19,9 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Options of render that the suite itself sets, and those that end a render at no fixed number of samples.
-constexpr std::array kTaken{"-o",      "--output", "--seed",     "--spp",          "--aov",   "--threads",   "--json",
-                            "--quiet", "--time",   "--progress", "--reproducible", "--error", "--max-memory"};
+constexpr std::array kTaken{"-o",          "--output",   "--seed",        "--spp",       "--aov",          "--threads",
+                            "--json",      "--quiet",    "--time",        "--progress",  "--reproducible", "--error",
+                            "--error-max", "--adaptive", "--no-adaptive", "--max-memory"};
 
 [[noreturn]] void bad(const std::string& path, const std::string& what) { throw Error(Failure::scene, path + ": " + what); }
 

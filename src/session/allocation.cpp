@@ -39,22 +39,38 @@ double scale_for(const std::vector<Wish>& wishes, double samples) {
   return std::exp2(high);
 }
 
-std::vector<Wish> wishes_of(std::span<const BlockNoise> blocks, int across, const SampleBudget& budget) {
+/// Where the picture is as good as it shall be in the mean, or cannot have what its worst part takes. `wishes`: with that as
+/// the least.
+bool worst_comes_first(std::span<const BlockNoise> blocks, const std::vector<Wish>& wishes, const SampleBudget& budget) {
+  if (budget.goal.worst == kInfinity) return false;
+  double pixels = 0;
+  for (const Wish& w : wishes) pixels += w.pixels;
+  return mean_error(blocks) < budget.goal.mean || total(wishes, 0) > budget.mean * pixels;
+}
+
+std::vector<double> errors_of(std::span<const BlockNoise> blocks, int across) {
   std::vector<double> error;
   for (std::size_t i = 0; i < blocks.size(); ++i) error.push_back(pooled_error(blocks, across, static_cast<int>(i)));
+  return error;
+}
+
+std::vector<Wish> wishes_of(std::span<const BlockNoise> blocks, int across, const SampleBudget& budget) {
+  const std::vector<double> error = errors_of(blocks, across);
   const double largest = *std::max_element(error.begin(), error.end());
   double work = 0;
   for (const BlockNoise& b : blocks) work = std::max(work, b.work / b.pixels);
-  std::vector<Wish> wishes;
+  std::vector<Wish> wishes, of_worst;
   for (std::size_t i = 0; i < blocks.size(); ++i) {
     const BlockNoise& b = blocks[i];
     const double relative_error = largest > 0 ? std::max(error[i] / largest, kLeastError) : 1;
     const double relative_work = work > 0 ? std::max(b.work / b.pixels / work, kLeastError) : 1;
     const double most = std::max<double>(b.samples, std::min<double>(budget.most, kMostGrowth * b.samples));
     const double least = std::clamp(kLeastShare * budget.mean, static_cast<double>(b.samples), most);
-    wishes.push_back({std::sqrt(relative_error / relative_work), least, most, b.pixels});
+    const double needed = std::clamp(error[i] / budget.goal.worst, least, most);
+    wishes.push_back({std::sqrt(relative_error / relative_work), needed, most, b.pixels});
+    of_worst.push_back({relative_error, least, most, b.pixels});
   }
-  return wishes;
+  return worst_comes_first(blocks, wishes, budget) ? of_worst : wishes;
 }
 
 }  // namespace

@@ -13,7 +13,8 @@ namespace tyndall {
 namespace {
 
 /// The shortest decimal number that is read back as `value`.
-std::string exact(float value) {
+template <typename Number>
+std::string exact(Number value) {
   char text[32];
   return {text, std::to_chars(text, text + sizeof text, value).ptr};
 }
@@ -30,6 +31,13 @@ std::string options_text(const RenderSettings& settings) {
   if (settings.shadow_rays) text += " --shadow-rays " + std::to_string(*settings.shadow_rays);
   if (is_adaptive(settings)) text += " --adaptive";
   return text;
+}
+
+std::string plan_text(const RenderSettings& settings) {
+  std::string text = " --spp " + std::to_string(settings.spp);
+  if (!settings.error_max) return text;
+  text += " --error-max " + exact(*settings.error_max);
+  return settings.error ? text + " --error " + exact(*settings.error) : text;
 }
 
 namespace {

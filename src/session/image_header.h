@@ -11,6 +11,9 @@ inline constexpr const char* kLightGroups = "tyndall/lightGroups";
 /// Every option of the command line that chooses a method, with its value: "--max-depth 5 --lights tree ...". Settings that
 /// differ give texts that differ.
 std::string options_text(const RenderSettings& settings);
+/// What decides besides these how many samples each pixel of an adaptive render gets; the mean's goal does only beside that of
+/// the worst error.
+std::string plan_text(const RenderSettings& settings);
 
 /// Add camera matrices, the scene's hash, samples, seed, options, version and (unless reproducible) date and time taken.
 void write_header(Image& image, const World::Parts& world, const RenderSettings& settings, const RenderReport& report);

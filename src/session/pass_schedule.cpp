@@ -26,19 +26,23 @@ int error_check_step(int samples) {
 }  // namespace
 
 bool PassSchedule::is_error_check(int samples) const {
-  if (!settings_.error) return false;
+  if (!until_error_) return false;
   if (!adaptive_) return samples >= kFirstErrorCheck && is_checkpoint(samples);
   return samples >= SamplePlan::kPilot && samples % error_check_step(samples) == 0;
 }
 
-bool PassSchedule::good_enough(const RenderJob& job) const {
-  return is_error_check(job.samples()) && job.estimated_relmse() < *settings_.error;
+/// By which factor the errors are above those that were asked for, the worse of both.
+double PassSchedule::excess(const RenderJob& job) const {
+  const RenderReport report = job.report();
+  const double of_mean = settings_.error ? report.estimated_relmse / *settings_.error : 0;
+  const double of_worst = settings_.error_max ? report.worst_relmse / *settings_.error_max : 0;
+  return std::max(of_mean, of_worst);
 }
 
 bool PassSchedule::complete(const RenderJob& job) const {
   if (job.samples() >= samples_wanted_) return true;
   if (settings_.time && job.samples() > 0 && job.seconds() >= *settings_.time) return true;
-  return good_enough(job);
+  return is_error_check(job.samples()) && excess(job) < 1;
 }
 
 int PassSchedule::next_pass(const RenderJob& job) {
@@ -54,10 +58,10 @@ int PassSchedule::next_pass(const RenderJob& job) {
     pass = std::clamp(static_cast<int>(budget / std::max(a_sample, 1e-9)), 1, pass);
   }
   if (settings_.slice) pass = std::max(pass / 2 * 2, 2);  // replicates of as many samples in each
-  if (checkpoints_ || settings_.error) pass = std::min(pass, samples_to_next_checkpoint(done));
-  if (settings_.error && adaptive_) pass = std::min(pass, error_check_step(done) - done % error_check_step(done));
+  if (checkpoints_ || until_error_) pass = std::min(pass, samples_to_next_checkpoint(done));
+  if (until_error_ && adaptive_) pass = std::min(pass, error_check_step(done) - done % error_check_step(done));
   // The error falls like 1/samples: good enough to tell how long it will take.
-  if (settings_.error && done >= 2 && is_checkpoint(done)) samples_needed_ = done * job.estimated_relmse() / *settings_.error;
+  if (until_error_ && done >= 2 && is_checkpoint(done)) samples_needed_ = done * excess(job);
   return std::min(pass, samples_wanted_ - done);
 }
 

@@ -19,7 +19,8 @@ class PassSchedule {
       : settings_(settings),
         samples_wanted_(sample_range(settings).count),
         checkpoints_(checkpoints),
-        adaptive_(is_adaptive(settings)) {}
+        adaptive_(is_adaptive(settings)),
+        until_error_(has_error_goal(settings)) {}
 
   static bool is_checkpoint(int samples) { return samples > 0 && (samples & (samples - 1)) == 0; }
 
@@ -34,7 +35,7 @@ class PassSchedule {
 
  private:
   bool is_error_check(int samples) const;
-  bool good_enough(const RenderJob& job) const;
+  double excess(const RenderJob& job) const;
   double fraction(double samples, double seconds) const;
 
   /// The job as the first pass found it: empty, or resumed.
@@ -48,8 +49,8 @@ class PassSchedule {
   int samples_wanted_;
   std::optional<Begun> begun_;
   Timer pass_timer_;
-  bool checkpoints_, adaptive_;
-  double samples_needed_ = 0;  ///< for settings.error, as far as is known; 0: not known
+  bool checkpoints_, adaptive_, until_error_;
+  double samples_needed_ = 0;  ///< for the errors of the settings, as far as is known; 0: not known
   double last_report_ = -1;
 };
 

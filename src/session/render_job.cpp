@@ -78,7 +78,7 @@ class RenderJob::Impl {
                         deep_ ? &deep_->bins : nullptr},
         pool_(settings.threads),
         blocks_({sample_context_, mattes_, film_points_, film_emitters_, first_sample_, film_}) {
-    if (*settings_.adaptive) plan_.emplace(film_.crop(), settings_.spp);
+    if (*settings_.adaptive) plan_.emplace(film_.crop(), settings_.spp, goal());
   }
 
   bool advance(int count, const PassWatch& watch, GivenUp if_given_up) {
@@ -230,6 +230,7 @@ class RenderJob::Impl {
     const std::size_t block = plan_->grid().index(p.x, p.y);
     return {plan_->samples(block, samples_), plan_->samples(block, samples_ + count)};
   }
+  ErrorGoal goal() const { return {settings_.error.value_or(kInfinity), settings_.error_max.value_or(kInfinity)}; }
   SampleCounts counts() const { return plan_ ? plan_->counts(samples_) : SampleCounts(samples_); }
 
   std::vector<BlockNoise> block_noise() const {
@@ -273,8 +274,8 @@ class RenderJob::Impl {
     std::string pixels;
     for (const int v : {c.x0, c.x1, c.y0, c.y1}) pixels += (pixels.empty() ? "" : ",") + std::to_string(v);
     return {{"scene", scene_hash_text(world_.scene_hash, settings_)},
-            {"options", options_text(settings_) + " --seed " + std::to_string(settings_.seed) +
-                            (plan_ ? " --spp " + std::to_string(settings_.spp) : "")},
+            {"options",
+             options_text(settings_) + " --seed " + std::to_string(settings_.seed) + (plan_ ? plan_text(settings_) : "")},
             {"slice", slice_text(settings_)},
             {"crop", pixels},
             {"aov", aov_list(settings_.aovs)},

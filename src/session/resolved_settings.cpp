@@ -22,12 +22,16 @@ void check(const RenderSettings& settings) {
   if (settings.shadow_rays && *settings.shadow_rays < 0) throw Error(Failure::usage, "shadow rays is negative; give 0 or more");
   if (settings.max_depth < 0) throw Error(Failure::usage, "max depth is negative; give 0 or more");
   if (settings.error && !(*settings.error > 0)) throw Error(Failure::usage, "error must be positive; give a relMSE");
+  if (settings.error_max && !(*settings.error_max > 0))
+    throw Error(Failure::usage, "error max must be positive; give a relMSE");
   if (settings.time && !(*settings.time > 0)) throw Error(Failure::usage, "time must be positive; give seconds");
 }
 
 }  // namespace
 
-bool is_adaptive(const RenderSettings& settings) { return settings.adaptive.value_or(settings.error.has_value()); }
+bool has_error_goal(const RenderSettings& settings) { return settings.error || settings.error_max; }
+
+bool is_adaptive(const RenderSettings& settings) { return settings.adaptive.value_or(has_error_goal(settings)); }
 
 RenderSettings resolved(RenderSettings settings, const World::Parts& world) {
   check(settings);

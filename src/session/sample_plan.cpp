@@ -6,8 +6,8 @@
 
 namespace tyndall {
 
-SamplePlan::SamplePlan(const PixelBounds& crop, int most)
-    : grid_(crop), most_(most), had_(grid_.size(), 0), given_(grid_.size(), kPilot), work_(grid_.size(), 0) {}
+SamplePlan::SamplePlan(const PixelBounds& crop, int most, const ErrorGoal& goal)
+    : grid_(crop), most_(most), goal_(goal), had_(grid_.size(), 0), given_(grid_.size(), kPilot), work_(grid_.size(), 0) {}
 
 int SamplePlan::round_end(int n) const {
   if (n < kPilot) return kPilot;
@@ -48,7 +48,7 @@ void SamplePlan::decide(int n, std::vector<BlockNoise> blocks) {
   }
   begin_ = n;
   end_ = round_end(n);
-  const std::vector<int> wanted = allot(blocks, grid_.across(), {static_cast<double>(end_), most_});
+  const std::vector<int> wanted = allot(blocks, grid_.across(), {static_cast<double>(end_), most_, goal_});
   for (std::size_t b = 0; b < grid_.size(); ++b) given_[b] = std::max(wanted[b] - had_[b], 0);
 }
 

@@ -18,7 +18,7 @@ class SamplePlan {
   static constexpr int kPilot = 32;
 
   /// `most`: samples that any pixel may have.
-  SamplePlan(const PixelBounds& crop, int most);
+  SamplePlan(const PixelBounds& crop, int most, const ErrorGoal& goal = {});
 
   const BlockGrid& grid() const { return grid_; }
   /// Where the round that holds the mean `n`, or begins there, ends; after the last round, the largest int.
@@ -44,6 +44,7 @@ class SamplePlan {
  private:
   BlockGrid grid_;
   int most_;
+  ErrorGoal goal_;
   int begin_ = 0, end_ = kPilot;  ///< mean samples, of the round
   std::vector<int> had_, given_;  ///< samples by block: before the round, and in it
   std::vector<std::uint64_t> work_;

@@ -203,9 +203,9 @@ std::uint64_t hash_scene(const Scene& scene, KeptFiles* kept) {
 
 std::string scene_hash_text(std::uint64_t scene_hash, const RenderSettings& settings) {
   // All settings by name, so that a new one is asked: does it change what the right picture is? Only the depth does.
-  const auto& [spp, time, error, adaptive, max_depth, seed, threads, lights, candidates, shadow_rays, splitting, media,
-               distance, emission, guiding, joint, reuse, budget, transmittance, aovs, deep_bins, crop, slice, reproducible] =
-      settings;
+  const auto& [spp, time, error, error_max, adaptive, max_depth, seed, threads, lights, candidates, shadow_rays, splitting,
+               media, distance, emission, guiding, joint, reuse, budget, transmittance, aovs, deep_bins, crop, slice,
+               reproducible] = settings;
   char text[17];
   const auto value = static_cast<unsigned long long>(hash(scene_hash, static_cast<std::uint64_t>(max_depth)));
   std::snprintf(text, sizeof text, "%016llx", value);

@@ -19,7 +19,7 @@ SampleRange sample_range(const RenderSettings& settings) {
   const auto& [index, count] = *settings.slice;
   const std::string name = std::to_string(index) + "/" + std::to_string(count);
   if (index < 1 || index > count) throw Error(Failure::usage, "slice " + name + " cannot be; give I/N with I from 1 to N");
-  if (settings.error)
+  if (has_error_goal(settings))
     throw Error(Failure::usage, "slice " + name +
                                     " cannot stop at an error, which only all slices together have; leave "
                                     "error out, and give it to merge");

@@ -29,11 +29,39 @@ expect 0 "$T" render s.pbrt $options --error "$half" --resume -o cut.exr
 says 'going on from' err.txt
 cmp cut.exr whole.exr || fail "the resumed picture is not the unbroken one"
 
+# An error of the worst part: reached, alone and beside one of the mean; what was decided for it is no other's checkpoint.
+worst() { sed -nE 's/.*"worst": ([0-9.e-]+).*/\1/p' "$1"; }
+expect 0 "$T" render s.pbrt $options --spp 32 -o first.exr --json
+goal=$(worst out.txt | awk '{ printf "%.17g", 2 ^ int(log($1 / 3) / log(2)) }')  # a float in the scene as well
+expect 0 "$T" render s.pbrt $options --error-max "$goal" --threads 1 -o worst.exr --json
+awk "BEGIN { exit !($(worst out.txt) < $goal) }" || fail "the worst part is above --error-max $goal: $(cat out.txt)"
+mean=$(sed -nE 's/.*"estimated": ([0-9.e-]+),.*/\1/p' out.txt | awk '{ print $1 / 1.5 }')
+grep -E 'worst.exr: 96x64, [0-9]+ spp in the mean, [0-9]+ to [0-9]+$' err.txt >/dev/null || fail "--error-max is not adaptive: $(cat err.txt)"
+expect 0 "$T" render s.pbrt $options --error-max "$goal" --threads 3 -o again.exr
+cmp worst.exr again.exr || fail "threads change a picture with --error-max"
+expect 0 "$T" render s.pbrt $options --error "$mean" --error-max "$goal" -o both.exr --json
+awk "BEGIN { exit !($(worst out.txt) < $goal) }" || fail "--error and --error-max do not both hold: $(cat out.txt)"
+sed "s/^Integrator \"volpath\"/& \"float error-max\" $goal/" s.pbrt >goal.pbrt
+expect 0 "$T" render goal.pbrt $options --spp 100000 -o said.exr
+expect 0 "$T" diff said.exr worst.exr --exact --channels RGB
+expect 2 "$T" render s.pbrt --error-max 0 --resolution 8x8
+says '--error-max' err.txt
+expect 2 "$T" render s.pbrt --error-max 1 --slice 1/2 --spp 64 -o slice.exr
+says 'slice 1/2 cannot stop at an error' err.txt
+interrupted INT "rendering 64" "$T" render s.pbrt $options --error-max 1e-9 --checkpoint 60 --progress json -o other.exr
+expect 3 "$T" render s.pbrt $options --error-max 1e-8 --resume -o other.exr
+says '--error-max 1e-09' err.txt
+
 # What cannot be.
 expect 2 "$T" render s.pbrt --adaptive --resolution 8x8
-says '--adaptive says where samples go, not how many; give --error or --time with it' err.txt
+says '--adaptive says where samples go, not how many; give --error, --error-max or --time with it' err.txt
 expect 2 "$T" render s.pbrt --adaptive --time 1 --slice 1/2 --spp 64 -o slice.exr
 says 'slice 1/2 cannot be adaptive' err.txt
+expect 2 "$T" farm slurm s.pbrt --spp 64 --slices 4 --no-trial --adaptive -o farm.exr
+says "a farm's slices cannot be adaptive" err.txt
+sed 's/^Integrator "volpath"/& "bool adaptive" true/' s.pbrt >asks.pbrt
+expect 2 "$T" farm slurm asks.pbrt --spp 64 --slices 4 --no-trial -o farm.exr
+says 'slice 1/4 cannot be adaptive: where the error is only all slices together tell' err.txt
 expect 0 "$T" render s.pbrt $options --adaptive --time 1 -o timed.exr
 "$T" info timed.exr | grep -E 'tyndall/samples +[0-9]+(\.\.[0-9]+)?$' >/dev/null || fail "a timed adaptive render does not tell its samples"
 

@@ -21,12 +21,13 @@ constexpr double kEpsilon = 0.01;
 struct Noise {
   std::function<double(Rng&)> quiet, loud;
   double mean;  ///< of both
+  ErrorGoal goal{};
 };
 
 /// The halves' sums of each pixel.
 struct Toy {
   Toy(const Noise& kind, std::uint64_t seed)
-      : noise(kind), rng(seed), plan(kFrame, 1 << 20), even(kFrame.size(), 0), odd(kFrame.size(), 0) {}
+      : noise(kind), rng(seed), plan(kFrame, 1 << 20, kind.goal), even(kFrame.size(), 0), odd(kFrame.size(), 0) {}
 
   void advance(int from, int to) {
     for (std::size_t b = 0; b < plan.grid().size(); ++b) {
@@ -132,4 +133,14 @@ TEST_CASE("where one sample in 500 has all the light it costs less than a hundre
   check_bias(half, 0, 48, 1e-3);
   check_bias(half, 0, 96, 5e-3);
   check_bias(everywhere, 0, 96, 1e-2);
+}
+
+TEST_CASE("samples for the worst part, which go by the error alone, leave the mean as near") {
+  // Out of reach, so that every decision is for it.
+  const ErrorGoal goal{.worst = 1e-9};
+  const Noise mild{[](Rng& rng) { return 0.9 + 0.2 * rng.uniform_wide(); }, exponential, 1, goal};
+  check_bias(mild, 0, 96, 1e-3);
+  check_bias(mild, 0, 48, 1e-3);
+  const Noise everywhere{spike, spike, 1.5, goal};
+  check_bias(everywhere, 0, 96, 2e-2);
 }

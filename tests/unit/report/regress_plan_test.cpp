@@ -58,6 +58,8 @@ TEST_CASE("a case is rendered by its runs, each in the suite's folder with its s
   CHECK(first.command.folder == "suite");
   CHECK(first.command.arguments[0] == "/bin/tyndall");
   CHECK(first.command.arguments[2] == "fog.pbrt");
+  const auto& given = first.command.arguments;
+  CHECK(std::find(given.begin(), given.end(), "--no-adaptive") != given.end());  // whatever the scene asks for
   CHECK(argument_after(first, "--spp") == "8");
   CHECK(argument_after(first, "--aov") == "N,Z");
   CHECK(argument_after(first, "--max-depth") == "2");

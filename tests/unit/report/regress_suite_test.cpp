@@ -62,7 +62,8 @@ TEST_CASE("settings that cannot be meant are errors that name the file and the k
   for (const char* bad :
        {R"({"ssp": 8})", R"({"spp": 0})", R"({"spp": "8"})", R"({"spp": 8.5})", R"({"runs": 1})", R"({"timeout": 0})",
         R"({"bytes": 1})", R"({"aovs": ["Depth"]})", R"({"aovs": ["Variance"]})", R"({"aovs": ["N", "N"]})", R"({"aovs": "N"})",
-        R"({"options": ["--seed", "3"]})", R"({"options": ["--spp=3"]})", R"({"seed": -1})"}) {
+        R"({"options": ["--seed", "3"]})", R"({"options": ["--spp=3"]})", R"({"options": ["--adaptive"]})",
+        R"({"options": ["--error-max", "1"]})", R"({"seed": -1})"}) {
     const std::string message = message_for(bad);
     const std::string text = bad;
     CHECK_MESSAGE(mentions(message, "a.json: \"" + text.substr(2, text.find('"', 2) - 2) + "\""), bad, " gives ", message);

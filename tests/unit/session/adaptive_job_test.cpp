@@ -110,5 +110,69 @@ TEST_CASE("an error goal ends an adaptive render near the error; at the most sam
   CHECK_THROWS_AS(RenderJob(w, s), Error);
 }
 
+TEST_CASE("an error goal of the worst part ends a render where that is as good, beside one of the mean where both are") {
+  const World w = world();
+  RenderSettings s = settings_of();
+  s.adaptive.reset();
+  RenderJob even(w, s);
+  even.advance(32);
+  const RenderReport first = even.report();
+  s.error_max = first.worst_relmse / 4;
+  const RenderReport of_worst = render(w, s).report;
+  CHECK(of_worst.most_samples > of_worst.least_samples);  // adaptive without being asked
+  CHECK(of_worst.worst_relmse < *s.error_max);
+  CHECK(of_worst.worst_relmse > 0.25 * *s.error_max);
+
+  s.error = first.estimated_relmse / 8;
+  const RenderReport both = render(w, s).report;
+  CHECK(both.estimated_relmse < *s.error);
+  CHECK(both.worst_relmse < *s.error_max);
+  s.adaptive = false;
+  const RenderReport uniform = render(w, s).report;
+  CHECK(uniform.estimated_relmse < *s.error);
+  CHECK(uniform.worst_relmse < *s.error_max);
+  CHECK(uniform.samples > both.samples);
+}
+
+TEST_CASE("what decided where samples went must agree for a checkpoint, but the mean's goal alone decides nothing") {
+  const World w = world();
+  RenderSettings s = settings_of();
+  const auto fits = [&](const RenderSettings& saved, const RenderSettings& resumed) {
+    RenderJob a(w, saved), b(w, resumed);
+    a.advance(2);
+    try {
+      b.restore(a.save(), "a");
+    } catch (const Error&) {
+      return false;
+    }
+    return true;
+  };
+  RenderSettings mean = s, worst = s, both = s, other = s;
+  mean.error = 1e-3;
+  worst.error_max = 1e-2;
+  both.error = 1e-3;
+  both.error_max = 1e-2;
+  other.error_max = 2e-2;
+  CHECK(fits(s, mean));
+  CHECK(fits(worst, worst));
+  CHECK_FALSE(fits(mean, worst));
+  CHECK_FALSE(fits(worst, both));
+  CHECK_FALSE(fits(worst, other));
+}
+
+TEST_CASE("time that is left goes where the error is: less error at as many samples") {
+  const World w = world();
+  RenderSettings s = settings_of();
+  s.time = 0.5;
+  const RenderReport timed = render(w, s).report;
+  if (timed.samples <= 64) return;  // a machine on which half a second holds no more tells nothing
+  CHECK(timed.most_samples > timed.least_samples);
+  s.time.reset();
+  s.adaptive = false;
+  RenderJob even(w, s);
+  even.advance(timed.samples);
+  CHECK(timed.estimated_relmse < even.estimated_relmse());
+}
+
 }  // namespace
 }  // namespace tyndall

@@ -105,6 +105,48 @@ TEST_CASE("where nothing is noisy, or all is equally, all get the same") {
     std::vector<BlockNoise> blocks = even_blocks();
     for (BlockNoise& b : blocks) b.error = error;
     CHECK(allot(blocks, 5, {192, 1 << 30}) == std::vector<int>(20, 192));
+    CHECK(allot(blocks, 5, {192, 1 << 30, {.mean = 1, .worst = 1e-3}}) == std::vector<int>(20, 192));
+  }
+}
+
+/// The left two columns have nine times the error of the others, which the middle one is pooled between.
+std::vector<BlockNoise> uneven_blocks() {
+  std::vector<BlockNoise> blocks = even_blocks();
+  for (std::size_t i = 0; i < blocks.size(); ++i) blocks[i].error = i % 5 < 2 ? 9 * 64 : 64;
+  return blocks;
+}
+
+/// Of a sample in a block over the samples it gets, as the goal of the worst error is held against it.
+double worst_after(const std::vector<BlockNoise>& blocks, const std::vector<int>& samples) {
+  double worst = 0;
+  for (std::size_t i = 0; i < blocks.size(); ++i)
+    worst = std::max(worst, pooled_error(blocks, 5, static_cast<int>(i)) / samples[i]);
+  return worst;
+}
+
+TEST_CASE("a goal of the worst error that can be had is had, and what is left goes where it makes the mean least") {
+  const std::vector<BlockNoise> blocks = uneven_blocks();
+  const ErrorGoal goal{.mean = 1e-6, .worst = 9.0 / 380};
+  const std::vector<int> samples = allot(blocks, 5, {220, 1 << 30, goal}), without = allot(blocks, 5, {220, 1 << 30});
+  CHECK(worst_after(blocks, samples) <= goal.worst * 1.01);  // numbers are even
+  CHECK(worst_after(blocks, without) > goal.worst * 1.05);   // else the test shows nothing
+  CHECK(samples[0] == 380);
+  CHECK(samples[4] == samples[9]);
+  CHECK(mean_over_pixels(blocks, samples) == doctest::Approx(220).epsilon(0.01));
+  // Of those above their least, the root of the error decides as ever: columns 2 and 3 are pooled with both sides.
+  const double middle = pooled_error(blocks, 5, 7), right = pooled_error(blocks, 5, 9);
+  CHECK(double(samples[7]) / samples[9] == doctest::Approx(std::sqrt(middle / right)).epsilon(0.03));
+}
+
+TEST_CASE("where the goal of the worst error alone is missing, or cannot be had yet, the largest error is made least") {
+  const std::vector<BlockNoise> blocks = uneven_blocks();
+  for (const ErrorGoal& goal : {ErrorGoal{.worst = 9.0 / 350}, ErrorGoal{.mean = 1e-6, .worst = 1e-6}}) {
+    const std::vector<int> samples = allot(blocks, 5, {180, 1 << 30, goal});
+    CHECK(mean_over_pixels(blocks, samples) == doctest::Approx(180).epsilon(0.01));
+    CHECK(worst_after(blocks, samples) < worst_after(blocks, allot(blocks, 5, {180, 1 << 30})));
+    for (std::size_t i = 0; i < blocks.size(); ++i)
+      CHECK((samples[i] == 100 || pooled_error(blocks, 5, static_cast<int>(i)) / samples[i] ==
+                                      doctest::Approx(worst_after(blocks, samples)).epsilon(0.02)));
   }
 }
 
