@@ -77,6 +77,10 @@ void write_report(const std::string& folder, const nlohmann::ordered_json& resul
   for (const VariantResult& v : result.variants) {
     if (!v.given_up) pictures.push_back({"", v.name, v.image});
   }
+  for (const VariantResult& v : result.variants) {
+    if (!v.sample_counts.channels.empty())
+      pictures.push_back({"", v.name + " samples", v.sample_counts, PagePicture::Kind::samples});
+  }
   write_file(error_csv(result), folder + "/error.csv");
   write_file(results.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n", folder + "/results.json");
   write_file(compare_page(results, pictures), folder + "/index.html");
@@ -116,6 +120,7 @@ int run_compare(const CompareOptions& o, const std::string& command) {
   if (o.threads) base.threads = *o.threads;
   limit_image_threads(base.threads);
   base.reproducible = true;
+  base.adaptive = false;  // but for variants that ask for it
   base.aovs = {"Variance"};
   const ComparePlan plan = plan_of(o, base);
   std::optional<Reference> reference;

@@ -29,7 +29,7 @@ std::vector<std::string> split(const std::string& text, const char* separators) 
 std::string method_option_names() {
   std::string names;
   for (const StrategyAxis& axis : strategy_axes()) names += (names.empty() ? "--" : ", --") + std::string(axis.option);
-  return names + ", --candidates, --splitting, --shadow-rays";
+  return names + ", --candidates, --splitting, --shadow-rays, --adaptive";
 }
 
 CompareVariant variant_of(const std::string& name, const std::string& options, const RenderSettings& base) {
@@ -37,12 +37,15 @@ CompareVariant variant_of(const std::string& name, const std::string& options, c
   parser.set_help_flag();
   MethodOptions methods;
   declare(parser, methods);
+  bool adaptive = false;
+  parser.add_flag("--adaptive", adaptive);
   auto arguments = split(options, " \t");
   std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
   CompareVariant variant{name, options, base};
   try {
     parser.parse(arguments);
     apply(methods, variant.settings);
+    variant.settings.adaptive = adaptive;
   } catch (const CLI::ParseError& e) {
     throw Error(Failure::usage, "variant \"" + name + "\": " + e.what() + "; a variant may set " + method_option_names() +
                                     ", and what changes the right picture is for all: give it to compare itself");
@@ -67,8 +70,15 @@ void add_axis(const StrategyAxis& axis, const RenderSettings& base, std::vector<
   }
 }
 
+constexpr std::string_view kAdaptive = "adaptive";
+
 /// False: no preset has this name.
 bool add_preset(const std::string& name, const RenderSettings& base, std::vector<CompareVariant>& variants) {
+  if (name == kAdaptive) {
+    variants.push_back(variant_of("not adaptive", "", base));
+    variants.push_back(variant_of(std::string(kAdaptive), "--adaptive", base));
+    return true;
+  }
   bool known = false;
   for (const StrategyAxis& axis : strategy_axes()) {
     if (name != "all" && name != axis.option) continue;
@@ -80,7 +90,8 @@ bool add_preset(const std::string& name, const RenderSettings& base, std::vector
 
 bool same_method(const RenderSettings& a, const RenderSettings& b) {
   const auto& axes = strategy_axes();
-  return a.candidates == b.candidates && a.shadow_rays == b.shadow_rays && a.splitting == b.splitting &&
+  return a.adaptive == b.adaptive && a.candidates == b.candidates && a.shadow_rays == b.shadow_rays &&
+         a.splitting == b.splitting &&
          std::all_of(axes.begin(), axes.end(), [&](const StrategyAxis& axis) { return axis.get(a) == axis.get(b); });
 }
 
@@ -119,7 +130,7 @@ void require_own_files(const std::string& a, const std::string& b) {
 std::string preset_names() {
   std::string names;
   for (const StrategyAxis& axis : strategy_axes()) names += std::string(axis.option) + ", ";
-  return names + "all";
+  return names + "all, " + std::string(kAdaptive);
 }
 
 std::vector<CompareVariant> parse_variants(const std::vector<std::string>& specs, const RenderSettings& base) {

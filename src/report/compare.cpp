@@ -99,6 +99,18 @@ double build_seconds_of(const World& world, LightStrategy strategy) {
   return 0;
 }
 
+/// As a picture of its own. Empty where all pixels have as many.
+Image sample_counts_of(const Image& image, const RenderReport& report) {
+  Image counts;
+  const Channel* channel = image.find("SampleCount");
+  if (!channel || report.least_samples == report.most_samples) return counts;
+  counts.data = image.data;
+  counts.display = image.display;
+  counts.add_channel("Y");
+  counts.channels.front().values = channel->values;
+  return counts;
+}
+
 VariantResult summarize(const CompareVariant& variant, const Runs& runs, double noise) {
   VariantResult v;
   v.name = variant.name;
@@ -108,6 +120,11 @@ VariantResult summarize(const CompareVariant& variant, const Runs& runs, double 
   if (v.given_up) return v;
   v.samples = mean_of(runs, [](const RaceRun& r) { return last(r).samples; });
   v.seconds = mean_of(runs, [](const RaceRun& r) { return last(r).seconds; });
+  v.least_samples = runs.front().report.least_samples;
+  for (const RaceRun& r : runs) {
+    v.least_samples = std::min(v.least_samples, r.report.least_samples);
+    v.most_samples = std::max(v.most_samples, r.report.most_samples);
+  }
   v.error = mean_error(runs);
   v.curve = curve_of(runs);
   const std::size_t trusted = trusted_points(v.curve, noise);
@@ -116,6 +133,7 @@ VariantResult summarize(const CompareVariant& variant, const Runs& runs, double 
   v.near_noise = v.error.relmse < noise;
   v.mean_rgb = mean_color(runs);
   v.image = runs.front().image;
+  v.sample_counts = sample_counts_of(v.image, runs.front().report);
   return v;
 }
 
@@ -158,7 +176,7 @@ std::vector<std::size_t> entrants(const std::vector<Runs>& runs, std::size_t eac
 /// One picture a variant is shown, without what only the filter takes.
 void add_run(RaceRun run, Runs& runs) {
   if (!runs.empty()) run.image = {};
-  static const std::set<std::string> kept{"R", "G", "B", "A", "Variance.R", "Variance.G", "Variance.B"};
+  static const std::set<std::string> kept{"R", "G", "B", "A", "Variance.R", "Variance.G", "Variance.B", "SampleCount"};
   std::erase_if(run.image.channels, [](const Channel& c) { return !kept.contains(c.name) && !c.name.starts_with("Mse."); });
   runs.push_back(std::move(run));
 }
@@ -253,7 +271,10 @@ CompareResult compare(const World& world, const ComparePlan& plan, const Referen
   if (result.seeds_done == 0) return result;
   for (std::size_t i = 0; i < shown.size(); ++i) {
     VariantResult v = summarize(shown[i], runs[i], reference.relmse);
-    if (plan.filter.apply && i % 2 == 1) v.as_rendered = shown[i - 1].name;
+    if (plan.filter.apply && i % 2 == 1) {
+      v.as_rendered = shown[i - 1].name;
+      v.sample_counts = {};  // as it tells
+    }
     v.build_seconds = build_seconds_of(world, shown[i].settings.lights);
     if (!v.given_up && !runs.front().back().given_up) add_efficiency(runs.front(), runs[i], v);
     add_warnings(v, plan, result.warnings);

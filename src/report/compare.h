@@ -47,13 +47,15 @@ struct VariantResult {
   std::string as_rendered;   ///< filtered: the variant whose pictures these were; else empty
   double build_seconds = 0;  ///< of what only this strategy needs
   double samples = 0, seconds = 0;
-  ErrorMetrics error;  ///< at the end, mean over the seeds
+  int least_samples = 0, most_samples = 0;  ///< of any pixel
+  ErrorMetrics error;                       ///< at the end, mean over the seeds
   std::vector<CurvePoint> curve;
   std::optional<ConfidenceInterval> slope;                           ///< of log relMSE against log seconds
   std::optional<ConfidenceInterval> slope_samples;                   ///< against log samples: without the machine's moods
   std::optional<ConfidenceInterval> efficiency, efficiency_trimmed;  ///< relative to the first variant
   std::array<double, 3> mean_rgb{};
-  Image image;  ///< of the first seed
+  Image image;          ///< of the first seed
+  Image sample_counts;  ///< Y: samples of its pixels, where they differ; else empty
   std::uint64_t non_finite = 0, majorant_violations = 0, caps_hit = 0, parity_errors = 0;
   bool given_up = false;
 

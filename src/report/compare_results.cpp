@@ -52,6 +52,8 @@ Json variant_json(const VariantResult& v) {
          {"options", v.options},
          {"build_seconds", v.build_seconds},
          {"samples", v.samples},
+         {"least_samples", v.least_samples},
+         {"most_samples", v.most_samples},
          {"seconds", v.seconds}};
   if (!v.as_rendered.empty()) j["as_rendered"] = v.as_rendered;
   j["mse"] = known(v.error.mse);

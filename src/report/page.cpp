@@ -71,12 +71,15 @@ std::string embedded_json(const ordered_json& value) {
   return out;
 }
 
+std::string_view name_of(PagePicture::Kind kind) { return kind == PagePicture::Kind::samples ? "samples" : "light"; }
+
 std::string embedded_pictures(const std::vector<PagePicture>& pictures) {
   std::string out;
   for (const PagePicture& p : pictures) {
     out += "<script type=\"text/plain\" class=\"picture\" data-group=\"" + escape_html(p.group) + "\" data-name=\"" +
-           escape_html(p.name) + "\" data-width=\"" + std::to_string(p.image.width()) + "\" data-height=\"" +
-           std::to_string(p.image.height()) + "\">" + encode_picture(p.image) + "</script>\n";
+           escape_html(p.name) + "\" data-kind=\"" + std::string(name_of(p.kind)) + "\" data-width=\"" +
+           std::to_string(p.image.width()) + "\" data-height=\"" + std::to_string(p.image.height()) + "\">" +
+           encode_picture(p.image) + "</script>\n";
   }
   return out;
 }

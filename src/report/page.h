@@ -11,9 +11,11 @@ namespace tyndall {
 
 /// A picture of a page: R, G and B (or Y) of `image`, linear Rec.709, kept as half floats (3 significant digits).
 struct PagePicture {
-  std::string group;  ///< the case of a regression suite; "" in a comparison
-  std::string name;   ///< a variant's name, "reference" or "render"
+  enum class Kind { light, samples };  ///< what its values are
+  std::string group;                   ///< the case of a regression suite; "" in a comparison
+  std::string name;                    ///< a variant's name, "reference" or "render"
   Image image;
+  Kind kind = Kind::light;
 };
 
 /// The page of a comparison: plots of the error, table of the variants, pictures. `results` is the object of

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -29,10 +30,19 @@ namespace {
 
 bool stopped(const RaceControl& control) { return control.stop != nullptr && control.stop->load(std::memory_order_relaxed); }
 
+/// The race's budget alone ends a run, also of one pixel.
+RenderSettings without_ends(RenderSettings settings) {
+  settings.spp = std::numeric_limits<int>::max();
+  settings.time.reset();
+  settings.error.reset();
+  settings.error_max.reset();
+  return settings;
+}
+
 class Runner {
  public:
   Runner(const World& world, const RenderSettings& settings, const RaceBudget& budget)
-      : job_(world, settings), budget_(budget) {}
+      : job_(world, without_ends(settings)), budget_(budget) {}
 
   bool done() const { return run_.given_up || samples_left() == 0; }
 

@@ -52,8 +52,8 @@ struct RaceControl {
 std::array<double, 3> mean_color(const Image& image);
 
 /// One run for each of `methods` on `world`, turn by turn in short passes, so that a machine that slows down slows all
-/// alike. Empty when stopped. Each method's clock runs while its own pass does. `spp`, `time` and `error` of the methods are
-/// not looked at.
+/// alike. Empty when stopped. Each method's clock runs while its own pass does. `spp`, `time`, `error` and `error_max` of
+/// the methods are not looked at.
 std::vector<RaceRun> race(const World& world, const std::vector<RenderSettings>& methods, const RaceBudget& budget,
                           const RaceControl& control);
 

@@ -47,6 +47,18 @@ HttpResponse page_response(const std::string& title, const std::string& token) {
           .headers = {{"Content-Security-Policy", content_policy(nonce)}}};
 }
 
+std::string_view name_of(ServedPicture::Kind kind) {
+  switch (kind) {
+    case ServedPicture::Kind::error:
+      return "error";
+    case ServedPicture::Kind::samples:
+      return "samples";
+    case ServedPicture::Kind::light:
+      break;
+  }
+  return "light";
+}
+
 bool is_aov(const ServedPicture& p) { return p.name != "rendered" && p.name != "denoised"; }
 
 std::vector<ServedPicture> with_errors(std::vector<ServedPicture> pictures, std::vector<float> errors) {
@@ -200,7 +212,7 @@ std::string LivePage::state_text() const {
   if (relmse_ && std::isfinite(*relmse_)) state["relmse"] = *relmse_;
   for (const ServedPicture* p : pictures()) {
     state["pictures"].push_back({{"name", p->name},
-                                 {"kind", p->kind == ServedPicture::Kind::error ? "error" : "light"},
+                                 {"kind", name_of(p->kind)},
                                  {"planes", p->channels.size()},
                                  {"width", p->image->width()},
                                  {"height", p->image->height()}});

@@ -42,6 +42,7 @@ std::vector<ServedPicture> pictures_of(const std::shared_ptr<const Image>& image
   std::erase_if(pictures, [](const ServedPicture& p) { return p.channels.size() != 1 && p.channels.size() != 3; });
   const bool denoised = image->find("noisy.R") != nullptr;
   for (ServedPicture& p : pictures) {
+    if (p.name == "SampleCount") p.kind = ServedPicture::Kind::samples;
     if (p.name == "noisy") p.name = "rendered";
     if (p.name.empty()) p.name = denoised ? "denoised" : "rendered";
   }

@@ -11,7 +11,8 @@ namespace tyndall {
 
 /// One channel, or three, which are shown as R, G and B.
 struct ServedPicture {
-  enum class Kind { light, error };  ///< `error`: relative squared errors, for false colours
+  /// `error`: relative squared errors; these, and numbers of samples, are for false colours.
+  enum class Kind { light, error, samples };
   std::string name;
   Kind kind = Kind::light;
   std::shared_ptr<const Image> image;

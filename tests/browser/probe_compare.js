@@ -9,7 +9,7 @@ function requiredPaths() {
   const rest = [
     'scene', 'version', 'machine.cpu', 'machine.threads', 'settings.seeds', 'settings.options', 'settings.command',
     'settings.eps', 'reference.source', 'reference.samples', 'reference.relmse', 'warnings.0', 'warnings.1',
-    'variants.3.health.non_finite'
+    'variants.3.health.non_finite', 'variants.1.least_samples', 'variants.1.most_samples'
   ];
   return [...RESULTS.variants.flatMap((_, i) => fields.map((field) => `variants.${i}.${field}`)), ...rest];
 }
@@ -101,6 +101,7 @@ async function checkViewer() {
   await checkZoom(canvas, state);
   await checkWipe(canvas, state);
   await checkError(canvas, state);
+  await checkSamples(canvas, state);
 }
 
 async function checkExposure(canvas, state) {
@@ -280,6 +281,33 @@ async function checkError(canvas, state) {
   check('a pixel that is not finite is marked', broken.join() === '0,255,0', broken);
 }
 
+/** Samples are no light: false colours with a scale of their own, at any exposure, and no error. */
+async function checkSamples(canvas, state) {
+  const [ofErrors, ofSamples] = all('.viewer .error-legend'), {view} = activeViewer;
+  check('no scale of samples beside light', ofSamples.hidden);
+  press('6');
+  for (const mode of ['error', 'picture']) {
+    activeViewer.set({mode, stops: 2});
+    await settle();
+    const [u, v] = [0.703, 0.206], pixel = view.pixelAt(u * view.width, v * view.height);
+    const samples = 32 * (1 + (Math.floor(pixel.x / 8) + Math.floor(pixel.y / 8)) % 11);
+    const expected = errorColor((Math.log2(samples) - 4) / 8), seen = shown(canvas, u, v);
+    check(
+        `samples a pixel in false colours, mode ${mode}`,
+        state.picture === 'tree samples' && seen.every((c, k) => Math.abs(c - expected[k]) <= 2),
+        `${seen} not ${expected} for ${samples}`);
+    check('the scale of samples alone', ofErrors.hidden && !ofSamples.hidden);
+    point(canvas, 'pointermove', u, v);
+    await settle();
+    const text = one('.readout').textContent;
+    check('their number under the pointer', text.includes(`tree samples  ${samples}reference`), text);
+  }
+  activeViewer.set({stops: 0});
+  press('1');
+  await settle();
+  check('and no scale beside light again', ofSamples.hidden && ofErrors.hidden);
+}
+
 run(async () => {
   checkNumbers(requiredPaths());
   checkTable();
@@ -296,5 +324,5 @@ run(async () => {
   one('.theme [data-value=auto]').click();
   check(
       'the sheet shows all pictures',
-      all('.sheet canvas').length === 6 && new Set(all('.sheet canvas').map(fingerprint)).size === 6);
+      all('.sheet canvas').length === 7 && new Set(all('.sheet canvas').map(fingerprint)).size === 7);
 });

@@ -80,7 +80,7 @@ def check_viewer(page):
         check(f"{name} is shown", page.run("document.querySelector('.viewer').dataset.picture") == name)
         check(f"the scale of errors beside {name}", hidden(page, ".error-legend") == (name != "error estimate"))
     check("every picture is another one", len({p for name, p in prints.items() if name != "Mse"}) == 4, prints)
-    error = page.run("live.viewer.pictures.find((p) => p.holdsErrors).color(20, 12)[0]")
+    error = page.run("live.viewer.pictures.find((p) => p.kind === 'error').color(20, 12)[0]")
     check("an error in the picture's noise", 0 < error < 0.1, error)
     click(page, ".tabs button[data-picture='rendered']")
     plain = shown(page)

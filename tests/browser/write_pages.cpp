@@ -104,6 +104,8 @@ ordered_json machine() { return {{"cpu", "Example CPU 9000"}, {"threads", 2}, {"
 ordered_json compare_results(const Size& size) {
   ordered_json variants = ordered_json::array();
   for (const Strategy& s : kStrategies) variants.push_back(variant(s));
+  variants[1]["least_samples"] = 32;
+  variants[1]["most_samples"] = 352;
   return {
       {"version", "0.2.0"},
       {"scene", "plume_hall.pbrt"},
@@ -197,12 +199,23 @@ void write(const std::string& path, const std::string& text) {
   }
 }
 
+/// Blocks of 8 x 8 pixels with 32 to 352 samples.
+Image sample_counts(const Size& size) {
+  Image image;
+  image.data = image.display = {0, 0, size.width, size.height};
+  std::vector<float>& counts = image.add_channel("Y").values;
+  for (int y = 0; y < size.height; ++y)
+    for (int x = 0; x < size.width; ++x) counts[image.data.index(x, y)] = static_cast<float>(32 * (1 + (x / 8 + y / 8) % 11));
+  return image;
+}
+
 std::vector<PagePicture> compare_pictures(const Size& size) {
   std::vector<PagePicture> pictures{{"", "reference", picture(size, 0, 0)}};
   unsigned seed = 1;
   for (const Strategy& s : kStrategies)
     pictures.push_back({"", s.name, picture(size, static_cast<float>(std::sqrt(s.error)), seed++)});
   pictures.back().image.channels[0].values[5] = std::numeric_limits<float>::quiet_NaN();
+  pictures.push_back({"", "tree samples", sample_counts(size), PagePicture::Kind::samples});
   return pictures;
 }
 

@@ -20,6 +20,20 @@ done
 says '"name": "ratio"' preset/results.json
 says '"name": "power"' preset/results.json
 
+# Samples where the error is, where a variant asks for it and not where the scene does; with the samples of each pixel.
+sed 's/^Integrator "volpath"/& "bool adaptive" true/' s.pbrt >asks.pbrt
+expect 0 "$T" compare asks.pbrt --variants "adaptive,own:--adaptive --lights power" --resolution 24x16 --spp 96 --reference-error 0.003 -o where
+for name in 'not adaptive' adaptive own; do says "\"name\": \"$name\"" where/results.json; done
+awk '/"name"/ { name = $0 } /"(least|most)_samples"/ { gsub(/[^0-9]/, ""); n[name] = n[name] " " $0 }
+  END { for (v in n) { split(n[v], r, " "); if ((v ~ /not adaptive/) != (r[1] == r[2])) { print v n[v]; exit 1 } } }' where/results.json ||
+  fail "samples differ where nobody asked, or do not where somebody did"
+[ "$(grep -o 'data-name="[a-z ]*" data-kind="samples"' where/index.html)" = 'data-name="adaptive samples" data-kind="samples"
+data-name="own samples" data-kind="samples"' ] || fail "the page does not show the samples of each pixel"
+"$T" info where/adaptive.exr >info.txt
+says '  SampleCount' info.txt
+"$T" info where/not_adaptive.exr >info.txt
+grep -q '  SampleCount' info.txt && fail "a picture with as many samples everywhere holds numbers of them"
+
 # Explicit variants; options for all; equal time; a reference that is given.
 expect 0 "$T" render s.pbrt --resolution 24x16 --spp 256 --seed 77 --max-depth 1 --aov Variance -o ref.exr --quiet
 expect 0 "$T" compare s.pbrt --variants "base:--lights power, sharp one:--lights tree-binary --transmittance ratio" --time 0.2 \
@@ -40,7 +54,7 @@ sed -n 's/^ *"command": \(".*"\),*$/\1/p' out.txt | sed 's/\\\\/\\/g; s/^"//; s/
 
 # Usage errors say what is known.
 expect 2 "$T" compare s.pbrt --variants lamps -o r
-says 'lights, media, distance, emission, guiding, joint, reuse, budget, transmittance, all' err.txt
+says 'lights, media, distance, emission, guiding, joint, reuse, budget, transmittance, all, adaptive' err.txt
 expect 2 "$T" compare s.pbrt --variants "a:--max-depth 2" -o r
 says 'give it to compare itself' err.txt
 expect 2 "$T" compare s.pbrt --variants "a:--lights magic" -o r

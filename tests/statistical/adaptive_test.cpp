@@ -135,7 +135,8 @@ TEST_CASE("where one sample in 500 has all the light it costs less than a hundre
   check_bias(everywhere, 0, 96, 1e-2);
 }
 
-TEST_CASE("samples for the worst part, which go by the error alone, leave the mean as near") {
+TEST_CASE(
+    "samples for the worst part, which go by the error alone, leave it as near but where one sample in 500 has all the light") {
   // Out of reach, so that every decision is for it.
   const ErrorGoal goal{.worst = 1e-9};
   const Noise mild{[](Rng& rng) { return 0.9 + 0.2 * rng.uniform_wide(); }, exponential, 1, goal};

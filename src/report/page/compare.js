@@ -69,6 +69,13 @@ function secondsCell(variant) {
   return datum(variantPath(variant, 'seconds'), formatSeconds);
 }
 
+function samplesCell(variant) {
+  const mean = datum(variantPath(variant, 'samples'));
+  if (!(variant.least_samples < variant.most_samples)) return mean;
+  return datumWithInterval(
+      variantPath(variant, 'samples'), variantPath(variant, 'least_samples'), variantPath(variant, 'most_samples'));
+}
+
 /** Counters that should be zero and are not. */
 function healthCell(variant) {
   if (gaveUp(variant)) return element('span', {class: 'bad'}, 'gave up');
@@ -109,7 +116,13 @@ const VARIANT_COLUMNS = [
     key: (v) => gaveUp(v) ? null : v.seconds,
     cell: secondsCell
   },
-  numberColumn('samples', 'samples', 'Samples a pixel in that time', formatNumber, -1),
+  {
+    label: 'samples',
+    title: 'Samples a pixel in that time; where pixels differ the mean, the least and the most',
+    first: -1,
+    key: (v) => v.samples,
+    cell: samplesCell
+  },
   {
     label: 'mean R, G, B',
     title: 'Mean colour of the picture, linear',

@@ -11,7 +11,7 @@ function planesOfHalves(buffer, pixels) {
 /** As the viewer takes them. The old picture stays until a later one is there. */
 class LivePicture {
   constructor({name, kind, planes, width, height}) {
-    Object.assign(this, {name, planes, width, height, holdsErrors: kind === 'error', halves: null, url: null, loading: null});
+    Object.assign(this, {name, kind, planes, width, height, halves: null, url: null, loading: null});
   }
 
   isOfSize({width, height}) { return this.width === width && this.height === height; }

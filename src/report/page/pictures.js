@@ -37,6 +37,8 @@ class Picture {
     this.script = script;
     this.group = script.dataset.group;
     this.name = script.dataset.name;
+    this.kind = script.dataset.kind;
+    this.planes = this.kind === 'light' ? 3 : 1;
     this.width = Number(script.dataset.width);
     this.height = Number(script.dataset.height);
     this.halves = null;

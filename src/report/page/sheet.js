@@ -52,7 +52,7 @@ class Sheet {
       if (stops !== this.stops) return;
       const {reference, eps} = this.viewer;
       await Promise.all([picture.load(), mode === 'error' ? reference.load() : null]);
-      const painted = mode === 'error' ? errorMap(picture, reference, eps) : toned(picture, table);
+      const painted = picture.kind !== 'light' ? dataMap(picture) : mode === 'error' ? errorMap(picture, reference, eps) : toned(picture, table);
       canvas.getContext('2d').drawImage(painted, 0, 0, canvas.width, canvas.height);
     });
   }

@@ -42,6 +42,8 @@ function relativeSquaredError(x, r, eps) { return (x - r) ** 2 / (r * r + eps); 
 // False colour over decades of the relative squared error, as in `tyndall diff -o`: black at 1e-4 and below, pale yellow at
 // 10 and above; lightness rises all the way.
 const ERROR_DECADES = [-4, 1];
+// Of samples a pixel, in the same colours: powers of two.
+const SAMPLE_OCTAVES = [4, 12];
 const ERROR_COLORS = [[0, 0, 0], [84, 20, 128], [199, 46, 77], [250, 148, 26], [255, 250, 191]];
 
 function errorColor(t) {
@@ -52,13 +54,12 @@ function errorColor(t) {
 
 const ERROR_TABLE = Array.from({length: 256}, (_, i) => errorColor(i / 255));
 
-/** error(i) of each pixel in false colour. */
-function falseColors(picture, error) {
-  const [low, high] = ERROR_DECADES;
+/** value(i) of each pixel in false colour, over `range` of its logarithm. */
+function falseColors(picture, value, log, [low, high]) {
   return paintedCanvas(picture, (data, pixels) => {
     for (let i = 0, o = 0; i < pixels; ++i, o += 4) {
-      const value = error(i), t = (Math.log10(Math.max(value, 1e-30)) - low) / (high - low);
-      data.set(Number.isFinite(value) ? ERROR_TABLE[Math.round(255 * Math.min(Math.max(t, 0), 1))] : NOT_FINITE, o);
+      const v = value(i), t = (log(Math.max(v, 1e-30)) - low) / (high - low);
+      data.set(Number.isFinite(v) ? ERROR_TABLE[Math.round(255 * Math.min(Math.max(t, 0), 1))] : NOT_FINITE, o);
       data[o + 3] = 255;
     }
   });
@@ -71,20 +72,35 @@ function errorMap(picture, reference, eps) {
     let sum = 0;
     for (let j = i; j < 3 * pixels; j += pixels) sum += relativeSquaredError(HALF_TO_FLOAT[a[j]], HALF_TO_FLOAT[b[j]], eps);
     return sum / 3;
-  });
+  }, Math.log10, ERROR_DECADES);
+}
+
+/** A picture that holds no light: errors, or samples. */
+function dataMap(picture) {
+  const value = (i) => HALF_TO_FLOAT[picture.halves[i]];
+  return picture.kind === 'samples' ? falseColors(picture, value, Math.log2, SAMPLE_OCTAVES) :
+                                      falseColors(picture, value, Math.log10, ERROR_DECADES);
+}
+
+/** The false colours from `low` to `high`, with a tick at each whole number between, and what they mean. */
+function colorLegend([low, high], tick, text) {
+  const stops = ERROR_COLORS.map((c) => `rgb(${c.join(' ')})`).join(', ');
+  const ticks = Array.from({length: high - low + 1}, (_, i) => element('span', {}, tick(low + i)));
+  return element(
+      'div', {class: 'error-legend'},
+      element('div', {class: 'error-bar', style: `background: linear-gradient(to right, ${stops})`}),
+      element('div', {class: 'error-ticks', 'aria-hidden': 'true'}, ticks), element('p', {}, text));
 }
 
 /** The scale of errorMap, to stand below a picture. */
 function errorLegend() {
-  const [low, high] = ERROR_DECADES;
-  const stops = ERROR_COLORS.map((c) => `rgb(${c.join(' ')})`).join(', ');
-  const ticks = Array.from({length: high - low + 1}, (_, i) => element('span', {}, `1e${low + i}`));
-  return element(
-      'div', {class: 'error-legend'},
-      element('div', {class: 'error-bar', style: `background: linear-gradient(to right, ${stops})`}),
-      element('div', {class: 'error-ticks', 'aria-hidden': 'true'}, ticks),
-      element(
-          'p', {},
-          `Relative squared error of a pixel, mean of R, G and B: black 1e${low} and below, pale yellow 1e${
-              high} and above; green: not finite.`));
+  const [low, high] = ERROR_DECADES, ends = `black 1e${low} and below, pale yellow 1e${high} and above`;
+  return colorLegend(
+      ERROR_DECADES, (t) => `1e${t}`, `Relative squared error of a pixel, mean of R, G and B: ${ends}; green: not finite.`);
+}
+
+function sampleLegend() {
+  const [low, high] = SAMPLE_OCTAVES.map((octave) => 2 ** octave);
+  return colorLegend(
+      SAMPLE_OCTAVES, (t) => String(2 ** t), `Samples of a pixel: black ${low} and below, pale yellow ${high} and above.`);
 }

@@ -73,11 +73,12 @@ class Viewer {
 
   /** The canvas of a picture as it is shown now, painted once for each exposure. */
   painted(picture, kind) {
-    const key = kind === 'error' ? 'error' : this.stops, kept = this.cache.get(picture);
+    const holdsData = picture.kind !== 'light';
+    const key = holdsData ? 'data' : kind === 'error' ? 'error' : this.stops, kept = this.cache.get(picture);
     if (kept?.key === key) return kept.canvas;
-    const canvas = kind === 'error' ? errorMap(picture, this.reference, this.eps) :
-        picture.holdsErrors         ? falseColors(picture, (i) => HALF_TO_FLOAT[picture.halves[i]]) :
-                                      toned(picture, toneTable(this.stops));
+    const canvas = holdsData ? dataMap(picture) :
+        kind === 'error'     ? errorMap(picture, this.reference, this.eps) :
+                               toned(picture, toneTable(this.stops));
     this.cache.set(picture, {key, canvas});
     return canvas;
   }

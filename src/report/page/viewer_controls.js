@@ -29,7 +29,7 @@ function pixelText(viewer, picture) {
   const color = picture.color(x, y), shown = color.slice(0, picture.planes ?? 3);
   const values = shown.map((c) => (Number.isFinite(c) ? formatNumber(c) : String(c)));
   const text = `${picture.name}  ${values.join('  ')}`;
-  if (!viewer.reference?.halves || picture === viewer.reference) return text;
+  if (picture.kind !== 'light' || !viewer.reference?.halves || picture === viewer.reference) return text;
   const target = viewer.reference.color(x, y);
   const error = color.reduce((sum, c, k) => sum + relativeSquaredError(c, target[k], viewer.eps), 0) / 3;
   return `${text}   rel. sq. error ${formatNumber(error)}`;
@@ -97,12 +97,14 @@ function keyHelp(viewer) {
 function viewerControls(viewer) {
   const choices = [['picture', 'Picture'], ['wipe', 'Wipe A|B'], ...(viewer.reference ? [['error', 'Error']] : [])];
   const modes = segmented('What is shown', choices, (mode) => viewer.set({mode}));
-  const legend = errorLegend();
+  const ofErrors = errorLegend(), ofSamples = sampleLegend();
   viewer.listeners.push(() => {
     modes.press(viewer.mode);
-    legend.hidden = viewer.mode !== 'error' && !viewer.current.holdsErrors;
+    const {kind} = viewer.current;
+    ofErrors.hidden = kind === 'samples' || (viewer.mode !== 'error' && kind !== 'error');
+    ofSamples.hidden = kind !== 'samples';
   });
   return element(
-      'div', {class: 'controls'}, modes.group, exposureControl(viewer), zoomButtons(viewer), wipeControl(viewer), legend,
-      keyHelp(viewer));
+      'div', {class: 'controls'}, modes.group, exposureControl(viewer), zoomButtons(viewer), wipeControl(viewer), ofErrors,
+      ofSamples, keyHelp(viewer));
 }

@@ -50,6 +50,14 @@ TEST_CASE("results.json is in the page, equal to what was given") {
   CHECK(between(page, "<title>", "</title>") == "Tyndall: hall.pbrt");
 }
 
+TEST_CASE("a picture says what its values are, so that samples are not shown as light") {
+  const ordered_json results = {{"scene", "hall.pbrt"}, {"variants", ordered_json::array()}};
+  const std::string page =
+      compare_page(results, {{"", "tree", grey(2, 2)}, {"", "tree samples", grey(2, 2), PagePicture::Kind::samples}});
+  CHECK(between(page, "data-name=\"tree\" data-kind=\"", "\"") == "light");
+  CHECK(between(page, "data-name=\"tree samples\" data-kind=\"", "\"") == "samples");
+}
+
 TEST_CASE("hostile names end neither a script nor an attribute nor the title") {
   const ordered_json results = {{"suite", kHostile}, {"cases", ordered_json::array()}};
   const std::string page = regress_page(results, {{kHostile, kHostile, grey(2, 2)}});

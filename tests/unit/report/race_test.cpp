@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 #include "report/compare.h"
 #include "tyndall/io.h"
 
@@ -161,6 +163,53 @@ TEST_CASE("a filter makes every variant a second one, from two samples on, and i
   CHECK(result.variants[1].image.find("Z") == nullptr);
   CHECK(result.variants[0].curve.size() == 3);
   CHECK(result.variants[1].curve.size() == 2);
+}
+
+TEST_CASE("a method may put samples where the error is: as many in the mean as the others, whatever its own ends say") {
+  const World w = world();
+  RenderSettings adaptive = method(LightStrategy::power);
+  adaptive.adaptive = true;
+  adaptive.spp = 1;
+  adaptive.error = 1e9;
+  adaptive.error_max = 1e9;
+  const auto runs = race(w, {method(LightStrategy::power), adaptive}, {.seconds = std::nullopt, .samples = 96},
+                         {.measure = [](const Image&) { return ErrorMetrics(); }});
+  REQUIRE(runs.size() == 2);
+  CHECK(runs[0].report.samples == 96);
+  CHECK(runs[1].report.samples == 96);
+  CHECK(runs[0].report.least_samples == 96);
+  CHECK(runs[1].report.least_samples < 96);
+  CHECK(runs[1].report.most_samples > 96);
+
+  RenderSettings alone = method(LightStrategy::power);
+  alone.adaptive = true;
+  alone.spp = 1 << 30;
+  RenderJob job(w, alone);
+  job.advance(96);
+  CHECK(runs[1].image.find("R")->values == job.image().find("R")->values);
+}
+
+TEST_CASE("a comparison keeps the samples of each pixel where they differ") {
+  const World w = world();
+  ComparePlan plan{
+      .variants = {{"uniform", "", method(LightStrategy::power)}, {"adaptive", "--adaptive", method(LightStrategy::power)}},
+      .budget = {.seconds = std::nullopt, .samples = 96},
+      .seeds = {5, 6}};
+  plan.variants[1].settings.adaptive = true;
+  RenderSettings best = method(LightStrategy::power, 77);
+  best.spp = 256;
+  const CompareResult result = compare(w, plan, as_reference(render(w, best).image, "best"));
+  REQUIRE(result.variants.size() == 2);
+  CHECK(result.variants[0].sample_counts.channels.empty());
+  CHECK(result.variants[0].least_samples == 96);
+  const VariantResult& v = result.variants[1];
+  REQUIRE(v.sample_counts.channels.size() == 1);
+  CHECK(v.sample_counts.width() == v.image.width());
+  const std::vector<float>& counts = v.sample_counts.channels[0].values;
+  CHECK(counts == v.image.find("SampleCount")->values);
+  CHECK(*std::min_element(counts.begin(), counts.end()) >= static_cast<float>(v.least_samples));
+  CHECK(*std::max_element(counts.begin(), counts.end()) <= static_cast<float>(v.most_samples));
+  CHECK(v.least_samples < v.most_samples);
 }
 
 }  // namespace
