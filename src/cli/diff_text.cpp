@@ -28,12 +28,23 @@ std::string row(const std::string& name, std::size_t width, const ErrorMetrics& 
   return fmt::format("  {:{}}  {:>11.4g}  {:>11.4g}  {:>11.4g}", name, width, e.mse, e.relmse, e.relmse_trimmed);
 }
 
+std::string stated_text(const ErrorMetrics& e, std::size_t width) {
+  const StatedErrors& stated = *e.stated;
+  return fmt::format(
+      "  {:{}}  {:>11}  {:>11.4g}  {:>11.4g}  stated: the true one is {:.3g} times that, trimmed {:.3g} times;\n"
+      "  {:{}}  {:>11}  {:>11}  {:>11}  {:.1f} % of the values are within two standard errors\n",
+      "", width, "", stated.relmse, stated.relmse_trimmed, e.relmse / stated.relmse, e.relmse_trimmed / stated.relmse_trimmed,
+      "", width, "", "", "", 100 * stated.within_two);
+}
+
 std::string group_table(const ImageDiff& diff, std::size_t width) {
   std::string text = fmt::format("  {:{}}  {:>11}  {:>11}  {:>11}  {:>11}  {:>11}\n", "group", width, "MSE", "relMSE",
                                  "trimmed", "MAPE", "SMAPE");
   for (const GroupDiff& g : diff.groups) {
     text += row(g.name, width, g.errors) + fmt::format("  {:>11.4g}  {:>11.4g}\n", g.errors.mape, g.errors.smape);
-    if (g.without_noise) text += row("", width, *g.without_noise) + "  without the reference's noise\n";
+    if (!g.without_noise) continue;
+    text += row("", width, *g.without_noise) + "  without the reference's noise\n";
+    if (g.without_noise->stated) text += stated_text(*g.without_noise, width);
   }
   return text +
          fmt::format(

@@ -2,6 +2,7 @@
 
 #include "denoise/collaborative.h"
 #include "denoise/energy.h"
+#include "denoise/fireflies.h"
 #include "denoise/inputs.h"
 #include "denoise/selection.h"
 #include "denoise/share_out.h"
@@ -63,6 +64,14 @@ bool without_noise(const Halves& halves) {
   return true;
 }
 
+void add(ColorPlanes& sum, const ColorPlanes& part) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (int y = 0; y < sum[c].height(); ++y) {
+      for (int x = 0; x < sum[c].width(); ++x) sum[c].at(x, y) += part[c].at(x, y);
+    }
+  }
+}
+
 LightEstimate mean_of(const Halves& halves, ThreadPool& pool) {
   LightEstimate estimate(halves.width(), halves.height());
   for (std::size_t c = 0; c < 3; ++c) {
@@ -72,18 +81,26 @@ LightEstimate mean_of(const Halves& halves, ThreadPool& pool) {
   return estimate;
 }
 
+LightEstimate filtered(const Halves& halves, const Component& component, const Knowledge& known, ThreadPool& pool) {
+  if (without_noise(halves)) return mean_of(halves, pool);
+  const PaddedPlane& clear = known.features.clear;
+  const Selection select{.weight = known.weight,
+                         .noise_radius = component.emitters ? kOutline : kNoise,
+                         .unfiltered = component.emitters && !clear.empty() ? &clear : nullptr,
+                         .states_errors = component.states_errors};
+  return select(halves, regress(halves, known.features.explaining(component.explained), pool), pool);
+}
+
 /// Emitters as the camera sees them have sharp outlines, and no noise but of these: no neighbour knows of it, and small ones
 /// would pass for fireflies. Only what media do to their light on the way is filtered.
 LightEstimate denoise_component(Halves halves, const Component& component, const Knowledge& known, ThreadPool& pool) {
   const Energy energy(halves);
-  if (!component.emitters) take_out_fireflies(halves, pool);
-  const int radius = component.emitters ? kOutline : kNoise;
-  pool_variance(halves, radius, pool);
-  if (without_noise(halves)) return mean_of(halves, pool);
-  const PaddedPlane& clear = known.features.clear;
-  const Selection select{known.weight, radius, component.emitters && !clear.empty() ? &clear : nullptr};
-  LightEstimate estimate = select(halves, regress(halves, known.features.explaining(component.explained), pool), pool);
+  const ColorPlanes removed =
+      component.emitters ? color_planes(halves.width(), halves.height()) : take_out_fireflies(halves, pool);
+  pool_variance(halves, component.emitters ? kOutline : kNoise, pool);
+  LightEstimate estimate = filtered(halves, component, known, pool);
   energy.restore(estimate.values, halves.variance, pool);
+  if (component.states_errors) add(estimate.mse, removed);
   return estimate;
 }
 
@@ -98,14 +115,6 @@ ColorPlanes quiet_light(const Image& image, ThreadPool& pool) {
   }
   std::vector<PaddedPlane> planes = prefiltered(light, pool);
   return {std::move(planes[0]), std::move(planes[1]), std::move(planes[2])};
-}
-
-void add(ColorPlanes& sum, const ColorPlanes& part) {
-  for (std::size_t c = 0; c < 3; ++c) {
-    for (int y = 0; y < sum[c].height(); ++y) {
-      for (int x = 0; x < sum[c].width(); ++x) sum[c].at(x, y) += part[c].at(x, y);
-    }
-  }
 }
 
 /// What is stated relative to the picture's brightness counts by the filtered one: around a bright outline others are too
@@ -162,8 +171,9 @@ std::string header_text(const std::vector<Component>& components, const std::vec
 
 std::vector<std::string> denoise_aovs() { return input_aovs(); }
 
-/// Planes that are there at once: features in two halves, a component, its fits by two bandwidths, and what selects among them.
-std::size_t denoise_memory(std::size_t pixels) { return pixels * sizeof(float) * (2 * 11 + 11 + 15 + 20 + 20 + 25); }
+/// Planes that are there at once: features in two halves, a component, its fits by two bandwidths, what selects among them, and
+/// what was taken out.
+std::size_t denoise_memory(std::size_t pixels) { return pixels * sizeof(float) * (2 * 11 + 11 + 15 + 20 + 20 + 25 + 3); }
 
 Denoised denoise(const Image& image, const DenoiseSettings& settings, const std::string& name) {
   const Timer timer;
@@ -189,7 +199,8 @@ Denoised denoise(const Image& image, const DenoiseSettings& settings, const std:
   add_relative(total, pool);
   const std::vector<std::string> groups = groups_of(image);
   for (const std::string& group : groups)
-    store(denoise_component(read_halves(image, group), {group, Explained::by_all}, known, pool).values, result.image, group);
+    store(denoise_component(read_halves(image, group), {group, Explained::by_all, false, false}, known, pool).values,
+          result.image, group);
   share_out(total.values, groups, result.image);
   store(light, result.image, "noisy.");
   store(total.values, result.image, "");

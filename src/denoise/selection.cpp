@@ -138,8 +138,9 @@ LightEstimate combine(const Halves& halves, const Candidate& filtered, const Sel
                                                 return sum * weight.at(x, y);
                                               }),
                                    pool);
-  const ColorPlanes variances = variance_of_mean(halves, how, pool);
-  const PaddedPlane with_bias = times_variance(filtered, noise, pool);
+  const bool states = how.states_errors;
+  const ColorPlanes variances = states ? variance_of_mean(halves, how, pool) : color_planes(halves.width(), halves.height());
+  const PaddedPlane with_bias = states ? times_variance(filtered, noise, pool) : PaddedPlane(halves.width(), halves.height());
   pool.for_each(static_cast<std::size_t>(halves.height()), 16, [&](std::size_t row) {
     const int y = static_cast<int>(row);
     for (int x = 0; x < halves.width(); ++x) {

@@ -12,6 +12,7 @@ struct Selection {
   const PaddedPlane& weight;                ///< of a pixel's squared error beside its neighbours': relative_weight
   int noise_radius;                         ///< over which variance is pooled
   const PaddedPlane* unfiltered = nullptr;  ///< 1 where the result is the mean in any case
+  bool states_errors = true;                ///< else those of the result are 0
 
   LightEstimate operator()(const Halves& halves, const FilteredHalves& filtered, ThreadPool& pool) const;
 };

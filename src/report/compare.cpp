@@ -80,6 +80,10 @@ ErrorMetrics mean_error(const Runs& runs) {
        {&ErrorMetrics::mse, &ErrorMetrics::relmse, &ErrorMetrics::relmse_trimmed, &ErrorMetrics::mape, &ErrorMetrics::smape}) {
     mean.*m = mean_of(runs, [m](const RaceRun& r) { return last(r).error.*m; });
   }
+  if (!last(runs.front()).error.stated) return mean;
+  mean.stated.emplace();
+  for (double StatedErrors::*m : {&StatedErrors::relmse, &StatedErrors::relmse_trimmed, &StatedErrors::within_two})
+    (*mean.stated).*m = mean_of(runs, [m](const RaceRun& r) { return (*last(r).error.stated).*m; });
   return mean;
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "report/compare_verdict.h"
+#include "report/diff_json.h"
 #include "report/machine.h"
 
 namespace tyndall {
@@ -61,6 +62,7 @@ Json variant_json(const VariantResult& v) {
   j["relmse_trimmed"] = known(v.error.relmse_trimmed);
   j["mape"] = known(v.error.mape);
   j["smape"] = known(v.error.smape);
+  if (v.error.stated) j["stated"] = stated_json(v.error);
   j["slope"] = part(v.slope, &ConfidenceInterval::value);
   j["slope_low"] = part(v.slope, &ConfidenceInterval::low);
   j["slope_high"] = part(v.slope, &ConfidenceInterval::high);

@@ -32,6 +32,7 @@ Json as_json(const GroupDiff& g) {
   if (g.without_noise) {
     const ErrorMetrics& e = *g.without_noise;
     j["without_reference_noise"] = {{"mse", e.mse}, {"relmse", e.relmse}, {"relmse_trimmed", e.relmse_trimmed}};
+    if (e.stated) j["stated"] = stated_json(e);
   }
   return j;
 }
@@ -89,6 +90,15 @@ void add_findings(const ImageDiff& diff, const DiffSettings& settings, Json& j) 
 }
 
 }  // namespace
+
+Json stated_json(const ErrorMetrics& e) {
+  const StatedErrors& stated = *e.stated;
+  return {{"relmse", stated.relmse},
+          {"relmse_trimmed", stated.relmse_trimmed},
+          {"true_over_stated", e.relmse / stated.relmse},
+          {"true_over_stated_trimmed", e.relmse_trimmed / stated.relmse_trimmed},
+          {"within_two", stated.within_two}};
+}
 
 Json diff_json(const ImageDiff& diff, const Judgement& judgement, const DiffSettings& settings) {
   Json j{{"same", judgement.same}, {"criterion", judgement.criterion}};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "tyndall/error.h"
 
@@ -17,17 +18,6 @@ Planes planes_of(const Image& image, const std::vector<std::string>& channels, c
   Planes planes;
   for (const std::string& name : channels) planes.push_back(&required_channel(image, prefix + name).values);
   return planes;
-}
-
-/// Mean without the largest 0.1 %, which are moved to the end of `values`.
-double trimmed_mean(std::vector<double>& values, double total) {
-  const auto dropped = static_cast<std::size_t>(kTrimmedFraction * static_cast<double>(values.size()));
-  if (dropped == 0 || !std::isfinite(total)) return total / static_cast<double>(values.size());
-  const auto kept = values.end() - static_cast<std::ptrdiff_t>(dropped);
-  std::nth_element(values.begin(), kept, values.end());
-  double sum = 0;
-  for (auto v = values.begin(); v != kept; ++v) sum += *v;
-  return sum / static_cast<double>(values.size() - dropped);
 }
 
 /// `noise`: variances of the reference, or nothing.
@@ -48,11 +38,19 @@ ErrorMetrics measure(const Planes& image, const Planes& reference, const Planes&
     }
   }
   const double count = channels * static_cast<double>(relative.size());
-  return {sum.mse / count, sum.relmse / count, trimmed_mean(relative, sum.relmse / channels), sum.mape / count,
-          sum.smape / count};
+  const bool trims = std::isfinite(sum.relmse) && kTrimmedFraction * static_cast<double>(relative.size()) >= 1;
+  const double trimmed = trims ? trimmed_mean(std::move(relative), kTrimmedFraction) : sum.relmse / count;
+  return {sum.mse / count, sum.relmse / count, trimmed, sum.mape / count, sum.smape / count};
 }
 
 }  // namespace
+
+double trimmed_mean(std::vector<double> values, double fraction) {
+  const auto dropped = static_cast<std::size_t>(fraction * static_cast<double>(values.size()));
+  const auto kept = values.end() - static_cast<std::ptrdiff_t>(dropped);
+  if (dropped > 0) std::nth_element(values.begin(), kept, values.end());
+  return std::accumulate(values.begin(), kept, 0.0) / static_cast<double>(values.size() - dropped);
+}
 
 const Channel& required_channel(const Image& image, const std::string& name) {
   if (const Channel* channel = image.find(name)) return *channel;
@@ -77,7 +75,9 @@ ErrorMetrics measure_error(const Image& image, const Image& reference, const std
 
 ErrorMetrics measure_error_without_noise(const Image& image, const Image& reference) {
   require_same_size(image, reference);
-  return measure(planes_of(image, kRgb), planes_of(reference, kRgb), planes_of(reference, kRgb, "Variance."));
+  ErrorMetrics errors = measure(planes_of(image, kRgb), planes_of(reference, kRgb), planes_of(reference, kRgb, "Variance."));
+  errors.stated = stated_errors(image, reference);
+  return errors;
 }
 
 double estimated_relmse(const Image& image) {

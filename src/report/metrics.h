@@ -1,9 +1,11 @@
 /// How far a picture is from a reference, in numbers.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "report/stated_error.h"
 #include "tyndall/image.h"
 
 namespace tyndall {
@@ -15,11 +17,12 @@ inline constexpr double kTrimmedFraction = 0.001;
 
 /// Means over pixels and channels. With image x and reference r:
 struct ErrorMetrics {
-  double mse = 0;             ///< (x - r)^2
-  double relmse = 0;          ///< (x - r)^2 / (r^2 + eps) [Rousselle et al. 2011]
-  double relmse_trimmed = 0;  ///< relmse without the worst 0.1 % of pixels, by their mean over channels
-  double mape = 0;            ///< |x - r| / (|r| + eps)
-  double smape = 0;           ///< 2 |x - r| / (|x| + |r| + eps)
+  double mse = 0;                        ///< (x - r)^2
+  double relmse = 0;                     ///< (x - r)^2 / (r^2 + eps) [Rousselle et al. 2011]
+  double relmse_trimmed = 0;             ///< relmse without the worst 0.1 % of pixels, by their mean over channels
+  double mape = 0;                       ///< |x - r| / (|r| + eps)
+  double smape = 0;                      ///< 2 |x - r| / (|x| + |r| + eps)
+  std::optional<StatedErrors> stated{};  ///< what a denoised picture states of them; without the reference's noise only
 };
 
 /// Errors of R, G and B. Values that are not finite make the errors not finite. Throws Error: usage when the sizes
@@ -37,6 +40,9 @@ ErrorMetrics measure_error_without_noise(const Image& image, const Image& refere
 /// relMSE of a render as estimated from its own noise: mean of Variance / (mean^2 + eps) over pixels and R, G, B, mean^2
 /// less the Variance that is in it.
 double estimated_relmse(const Image& image);
+
+/// Mean without the largest `fraction` of the values, rounded down to whole ones.
+double trimmed_mean(std::vector<double> values, double fraction);
 
 /// The channel `name`; throws Error (scene) when it is absent.
 const Channel& required_channel(const Image& image, const std::string& name);

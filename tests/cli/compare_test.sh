@@ -111,6 +111,9 @@ expect 0 "$T" compare s.pbrt --variants "a:--lights power" --spp 4 --denoise --q
 grep -q '^a denoised,' denoised/error.csv || fail "no denoised variant in $(cat denoised/error.csv)"
 says '"as_rendered": "a"' denoised/results.json
 grep -q '"as_rendered"' timed/results.json && fail "as_rendered without --denoise"
+# What it states of its errors, held against the reference; the picture as rendered states nothing.
+[ "$(grep -c true_over_stated_trimmed denoised/results.json)" = 1 ] || fail "no stated errors, or of both, in results.json"
+says '"within_two": 0.9' denoised/results.json
 [ -s denoised/a_denoised.exr ] || fail "no denoised picture"
 expect 2 "$T" compare s.pbrt --spp 1 --denoise -o x
 says 'give --spp 2 or more' err.txt

@@ -106,6 +106,8 @@ TEST_CASE("each component is filtered by its own noise, and they add up") {
   CHECK(value("SurfaceDirect.G") + value("SurfaceIndirect.G") == doctest::Approx(value("G")));
 }
 
+// From seed to seed stated / true scatters by 0.28 in its logarithm, around 1.1 to 1.4: bounds are three of that away. What is
+// bright has a hundred times the squared error of what is dark.
 TEST_CASE("errors are stated for the channel that has them, and for the dark beside the bright") {
   const FakeRender render{.width = 96, .height = 72};
   const OfPixel light = [](int x, int) { return x < 48 ? 20.0f : 2.0f; };
@@ -126,8 +128,8 @@ TEST_CASE("errors are stated for the channel that has them, and for the dark bes
         }
       }
       INFO(std::string(channel) << std::string(dark ? " dark" : " bright") << " stated / true " << stated / after);
-      CHECK(stated / after > 0.25);
-      CHECK(stated / after < 4);
+      CHECK(stated / after > 0.45);
+      CHECK(stated / after < 2.8);
     }
   }
 }
@@ -163,6 +165,43 @@ TEST_CASE("a firefly in one half does not spread, and black stays black") {
       const float change = std::abs(with.find("G")->values[i] - plain.find("G")->values[i]);
       REQUIRE(change < 0.2f);
       if (x < 40) REQUIRE(std::abs(with.find("G")->values[i]) < 1e-3f);
+    }
+  }
+}
+
+// 304 pixels are of 6, which either half finds with a chance of 0.3 and then as 20: where one alone does, it passes for a
+// firefly. The share that is confirmed is known to 0.04, its square, and so the error, to 27 %.
+TEST_CASE("what is taken out for a firefly is a stated error as often as the other half confirms such") {
+  const FakeRender render{.width = 190, .height = 160};
+  for (const bool there : {true, false}) {
+    Image image = render.image();
+    render.add_rgb(image, "", always(1), always(0.2f));
+    Rng rng(4);
+    std::vector<std::size_t> found_once;
+    for (std::size_t i = 0; i < 304; ++i) {
+      const std::size_t at = image.data.index(static_cast<int>(5 + 10 * (i % 19)), static_cast<int>(5 + 10 * (i / 19)));
+      const bool even = rng.uniform() < 0.3f, odd = rng.uniform() < 0.3f && (there || !even);
+      for (const char* suffix : {"R", "G", "B"}) {
+        for (Channel& channel : image.channels) {
+          if (channel.name == suffix) channel.values[at] += 10.0f * static_cast<float>(even + odd);
+          if (channel.name == "Replicate." + std::string(suffix)) channel.values[at] += even ? 20.0f : 0.0f;
+        }
+      }
+      if (even != odd) found_once.push_back(at);
+    }
+    const Image result = denoise(image).image;
+    double after = 0, stated = 0;
+    for (const std::size_t i : found_once) {
+      after += std::pow(double{result.find("G")->values[i]} - (there ? 7 : 1), 2);
+      stated += result.find("Mse.G")->values[i];
+    }
+    INFO("light " << there << ", stated / true " << stated / after);
+    const double mean = stated / static_cast<double>(found_once.size());
+    if (there) {
+      CHECK(stated / after > 0.5);
+      CHECK(stated / after < 2);
+    } else {
+      CHECK(mean < 0.1);  // of 20^2 / 4 as rendered
     }
   }
 }

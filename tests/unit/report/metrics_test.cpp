@@ -71,6 +71,34 @@ TEST_CASE("the reference's own noise is taken off") {
   CHECK_THROWS_AS(measure_error_without_noise(reference, image), Error);
 }
 
+TEST_CASE("errors that a picture states are held against the true ones") {
+  constexpr double kNoise = 0.2, kReferenceNoise = 0.1;
+  std::mt19937 engine(5);
+  std::normal_distribution<double> normal;
+  Image image = picture(200, 200, [&](int, int, int) { return 1 + kNoise * normal(engine); });
+  const Image reference = with_variance(picture(200, 200, [&](int, int, int) { return 1 + kReferenceNoise * normal(engine); }),
+                                        kReferenceNoise * kReferenceNoise);
+  CHECK(!measure_error_without_noise(image, reference).stated);
+  const auto states = [&](float mse) {
+    Image stating = image;
+    for (const char* name : {"Mse.R", "Mse.G", "Mse.B"})
+      for (float& v : stating.add_channel(name).values) v = mse;
+    return measure_error_without_noise(stating, reference);
+  };
+  // 120,000 values: shares are known to 0.001.
+  const ErrorMetrics right = states(0.04f), low = states(0.01f);
+  CHECK(close(right.relmse / right.stated->relmse, 1, 0.02));
+  CHECK(close(right.relmse_trimmed / right.stated->relmse_trimmed, 1, 0.02));
+  CHECK(close(right.stated->within_two, std::erf(2 / std::sqrt(2.0)), 0.005));
+  CHECK(close(low.relmse / low.stated->relmse, 4, 0.02));
+  CHECK(close(low.stated->within_two, std::erf(2 * std::sqrt(0.02 / 0.05) / std::sqrt(2.0)), 0.005));
+  // A value that is known without noise says nothing, one that is wrong without saying so does.
+  Image flat_image = flat(10, 1, 1, 1, 1);
+  flat_image.channels[0].values[3] = 2;
+  for (const char* name : {"Mse.R", "Mse.G", "Mse.B"}) flat_image.add_channel(name);
+  CHECK(stated_errors(flat_image, with_variance(flat(10, 1, 1, 1, 1), 0))->within_two == 0);
+}
+
 TEST_CASE("relMSE as estimated from an image's own variances") {
   CHECK(close(estimated_relmse(with_variance(flat(4, 4, 1, 1, 1), 0.02f)), 0.02 / 0.99, 1e-5));  // of the square, 0.02 is noise
   CHECK(close(estimated_relmse(with_variance(flat(4, 4, 0, 0, 0), 0.0202f)), 2.02, 1e-5));

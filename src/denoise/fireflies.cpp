@@ -1,0 +1,84 @@
+#include "denoise/fireflies.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tyndall {
+namespace {
+
+constexpr int kAround = 4;           ///< radius of what a value is held against
+constexpr float kMostTimes = 10.0f;  ///< of the mean around it
+constexpr float kPixels = (2 * kAround + 1) * (2 * kAround + 1), kValues = 2 * kPixels;
+
+/// Of both halves: how bright they are.
+class Brightness {
+ public:
+  Brightness(const Halves& halves, ThreadPool& pool) {
+    const int width = halves.width(), height = halves.height();
+    for (std::size_t h = 0; h < 2; ++h) {
+      halves_[h] = make_plane(width, height, pool, [&](int x, int y) {
+        const ColorPlanes& v = halves.values[h];
+        return std::abs(v[0].at(x, y) + v[1].at(x, y) + v[2].at(x, y)) * (1.0f / 3);
+      });
+    }
+    mean_ = box_mean(make_plane(width, height, pool, [&](int x, int y) { return halves_[0].at(x, y) + halves_[1].at(x, y); }),
+                     kAround, pool);
+  }
+
+  float of(std::size_t half, int x, int y) const { return halves_[half].at(x, y); }
+  /// Mean of all values around but this one.
+  float around(std::size_t half, int x, int y) const {
+    return std::max(mean_.at(x, y) * kPixels - of(half, x, y), 0.0f) / (kValues - 1);
+  }
+  bool stands_out(std::size_t half, int x, int y) const { return of(half, x, y) > kMostTimes * around(half, x, y); }
+  bool confirmed(std::size_t half, int x, int y) const { return of(half, x, y) <= kMostTimes * of(1 - half, x, y); }
+
+ private:
+  std::array<PaddedPlane, 2> halves_;
+  PaddedPlane mean_;  ///< of the sum of both, around each pixel
+};
+
+/// Of the light by which values of one half stand out from what is around them: the share that the other half has in the same
+/// pixels.
+float share_confirmed(const Brightness& brightness, int width, int height) {
+  double found = 0, confirmed = 0;
+  for (std::size_t h = 0; h < 2; ++h) {
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        if (!brightness.stands_out(h, x, y)) continue;
+        const double around = brightness.around(h, x, y);
+        found += brightness.of(h, x, y) - around;
+        confirmed += brightness.of(1 - h, x, y) - around;
+      }
+    }
+  }
+  return found > 0 ? static_cast<float>(std::clamp(confirmed / found, 0.0, 1.0)) : 0;
+}
+
+}  // namespace
+
+ColorPlanes take_out_fireflies(Halves& halves, ThreadPool& pool) {
+  const int width = halves.width(), height = halves.height();
+  const Brightness brightness(halves, pool);
+  const float known = share_confirmed(brightness, width, height);
+  ColorPlanes errors = color_planes(width, height);
+  for (std::size_t h = 0; h < 2; ++h) {
+    pool.for_each(static_cast<std::size_t>(height), 16, [&](std::size_t row) {
+      const int y = static_cast<int>(row);
+      for (int x = 0; x < width; ++x) {
+        if (!brightness.stands_out(h, x, y) || brightness.confirmed(h, x, y)) continue;
+        const float keep = brightness.around(h, x, y) / brightness.of(h, x, y);
+        for (std::size_t c = 0; c < 3; ++c) {
+          float& value = halves.values[h][c].at(x, y);
+          const float error = known * (1 - keep) * value;
+          errors[c].at(x, y) += error * error;
+          value *= keep;
+        }
+      }
+    });
+    for (PaddedPlane& plane : halves.values[h]) plane.extend();
+  }
+  return errors;
+}
+
+}  // namespace tyndall
