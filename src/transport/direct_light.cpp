@@ -28,7 +28,10 @@ float chance_of_tracing(const LightContext& context, const MediaState& media, co
   const ActiveMedia around = media.active(groups, context.world.media);
   if (around.empty()) return 1;
   const float end = std::min(distance, exit_distance(media.bounds(groups), ray));
-  const float depth = nearby_optical_depth({around.data(), around.size()}, ray, end, kDeepest);
+  const MediaView there{around.data(), around.size()};
+  const float clearest = clearest_channel(there);
+  if (!(clearest > 0)) return 1;
+  const float depth = clearest * nearby_optical_depth(there, ray, end, kDeepest / clearest);
   const float T = std::pow(1 + depth / 8, -8.0f);  // with a longer tail than e^-depth, as the depth is a guess
   return std::clamp(T / kFaint, kLeastChance, 1.0f);
 }

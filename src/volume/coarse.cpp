@@ -109,6 +109,18 @@ float nearby_optical_depth(MediaView media, const Ray& ray, float t1, float most
   return static_cast<float>(sum);
 }
 
+float clearest_channel(MediaView media) {
+  float part = 1;
+  for (const ParticipatingMedium* medium : media) {
+    const MediumData& m = medium->data();
+    if (m.kind == MediumData::Kind::grid && m.density.grid.channels() != 1) return 0;
+    const Rgb sigma_t = m.optics.sigma_a + m.optics.sigma_s;
+    if (!is_black(sigma_t))
+      part = std::min({part, sigma_t.r / mean(sigma_t), sigma_t.g / mean(sigma_t), sigma_t.b / mean(sigma_t)});
+  }
+  return part;
+}
+
 std::optional<std::pair<float, float>> coarse_extent(MediaView media, const Ray& ray, float t0, float t1) {
   if (!(t0 < t1)) return std::nullopt;
   double lo = kInfinity, hi = -kInfinity;

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -20,7 +21,8 @@ Camera "perspective"
 TEST_CASE("shadow rays: through homogeneous fog exp(-sigma_t d) passes, all the way to the light") {
   const World world = test::world_of(kFog + test::sphere_scene(4, 4), {});
   const World::Parts& parts = world.parts();
-  const RenderSettings settings;
+  RenderSettings settings;
+  settings.max_depth = 1;  // else dark rays are traced by chance
   Sampler sampler({0, 0, 0, 0});
   Counters counters;
   const LightContext context{parts.built, parts.built.lights.selector(settings.lights), settings, sampler, counters};
@@ -38,6 +40,30 @@ TEST_CASE("shadow rays: through homogeneous fog exp(-sigma_t d) passes, all the 
   }
   const Rgb blocked = arriving_from({0, 0, 1}, 8 / parts.unit);
   CHECK(is_black(blocked));
+}
+
+// At 8 units the clearest channel has an optical depth of 3.2. The bounds are four standard errors wide.
+TEST_CASE("shadow rays that hardly anything comes through are right on average, and few") {
+  const World world = test::world_of(kFog + test::sphere_scene(4, 4), {});
+  const World::Parts& parts = world.parts();
+  RenderSettings settings;
+  settings.max_depth = 5;
+  constexpr int kRays = 20000;
+  for (const float d : {0.5f, 8.0f, 16.0f}) {
+    Counters counters;
+    double sum = 0, squares = 0;
+    for (int i = 0; i < kRays; ++i) {
+      Sampler sampler({0, 0, 0, i});
+      const LightContext context{parts.built, parts.built.lights.selector(settings.lights), settings, sampler, counters};
+      const Rgb T = arriving(context, parts.built.camera_media, parts.to_user.inverse().point({0, 0, 0}),
+                             {.wi = {-1, 0, 0}, .distance = d / parts.unit, .L = {}, .pdf = 1, .delta = true}, sampler);
+      sum += T.r, squares += double{T.r} * T.r;
+    }
+    const double mean = sum / kRays, error = std::sqrt(std::max(squares / kRays - mean * mean, 0.0) / kRays);
+    CHECK(std::abs(mean - std::exp(-0.4 * d)) <= 4 * error + 1e-5 * mean);
+    if (d < 1) CHECK(counters.shadow_rays == kRays);
+    if (d > 10) CHECK(counters.shadow_rays < kRays / 4);
+  }
 }
 
 }  // namespace
