@@ -1,6 +1,7 @@
 /// Sums of samples a pixel, and the image made of them.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -125,7 +126,11 @@ class FilmBuffer {
   void store_count(Image& image, const std::string& name, std::size_t offset) const;
   void store_counts(Image& image, const Means& means) const;
   /// Of a pixel that has 2 samples or more.
-  double estimated_relmse(std::size_t pixel, int samples) const;
+  struct PixelNoise {
+    std::array<double, 3> mean, variance;  ///< the mean, and its own
+    std::array<double, 3> square;          ///< of what it is the mean of: unbiased, may be below 0
+  };
+  PixelNoise noise_of(std::size_t pixel, int samples) const;
   Rgb to_film_space(Rgb c) const;
 
   Film film_;

@@ -17,6 +17,21 @@ float variance_factor(int samples) {
   return odd > 0 ? static_cast<float>(even) * odd / (static_cast<float>(samples) * samples) : 1.0f;
 }
 
+/// Of what `value` says of the up to eight pixels of the block around its number `at`; of that itself where it is alone.
+template <typename Value>
+double mean_around(int at, const PixelBounds& block, const Value& value) {
+  const int x = at % block.width(), y = at / block.width();
+  double sum = 0;
+  int count = 0;
+  for (int v = std::max(y - 1, 0); v <= std::min(y + 1, block.height() - 1); ++v) {
+    for (int u = std::max(x - 1, 0); u <= std::min(x + 1, block.width() - 1); ++u) {
+      const int i = v * block.width() + u;
+      if (i != at) sum += value(static_cast<std::size_t>(i)), ++count;
+    }
+  }
+  return count > 0 ? sum / count : value(static_cast<std::size_t>(at));
+}
+
 }  // namespace
 
 Rgb FilmBuffer::difference(std::size_t pixel, std::size_t offset, int samples) const {
@@ -53,26 +68,40 @@ double FilmBuffer::estimated_relmse(const SampleCounts& samples) const {
 }
 
 BlockNoise FilmBuffer::noise(const PixelBounds& block, int samples) const {
-  BlockNoise noise{.pixels = static_cast<double>(block.size()), .samples = samples};
+  std::vector<PixelNoise> pixels;
   for (int y = block.y0; y < block.y1; ++y) {
-    for (int x = block.x0; x < block.x1; ++x) noise.error += samples * estimated_relmse(crop_.index(x, y), samples);
+    for (int x = block.x0; x < block.x1; ++x) pixels.push_back(noise_of(crop_.index(x, y), samples));
+  }
+  BlockNoise noise{.pixels = static_cast<double>(pixels.size()), .samples = samples};
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto around = [&](std::array<double, 3> PixelNoise::*value) {
+        return mean_around(static_cast<int>(i), block, [&](std::size_t j) { return (pixels[j].*value)[k]; });
+      };
+      const double v = pixels[i].variance[k], off = pixels[i].mean[k] - around(&PixelNoise::mean);
+      const double doubt = v > 0 ? std::min(1.0, v / (off * off)) : 0.0;
+      const double square = pixels[i].square[k] + doubt * (around(&PixelNoise::square) - pixels[i].square[k]);
+      noise.error += samples * v / (std::max(square, 0.0) + kRelativeEpsilon) / 3;
+    }
   }
   return noise;
 }
 
-double FilmBuffer::estimated_relmse(std::size_t pixel, int samples) const {
+/// E[mean^2] is larger than its square by the variance; left in, that would hide the error of dark pixels.
+FilmBuffer::PixelNoise FilmBuffer::noise_of(std::size_t pixel, int samples) const {
   const Rgb d = difference(pixel, kEven, samples);
   Rgb sums;
   for (std::size_t k = 0; k < 3; ++k)
     sums[static_cast<int>(k)] = static_cast<float>((sum(pixel, kEven + k) + sum(pixel, kOdd + k)) / samples);
   const Rgb mean = to_film_space(sums);
-  double total = 0;
+  PixelNoise noise;
   for (int k = 0; k < 3; ++k) {
-    // E[mean^2] is larger than its square by the variance; left in, that would hide the error of dark pixels.
-    const double variance = double{d[k]} * d[k] * variance_factor(samples), square = double{mean[k]} * mean[k] - variance;
-    total += variance / (std::max(square, 0.0) + kRelativeEpsilon);
+    const auto channel = static_cast<std::size_t>(k);
+    noise.mean[channel] = double{mean[k]};
+    noise.variance[channel] = double{d[k]} * d[k] * variance_factor(samples);
+    noise.square[channel] = double{mean[k]} * mean[k] - noise.variance[channel];
   }
-  return total / 3;
+  return noise;
 }
 
 }  // namespace tyndall
