@@ -45,9 +45,10 @@ void read_light_sampler(ParamList& params, RenderSettings& settings) {
   if (sampler == "exhaustive") settings.lights = LightStrategy::exhaustive;
 }
 
-std::optional<double> maybe_relmse(ParamList& params, const std::string& name) {
+/// `name` outlives the list, which keeps it.
+std::optional<double> maybe_relmse(ParamList& params, std::string_view name) {
   const auto error = params.maybe_number(name);
-  if (error && !(*error > 0)) throw params.error(name, name + " must be above 0; it is a relMSE, as 0.001");
+  if (error && !(*error > 0)) throw params.error(name, std::string(name) + " must be above 0; it is a relMSE, as 0.001");
   return error;
 }
 

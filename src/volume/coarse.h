@@ -50,8 +50,8 @@ float coarse_optical_depth(MediaView media, const Ray& ray, float t0, float t1, 
 /// The same from the ray's origin, where it is looked at closely, up to t1 and no further than a value of `most`.
 float nearby_optical_depth(MediaView media, const Ray& ray, float t1, float most);
 
-/// The extinction of the clearest channel, over the mean of all, at least: 1 in grey media, 0 where grids have channels of their
-/// own.
+/// The extinction of the clearest channel, over the mean of all, at least: 1 in grey media, 0 where grids have channels of
+/// their own.
 float clearest_channel(MediaView media);
 
 /// The part of [t0, t1] where the media can be anything but empty, rounded outward: the hull over the media.
