@@ -70,13 +70,38 @@ void add_axis(const StrategyAxis& axis, const RenderSettings& base, std::vector<
   }
 }
 
-constexpr std::string_view kAdaptive = "adaptive";
+/// Methods that are no axis.
+struct Preset {
+  std::string_view name;
+  struct Method {
+    std::string_view name, options;
+  };
+  std::vector<Method> methods;
+};
+
+/// Techniques: next-event estimation at vertices, each other one beside it, and all of them with numbers that stand and that
+/// are measured.
+const std::vector<Preset>& presets() {
+  static const std::vector<Preset> all{
+      {"adaptive", {{"not adaptive", ""}, {"adaptive", "--adaptive"}}},
+      {"techniques",
+       {{"at vertices", "--budget fixed --media vertex --emission paths --joint off --guiding off --reuse off"},
+        {"along segments", "--budget fixed --media product --emission paths --joint off --guiding off --reuse off"},
+        {"joint alone", "--budget fixed --media vertex --emission paths --joint points --guiding off --reuse off"},
+        {"guiding alone", "--budget fixed --media vertex --emission paths --joint off --guiding media --reuse off"},
+        {"sharing alone", "--budget fixed --media vertex --emission paths --joint off --guiding off --reuse pixels"},
+        {"emission alone", "--budget fixed --media vertex --emission lights --joint off --guiding off --reuse off"},
+        {"all fixed", "--budget fixed"},
+        {"all measured", "--budget measured"}}}};
+  return all;
+}
 
 /// False: no preset has this name.
 bool add_preset(const std::string& name, const RenderSettings& base, std::vector<CompareVariant>& variants) {
-  if (name == kAdaptive) {
-    variants.push_back(variant_of("not adaptive", "", base));
-    variants.push_back(variant_of(std::string(kAdaptive), "--adaptive", base));
+  for (const Preset& preset : presets()) {
+    if (preset.name != name) continue;
+    for (const auto& [title, options] : preset.methods)
+      variants.push_back(variant_of(std::string(title), std::string(options), base));
     return true;
   }
   bool known = false;
@@ -130,7 +155,9 @@ void require_own_files(const std::string& a, const std::string& b) {
 std::string preset_names() {
   std::string names;
   for (const StrategyAxis& axis : strategy_axes()) names += std::string(axis.option) + ", ";
-  return names + "all, " + std::string(kAdaptive);
+  names += "all";
+  for (const Preset& preset : presets()) names += ", " + std::string(preset.name);
+  return names;
 }
 
 std::vector<CompareVariant> parse_variants(const std::vector<std::string>& specs, const RenderSettings& base) {

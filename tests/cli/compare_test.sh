@@ -14,7 +14,7 @@ for name in uniform power exhaustive tree tree-binary cycles-rule lightcuts cell
 says 'variant,seconds,samples,mse' report/error.csv
 [ "$(grep -c '^power,' report/error.csv)" = 5 ] || fail "error.csv has no point at 1, 2, 4, 8, 16 samples"
 says 'tree-binary' out.txt
-for preset in media distance transmittance all; do
+for preset in media distance transmittance techniques all; do
   expect 0 "$T" compare s.pbrt --variants $preset --resolution 8x8 --spp 4 --reference-time 0.2 -o preset --quiet
 done
 says '"name": "ratio"' preset/results.json
