@@ -62,12 +62,19 @@ Grid holes() {
   return grid;
 }
 
+/// With its hundreds of shadow rays a path, lightcuts is left to the night.
+std::vector<LightStrategy> compared_lights() {
+  auto lights = every_lights();
+  if (!nightly()) std::erase(lights, LightStrategy::lightcuts);
+  return lights;
+}
+
 struct Factors {
   std::vector<MediaStrategy> media = every_media();
   std::vector<DistanceStrategy> distance = every_distance();
   std::vector<float> splitting{0, 0.6f};
   std::vector<std::pair<std::optional<int>, int>> candidates{{std::nullopt, 1}, {1, 1}, {5, 2}, {0, 0}};  ///< and shadow rays
-  std::vector<LightStrategy> lights = every_lights();
+  std::vector<LightStrategy> lights = compared_lights();
   std::vector<TransmittanceStrategy> transmittance = every_transmittance();
   std::vector<GuidingStrategy> guiding = every_guiding();
   std::vector<JointStrategy> joint = every_joint();
