@@ -32,7 +32,7 @@ struct BoxView {
   }
 };
 
-/// The largest product of the cosines of emission and arrival that any light in the box may have; 0: none can contribute.
+/// The largest product of the cosines of emission and incidence that any light in the box may have; 0: none can contribute.
 double largest_factor(const ClusterBounds& cluster, bool two_sided, const BoxView& view, const PointQuery& query) {
   const Vec3d n(query.n);
   const bool surface = dot(n, n) > 0;
@@ -69,9 +69,9 @@ double importance(const ClusterBounds& cluster, bool two_sided, const PointQuery
   const BoxView view(cluster.box, query.p);
   const double factor = largest_factor(cluster, two_sided, view, query);
   // A light without extent at the very point gives nothing that could be used.
-  const double clamped = std::max(view.distance, 0.5 * view.radius);
-  if (!(clamped > 0)) return 0;
-  const double result = factor * cluster.intensity / (clamped * clamped);
+  const double distance = std::max(view.distance, 0.5 * view.radius);
+  if (!(distance > 0)) return 0;
+  const double result = factor * cluster.intensity / (distance * distance);
   return result > 0 ? result : 0;
 }
 
@@ -85,9 +85,8 @@ double greatest_importance(const ClusterBounds& cluster, bool two_sided, const P
 }
 
 double least_importance(const ClusterBounds& cluster, bool two_sided, const PointQuery& query) {
-  const Vec3d low(cluster.box.min), high(cluster.box.max), p(query.p), n(query.n);
-  const Vec3d to_center = (low - p) * 0.5 + (high - p) * 0.5;
-  const double radius = length((high - low) * 0.5), distance = length(to_center);
+  const auto [half, to_center, radius, distance] = BoxView(cluster.box, query.p);
+  const Vec3d n(query.n);
   if (!(dot(n, n) > 0) || distance <= radius) return 0;
 
   // theta + theta_o + theta_u is as far off a normal as the light may have to leave; so with the receiver's normal.

@@ -48,14 +48,14 @@ bool worst_comes_first(std::span<const BlockNoise> blocks, const std::vector<Wis
   return mean_error(blocks) < budget.goal.mean || total(wishes, 0) > budget.mean * pixels;
 }
 
-std::vector<double> errors_of(std::span<const BlockNoise> blocks, int across) {
-  std::vector<double> error;
-  for (std::size_t i = 0; i < blocks.size(); ++i) error.push_back(pooled_error(blocks, across, static_cast<int>(i)));
-  return error;
+std::vector<double> pooled_errors(std::span<const BlockNoise> blocks, int across) {
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < blocks.size(); ++i) errors.push_back(pooled_error(blocks, across, static_cast<int>(i)));
+  return errors;
 }
 
 std::vector<Wish> wishes_of(std::span<const BlockNoise> blocks, int across, const SampleBudget& budget) {
-  const std::vector<double> error = errors_of(blocks, across);
+  const std::vector<double> error = pooled_errors(blocks, across);
   const double largest = *std::max_element(error.begin(), error.end());
   double work = 0;
   for (const BlockNoise& b : blocks) work = std::max(work, b.work / b.pixels);
@@ -86,9 +86,7 @@ double mean_error(std::span<const BlockNoise> blocks) {
 
 std::vector<double> errors_around(std::vector<BlockNoise> blocks, int across) {
   for (BlockNoise& b : blocks) b.error /= b.samples;
-  std::vector<double> errors;
-  for (std::size_t i = 0; i < blocks.size(); ++i) errors.push_back(pooled_error(blocks, across, static_cast<int>(i)));
-  return errors;
+  return pooled_errors(blocks, across);
 }
 
 double worst_error(std::vector<BlockNoise> blocks, int across) {

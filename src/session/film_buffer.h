@@ -125,11 +125,12 @@ class FilmBuffer {
   std::string keyed_name(std::size_t layer) const;
   void store_count(Image& image, const std::string& name, std::size_t offset) const;
   void store_counts(Image& image, const Means& means) const;
-  /// Of a pixel that has 2 samples or more.
+  /// By channel.
   struct PixelNoise {
-    std::array<double, 3> mean, variance;  ///< the mean, and its own
-    std::array<double, 3> square;          ///< of what it is the mean of: unbiased, may be below 0
+    std::array<double, 3> mean, variance;  ///< of all samples, and that mean's variance
+    std::array<double, 3> square;          ///< of the true mean: unbiased, may be below 0
   };
+  /// Of a pixel that has 2 samples or more.
   PixelNoise noise_of(std::size_t pixel, int samples) const;
   Rgb to_film_space(Rgb c) const;
 

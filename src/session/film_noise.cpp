@@ -67,6 +67,8 @@ double FilmBuffer::estimated_relmse(const SampleCounts& samples) const {
   return mean_error(blocks);
 }
 
+/// The noise that makes a pixel bright must not hide in that brightness: as far as it explains how the pixel differs from those
+/// around it, its square is theirs.
 BlockNoise FilmBuffer::noise(const PixelBounds& block, int samples) const {
   std::vector<PixelNoise> pixels;
   for (int y = block.y0; y < block.y1; ++y) {

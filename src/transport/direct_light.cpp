@@ -19,7 +19,7 @@ constexpr float kShadowEnd = 1 - 1e-4f;
 constexpr float kFaint = 0.1f;
 /// Media are known coarsely: what gets through more than expected must still be found, with a bounded weight.
 constexpr float kLeastChance = 1 / 16.0f;
-constexpr float kDeepest = 8;  ///< where that is reached
+constexpr float kDeepest = 8;  ///< beyond the optical depth at which that is reached, 7.1
 
 /// By the media that hold the ray's origin, as far as they reach. Not for single scattering, whose noise nothing else hides.
 float chance_of_tracing(const LightContext& context, const MediaState& media, const Ray& ray, float distance) {

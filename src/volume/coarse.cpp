@@ -115,8 +115,7 @@ float clearest_channel(MediaView media) {
     const MediumData& m = medium->data();
     if (m.kind == MediumData::Kind::grid && m.density.grid.channels() != 1) return 0;
     const Rgb sigma_t = m.optics.sigma_a + m.optics.sigma_s;
-    if (!is_black(sigma_t))
-      part = std::min({part, sigma_t.r / mean(sigma_t), sigma_t.g / mean(sigma_t), sigma_t.b / mean(sigma_t)});
+    if (!is_black(sigma_t)) part = std::min(part, std::min({sigma_t.r, sigma_t.g, sigma_t.b}) / mean(sigma_t));
   }
   return part;
 }

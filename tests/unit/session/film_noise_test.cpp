@@ -1,9 +1,7 @@
 /// The error that a block's halves tell is the one it has, on average.
 #include <doctest/doctest.h>
 
-#include <cmath>
 #include <cstdio>
-#include <functional>
 
 #include "math/rng.h"
 #include "session/film_buffer.h"
@@ -16,8 +14,8 @@ constexpr int kSide = 8, kSamples = 32;
 
 /// What a block of pixels says of itself over what is true, the mean of so many.
 /// `sample(x, y, rng)` has mean and variance `mean(x, y)`, `variance(x, y)`.
-template <typename Sample, typename Moment>
-double told_over_true(const Sample& sample, const Moment& mean, const Moment& variance, int blocks) {
+template <typename Sample, typename Mean, typename Variance>
+double told_over_true(const Sample& sample, const Mean& mean, const Variance& variance, int blocks) {
   Film film;
   film.width = film.height = kSide;
   const PixelBounds crop{0, 0, kSide, kSide};
@@ -50,8 +48,7 @@ TEST_CASE("rare bright samples do not hide their own error") {
   const auto sample = [](int, int, Rng& rng) { return rng.uniform() < float(kChance) ? float(kBright) : float(kDim); };
   const auto mean = [](int, int) { return kDim + kChance * (kBright - kDim); };
   const auto variance = [](int, int) { return kChance * (1 - kChance) * (kBright - kDim) * (kBright - kDim); };
-  const std::function<double(int, int)> m = mean, v = variance;
-  const double ratio = told_over_true(sample, m, v, 100);
+  const double ratio = told_over_true(sample, mean, variance, 100);
   std::printf("  rare bright samples: %.3f of the error told\n", ratio);
   CHECK(ratio > 0.85);
   CHECK(ratio < 1.15);
@@ -60,8 +57,8 @@ TEST_CASE("rare bright samples do not hide their own error") {
 // Pixels 300 times as bright as those around them, with as much relative noise: their light is no noise.
 TEST_CASE("bright pixels among dark ones keep their own brightness") {
   const auto bright = [](int x, int y) { return x % 4 == 1 && y % 4 == 1; };
-  const std::function<double(int, int)> mean = [&](int x, int y) { return bright(x, y) ? 300.0 : 1.0; };
-  const std::function<double(int, int)> variance = [&](int x, int y) { return mean(x, y) * mean(x, y) / 3; };
+  const auto mean = [&](int x, int y) { return bright(x, y) ? 300.0 : 1.0; };
+  const auto variance = [&](int x, int y) { return mean(x, y) * mean(x, y) / 3; };
   const auto sample = [&](int x, int y, Rng& rng) { return static_cast<float>(mean(x, y)) * 2 * rng.uniform(); };
   const double ratio = told_over_true(sample, mean, variance, 100);
   std::printf("  bright pixels among dark ones: %.3f of the error told\n", ratio);
