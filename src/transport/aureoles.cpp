@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "transport/built_world.h"
+#include "transport/light_context.h"
 #include "volume/coarse.h"
 
 namespace tyndall {
@@ -13,6 +13,9 @@ namespace {
 constexpr float kLeastSun = 0.1f;
 /// Of a direction e^-4 is left after this many turns of the mean cosine each: behind more, all light is even.
 constexpr float kTurns = 4;
+/// Of a path, from being guided, beyond which it is guided less and less: it was sent where its light is not, and such weights
+/// multiply.
+constexpr float kMostWeight = 10;
 
 /// Mean albedo of single scattering.
 float albedo_of(const ActiveMedia& media) {
@@ -39,13 +42,15 @@ Aureoles::Aureoles(const Lights& lights) : rest_(lights.far().rest) {
     near_ = NearFluence(lights.near_box(), static_cast<float>(lights.near_power()));
 }
 
-std::optional<Aureole> Aureoles::at(const BuiltWorld& world, const Vertex& vertex) const {
+std::optional<Aureole> Aureoles::at(const LightContext& context, const Vertex& vertex) const {
+  const BuiltWorld& world = context.world;
   const auto& groups = world.geometry.groups();
   const ActiveMedia media = vertex.media().active(groups, world.media);
   const Bounds3 box = vertex.media().bounds(groups);
   const Vec3 p = vertex.p();
   const float g = vertex.medium()->phase.mean_cosine(), deepest = kTurns / std::max(1 - g, 0.05f);
-  Aureole aureole({g, albedo_of(media)}, rest_ + near_.at(p));
+  const int orders = context.settings.max_depth - context.bounce - 1;
+  Aureole aureole({g, albedo_of(media), orders}, rest_ + near_.at(p), std::max(context.guided_weight / kMostWeight, 1.0f));
   for (const FarCone& sun : suns_) {
     const Ray ray{p, sun.directions.axis};
     if (!world.geometry.trace_shadow(ray, 0, kInfinity)) continue;

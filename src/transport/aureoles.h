@@ -10,7 +10,7 @@
 
 namespace tyndall {
 
-struct BuiltWorld;
+struct LightContext;
 
 /// What of a scene's lights does so.
 class Aureoles {
@@ -19,8 +19,8 @@ class Aureoles {
   explicit Aureoles(const Lights& lights);
 
   bool empty() const { return suns_.empty(); }
-  /// At a collision; nothing where there is nothing to guide by. Deterministic.
-  std::optional<Aureole> at(const BuiltWorld& world, const Vertex& vertex) const;
+  /// At a collision, for the path's next direction; nothing where there is nothing to guide by. Deterministic.
+  std::optional<Aureole> at(const LightContext& context, const Vertex& vertex) const;
 
  private:
   std::vector<FarCone> suns_;

@@ -28,7 +28,7 @@ bool follows_suns(const LightContext& context, const Vertex& vertex) {
 }  // namespace
 
 Directions::Directions(const LightContext& context, const Vertex& vertex) : vertex_(vertex) {
-  if (follows_suns(context, vertex)) aureole_ = context.world.aureoles.at(context.world, vertex);
+  if (follows_suns(context, vertex)) aureole_ = context.world.aureoles.at(context, vertex);
   if (!guides(context, vertex)) return;
   toward_media_.emplace(context.world.bright_media, vertex.light_query(), seeks_volume_lights(context));
   if (toward_media_->share() == 0) toward_media_.reset();

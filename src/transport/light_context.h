@@ -22,7 +22,8 @@ struct LightContext {
   const RenderSettings& settings;
   Sampler& sampler;
   Counters& counters;
-  int bounce = 0;  ///< bounces of the path before this vertex
+  int bounce = 0;           ///< bounces of the path before this vertex
+  float guided_weight = 1;  ///< of the path there, from being guided
   /// Among all lights, where media that emit are sought at all.
   const LightSelector* selector_with_volumes = nullptr;
   /// The ray to it, where lights were also sampled jointly (joint_ray.h).

@@ -154,6 +154,7 @@ Rng Path::stream_for_emission() {
 /// Next-event estimation, then the direction of the next ray. False ends the path.
 bool Path::scatter(const Vertex& vertex) {
   context_.bounce = depth_ - 1;
+  context_.guided_weight = 1 / guided_pdf_ratio_;
   if (vertex.on_surface()) context_.joint = nullptr;  // it was about what the ray gathers in media
   begin(Step::light);
   const Rgb seen = seen_.value_or(beta_);

@@ -10,14 +10,14 @@ namespace tyndall {
 namespace {
 
 /// Lobe i holds the orders of scattering from kFirst[i] to before kFirst[i + 1].
-constexpr std::array<int, 9> kFirst{1, 2, 3, 5, 8, 13, 21, 34, 55};
+constexpr std::array<int, 9> kFirst{1, 2, 3, 5, 8, 13, 21, 34, Aureole::kMostOrders + 1};
 /// Orders whose lobe would be wider count as even.
 constexpr float kWidest = 0.1f;
 /// Phase functions that turn light more than this leave nothing of its direction to go by.
 constexpr float kLeastForward = 0.25f;
-/// What has been turned often comes from everywhere, and most of it more than once: too much costs little, too
-/// little leaves the weights of paths without bound (docs/measurements.md).
-constexpr float kDiffuse = 2;
+/// What has been turned often comes from everywhere: twice and more where a sun shines on much of a medium, hardly where it
+/// passes through (docs/measurements.md). Paths for which this is too little weigh more and more, and are then doubted.
+constexpr float kDiffuse = 1;
 /// Surfaces send light back too. What is not expected may still come: even light is what bounds the weights of paths that
 /// find it.
 constexpr float kReturned = 0.25f;
@@ -30,11 +30,11 @@ float below_of(Vec3 a, Vec3 b) { return 0.5f * length_squared(a - b); }
 }  // namespace
 
 void Aureole::add(const Source& source) {
-  const auto [g, albedo] = medium_;
+  const auto [g, albedo, orders] = medium_;
   const float tau = std::min(source.optical_depth, kDeepest);
   // Scattered at least once, and not absorbed.
   float left = std::exp(tau * (albedo - 1)) * -std::expm1(-tau * albedo);
-  even_ += source.fluence * (kReturned + kDiffuse * std::pow(albedo, 1 / (1 - std::min(g, 0.99f))));
+  even_ += doubt_ * source.fluence * (kReturned + kDiffuse * std::pow(albedo, 1 / (1 - std::min(g, 0.99f))));
   if (g >= kLeastForward) {
     Lobes& lobes = sources_[count_++];
     lobes.axis = source.direction;
@@ -47,14 +47,14 @@ void Aureole::add(const Source& source) {
         chance *= tau * albedo / static_cast<float>(order);
         cosine *= g;
         if (cosine < kWidest) break;
-        mass += chance, moment += chance * cosine;
+        left -= chance;
+        if (order <= orders) mass += chance, moment += chance * cosine;
       }
       lobes.fluence[i] = source.fluence * mass;
       lobes.bundled[i] = mass > 0 ? moment / mass : 0.0f;
-      left -= mass;
     }
   }
-  even_ += source.fluence * std::max(left, 0.0f);
+  even_ += doubt_ * source.fluence * std::max(left, 0.0f);
 }
 
 bool Aureole::shows() const {

@@ -21,13 +21,17 @@ class Aureole {
  public:
   static constexpr std::size_t kMostSources = 4;
 
+  static constexpr int kMostOrders = 54;  ///< of scattering that have lobes
+
   /// Between the sources and the place.
   struct Medium {
-    float g;       ///< mean cosine
-    float albedo;  ///< single scattering
+    float g;                   ///< mean cosine
+    float albedo;              ///< single scattering
+    int orders = kMostOrders;  ///< of scattering, at most, that whoever asks can find
   };
-  /// `fluence`, radiance integrated over directions, is what else arrives.
-  Aureole(const Medium& medium, float fluence) : medium_(medium), even_(fluence) {}
+  /// `fluence`, radiance integrated over directions, is what else arrives. `doubt`, at least 1, multiplies all that comes
+  /// evenly: the more of it, the less is guided.
+  Aureole(const Medium& medium, float fluence, float doubt = 1) : medium_(medium), doubt_(doubt), even_(doubt * fluence) {}
 
   struct Source {
     Vec3 direction;       ///< toward it
@@ -58,7 +62,7 @@ class Aureole {
   static Float8 products(const Lobes& lobes, const Phase& phase, float below);
 
   Medium medium_;
-  float even_;
+  float doubt_, even_;
   std::size_t count_ = 0;
   std::array<Lobes, kMostSources> sources_;  ///< the first count_
 };

@@ -32,9 +32,10 @@ class Collision {
     phase.add(Rgb(4), phase_);
     vertex_.emplace(Vertex::InMedium{p, phase}, wo, state);
   }
-  Directions directions(const RenderSettings& settings = {}, int bounce = 1) {
+  Directions directions(const RenderSettings& settings = {}, int bounce = 1, float guided_weight = 1) {
     const BuiltWorld& built = world_.parts().built;
-    return {LightContext{built, built.lights.selector(settings.lights), settings, sampler_, counters_, bounce}, *vertex_};
+    return {LightContext{built, built.lights.selector(settings.lights), settings, sampler_, counters_, bounce, guided_weight},
+            *vertex_};
   }
   const Vertex& vertex() const { return *vertex_; }
 
@@ -67,6 +68,23 @@ TEST_CASE("directions toward a sun follow their density, which weighs them again
       [&](Vec3 w) { return directions.pdf(w, Rgb(1.0f)); }, {.axis = {0, 1, 0}, .theta_power = 2});
   CHECK_MESSAGE(result.passed, result.summary());
   CHECK(wrong == 0);
+}
+
+TEST_CASE("a path that guiding has sent astray is guided no more, so that its weight stays near what it is") {
+  Collision collision(kSun, kWo);
+  const auto most = [&](float weight) {
+    const Directions directions = collision.directions({}, 1, weight);
+    float largest = 0;
+    for (int i = 0; i < 2000; ++i) {
+      Sampler sampler({1, 0, 0, i});
+      if (const auto s = directions.sample(Rgb(1.0f), sampler)) largest = std::max(largest, s->weight.r);
+    }
+    return largest;
+  };
+  CHECK(most(1) > 1.5f);
+  CHECK(most(10) == most(1));
+  CHECK(most(1e4f) < 1.02f);
+  CHECK(most(kInfinity) == doctest::Approx(1).epsilon(1e-5));
 }
 
 TEST_CASE("collisions follow no sun that is hidden, nor where it is not asked for or only lights are sought") {

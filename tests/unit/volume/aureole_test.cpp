@@ -43,8 +43,8 @@ TEST_CASE("an aureole holds the light of its sun that was scattered, and even li
   for (const float depth : {0.01f, 0.3f, 3.0f, 20.0f, 60.0f}) {
     const double all = integral([aureole = cloud(0.85f, depth)](Vec3 w) { return aureole.radiance(w); }, kSun);
     const double g = 0.85, scattered = std::exp(-0.01 * depth) - std::exp(-depth);
-    // docs/methods.md: what came from elsewhere, 1/4 and 2 albedo^(1 / (1 - g)) of the sun, and what was scattered.
-    CHECK(all == doctest::Approx(0.5 + 10 * (0.25 + 2 * std::pow(0.99, 1 / (1 - g)) + scattered)).epsilon(2e-3));
+    // docs/methods.md: what came from elsewhere, 1/4 and albedo^(1 / (1 - g)) of the sun, and what was scattered.
+    CHECK(all == doctest::Approx(0.5 + 10 * (0.25 + std::pow(0.99, 1 / (1 - g)) + scattered)).epsilon(2e-3));
   }
 }
 
@@ -56,6 +56,32 @@ TEST_CASE("what is scattered once is the phase function around the sun") {
   };
   for (const Vec3 w : {kSun, kOther, Vec3{1, 0, 0}})
     CHECK(shaped(w) == doctest::Approx(10 * 1e-3 * 0.99 * phase.pdf(-kSun, w)).epsilon(2e-2));
+}
+
+TEST_CASE("a path that can be scattered once more seeks what was scattered once") {
+  Aureole all({0.85f, 0.99f}, 0), once({0.85f, 0.99f, 1}, 0);
+  all.add({kSun, 10, 1, 3}), once.add({kSun, 10, 1, 3});
+  const HenyeyGreenstein phase{0.85f};
+  const double chance = 3 * 0.99 * std::exp(-3.0);
+  const double even = once.radiance(-kSun) - 10 * chance * phase.pdf(kSun, kSun);
+  for (const Vec3 w : {kSun, kOther, normalize(kSun + Vec3{0.3f, 0, 0})}) {
+    CHECK(once.radiance(w) == doctest::Approx(even + 10 * chance * phase.pdf(-kSun, w)).epsilon(1e-4));
+    CHECK(all.radiance(w) > once.radiance(w));
+  }
+}
+
+TEST_CASE("the more doubt, the more a direction is the phase function's") {
+  const Mixed mixed;
+  const Vec3 wo = normalize(Vec3{1, -1, 1});
+  float last = kInfinity;
+  for (const float doubt : {1.0f, 10.0f, 100.0f, 1000.0f}) {
+    Aureole aureole({0.85f, 0.99f}, 0.5f, doubt);
+    aureole.add({kSun, 10, 0.9999f, 2});
+    const float off = std::abs(aureole.pdf_ratio(mixed.phase, wo, kSun, Rgb(1)) - 1);
+    CHECK(off < last);
+    last = off;
+  }
+  CHECK(last < 0.1f);
 }
 
 TEST_CASE("the more often light was scattered, the less of its direction is left") {
