@@ -44,6 +44,11 @@ inline Float8 load8_upper(const std::uint16_t* values) {
   return bits8<Float8>(std::experimental::static_simd_cast<Wide>(upper) << 16);
 }
 
+/// 0, 1 ... 7.
+inline Float8 count_to_8() {
+  return Float8([](int k) { return static_cast<float>(k); });
+}
+
 inline void store8(float* to, Float8 v) { v.copy_to(to, std::experimental::element_aligned); }
 
 inline Float8 choose(Mask8 mask, Float8 a, Float8 b) {

@@ -6,6 +6,11 @@
 
 namespace tyndall {
 
+/// Of several look-ups.
+struct ValueSum {
+  float sum = 0, min = kInfinity, max = -kInfinity;
+};
+
 /// Where the ray lies on the axes of the brick that is read, and that brick's voxels: what many look-ups there share.
 class BrickReader {
  public:
@@ -21,6 +26,19 @@ class BrickReader {
 
   /// First channel at t of the ray, clamped to the brick, so that no rounding leaves the range of its majorant.
   float value(double t) const { return bricks_->read(plane_, BrickPoint(line_, t)); }
+  /// Of so many points of the ray that are `step` apart, likewise.
+  ValueSum sum(double t, double step, int count) const {
+    constexpr int kAtOnce = BrickPoints::kCount;
+    ValueSum sum;
+    for (int i = 0; i < count; i += kAtOnce) {
+      const Float8 values = bricks_->read(plane_, BrickPoints(line_, t + i * step, step));
+      const Mask8 counted = count_to_8() < static_cast<float>(count - i);
+      sum.sum += reduce(choose(counted, values, 0.0f));
+      sum.min = std::min(sum.min, hmin(choose(counted, values, sum.min)));
+      sum.max = std::max(sum.max, hmax(choose(counted, values, sum.max)));
+    }
+    return sum;
+  }
   /// All channels.
   void values(double t, float* out) const {
     const BrickPoint point(line_, t);

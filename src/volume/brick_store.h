@@ -61,6 +61,12 @@ class BrickStore {
     const float stored = floats_only_ ? point.interpolate(floats_.data() + at) : point.interpolate(steps_.data() + at);
     return plane.decode.low + plane.decode.step * stored;
   }
+  /// Of eight points.
+  Float8 read(const Plane& plane, const BrickPoints& points) const {
+    const std::size_t at = std::size_t{plane.number} * kVoxels;
+    const Float8 stored = floats_only_ ? points.interpolate(floats_.data() + at) : points.interpolate(steps_.data() + at);
+    return plane.decode.low + plane.decode.step * stored;
+  }
 
   /// Trilinear value of the first channel at an offset in [0,8]^3 from the brick's lower corner; clamped to it.
   float lookup(std::uint32_t brick, float x, float y, float z) const { return read(plane(brick, 0), {x, y, z}); }

@@ -9,31 +9,9 @@
 #include "volume/brick_reader.h"
 #include "volume/medium_data.h"
 #include "volume/phase/phase_mix.h"
+#include "volume/walk_mode.h"
 
 namespace tyndall {
-
-/// What the pieces must bound. `majorant`: rate >= sigma_t. `march`: rate >= |sigma_t - control|. `residual`: that times
-/// kOversampling, and bricks are walked by octants: both lower the variance of residual tracking more than they cost, where a
-/// march gains more by more look-ups in fewer pieces.
-enum class WalkMode { majorant, residual, march };
-inline constexpr float kOversampling = 1.7f;
-
-/// A node of the grid's tree is split further only while rate * length exceeds this: below it, walking the children
-/// costs more than the look-ups it would save. Finer pieces lower the variance where a control is subtracted; a march gets
-/// that for less by more look-ups.
-template <WalkMode Mode>
-inline constexpr float kRefineDepth = Mode == WalkMode::majorant ? 1.0f
-                                      : Mode == WalkMode::march  ? 0.5f
-                                                                 : 0.125f;
-
-/// A brick is walked by octants where its rate * length exceeds this; residual only.
-inline constexpr float kSplitDepth = 0.1f;
-
-/// Sigma and emission at a point, in 1/world unit and radiance/world unit.
-struct LocalOptics {
-  Rgb sigma_a, sigma_s;
-  Rgb emission;  ///< sigma_a * Le; filled only on request
-};
 
 /// Tiles [t0, t1] of a ray with pieces, in order: next() moves to the first or next one, then t(), t_end(), rate()
 /// and control() describe it and optics_at() reads inside it. Never allocates. Look-ups inside a brick are clamped
@@ -106,6 +84,14 @@ class MediumWalk {
   Rgb excess_at(double t) {
     const LocalOptics optics = optics_at(t, false);
     return optics.sigma_a + optics.sigma_s - control_;
+  }
+  /// The same at several points of the piece.
+  ExcessSum excess_at(const Teeth& teeth) {
+    if (!reads_one_brick() || medium_->density.grid.channels() != 1) return sum_of_each(*this, teeth);
+    const ValueSum values = reader_.sum(teeth.t, teeth.apart, teeth.count);
+    const Rgb sigma_t = medium_->optics.sigma_a + medium_->optics.sigma_s;
+    const Rgb low = sigma_t * values.min - control_, high = sigma_t * values.max - control_;
+    return {sigma_t * values.sum - control_ * static_cast<float>(teeth.count), std::max(largest(low), largest(high))};
   }
   /// The lobe of the last optics_at().
   void add_phase(PhaseMix& phase) const { phase.add(last_sigma_s_, medium_->optics.phase); }
@@ -232,6 +218,12 @@ class MediumWalk {
   Vec3 medium_point(double t) const {
     const GridVec p = local_.at(t);
     return {static_cast<float>(p[0]), static_cast<float>(p[1]), static_cast<float>(p[2])};
+  }
+
+  /// Then the reader is there.
+  bool reads_one_brick() {
+    if (reading_) return true;
+    return medium_->kind == MediumData::Kind::grid && medium_->density.grid.node(node_).is_leaf() && start_reading(t_);
   }
 
   void read_grid(double t, LocalOptics& result) {

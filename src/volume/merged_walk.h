@@ -72,6 +72,16 @@ class MergedWalk {
       if (walks_[i].rate() > 0) sum += walks_[i].excess_at(t);
     return sum;
   }
+  ExcessSum excess_at(const Teeth& teeth) {
+    ExcessSum sum;
+    for (std::size_t i = 0; i < count_; ++i) {
+      if (!(walks_[i].rate() > 0)) continue;
+      const ExcessSum one = walks_[i].excess_at(teeth);
+      sum.sum += one.sum;
+      sum.largest += one.largest;
+    }
+    return sum;
+  }
   void add_phase(PhaseMix& phase) const {
     for (std::size_t i = 0; i < count_; ++i)
       if (walks_[i].rate() > 0) walks_[i].add_phase(phase);

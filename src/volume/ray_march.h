@@ -6,6 +6,7 @@
 
 #include "math/small_vector.h"
 #include "volume/tracking_kernel.h"
+#include "volume/walk_mode.h"
 
 namespace tyndall::kernel {
 
@@ -79,13 +80,17 @@ class RayMarch {
   template <typename Walk>
   bool read_teeth(Comb& comb, Walk& walk, double end, Rng& rng, TrackingStats& stats) {
     const float rate = walk.rate();
-    for (; comb.tooth < end; comb.tooth += 1) {
-      const double from_start = (comb.tooth - marched_) * spacing_ / rate;
-      const Rgb excess = walk.excess_at(walk.t() + from_start);
-      count_lookup(max_abs(excess), rate, stats);
-      comb.x += excess * (spacing_ / rate);
-      if (guard_.spent(stats)) return false;
-      if (guard_.roulette_is_due() && !survives_roulette(control_ + depth_of(walk.control(), from_start), rng)) return false;
+    const double apart = spacing_ / rate;
+    while (comb.tooth < end) {
+      const double from_start = (comb.tooth - marched_) * apart;
+      const Teeth teeth{walk.t() + from_start, apart, guard_.fitting(std::ceil(end - comb.tooth))};
+      const ExcessSum read = walk.excess_at(teeth);
+      count_lookups(teeth.count, read.largest, rate, stats);
+      comb.x += read.sum * (spacing_ / rate);
+      comb.tooth += teeth.count;
+      if (guard_.spent(stats, teeth.count)) return false;
+      const double passed = from_start + (teeth.count - 1) * apart;
+      if (guard_.roulette_is_due() && !survives_roulette(control_ + depth_of(walk.control(), passed), rng)) return false;
     }
     return true;
   }

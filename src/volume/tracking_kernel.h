@@ -28,22 +28,29 @@ inline Rgb depth_of(Rgb sigma, double length) {
   return {depth(sigma.r), depth(sigma.g), depth(sigma.b)};
 }
 
-/// Exponential variate of rate 1.
-inline float exponential(Rng& rng) { return -std::log(1 - rng.uniform()); }
+/// Exponential variate of rate 1, by a number of 24 bits: its difference from 1 is exact.
+inline float exponential(float u) { return -std::log(1 - u); }
+inline float exponential(Rng& rng) { return exponential(rng.uniform()); }
 
 /// Slack of the rounding of sums over media.
-inline void count_lookup(float value, float bound, TrackingStats& stats) {
-  ++stats.lookups;
+inline void count_lookups(int count, float value, float bound, TrackingStats& stats) {
+  stats.lookups += static_cast<std::uint64_t>(count);
   if (value > bound * (1 + 1e-6f)) ++stats.majorant_violations;
 }
+inline void count_lookup(float value, float bound, TrackingStats& stats) { count_lookups(1, value, bound, stats); }
 
 /// Counts the look-ups of one walk.
 class LoopGuard {
  public:
-  bool spent(TrackingStats& stats) {
-    if (++count_ < kMaxLookups) return false;
+  bool spent(TrackingStats& stats, int more = 1) {
+    count_ += static_cast<std::uint64_t>(more);
+    if (count_ < kMaxLookups) return false;
     ++stats.caps_hit;
     return true;
+  }
+  /// Of `wanted` look-ups those until roulette is due.
+  int fitting(double wanted) const {
+    return static_cast<int>(std::min(wanted, static_cast<double>(kRouletteEvery - count_ % kRouletteEvery)));
   }
   bool roulette_is_due() const { return count_ % kRouletteEvery == 0; }
 

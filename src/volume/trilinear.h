@@ -5,6 +5,9 @@
 #include <cstdint>
 #include <cstring>
 
+#include "math/simd_math.h"
+#include "volume/affine.h"
+
 #if defined(__AVX2__) && defined(__FMA__)
 #include <immintrin.h>
 #define TYNDALL_TRILINEAR_AVX2
@@ -17,6 +20,7 @@ inline constexpr int kBrickCells = 8, kBrickVoxels = 9;  ///< along an edge
 /// o + t d, three numbers each and one to fill.
 struct Line {
   double o[4] = {}, d[4] = {};
+  GridVec at(double t) const { return {{o[0] + t * d[0], o[1] + t * d[1], o[2] + t * d[2]}}; }
 };
 
 /// Where whole grids of less than 2^31 cells an axis, none negative, can be read.
@@ -145,5 +149,54 @@ class BrickPoint {
 };
 
 #endif
+
+/// Eight points of a brick that are evenly spaced along a line, each clamped to [0, 8]^3.
+class BrickPoints {
+ public:
+  static constexpr int kCount = 8;
+
+  /// At t, t + step ...
+  BrickPoints(const Line& line, double t, double step) {
+    const auto axis = [&](int i, Float8& fraction) {
+      const auto first = static_cast<float>(line.o[i] + t * line.d[i]), apart = static_cast<float>(step * line.d[i]);
+      const Float8 p = clamp(first + apart * count_to_8(), Float8(0.0f), Float8(kBrickCells));
+      const Int8 cell = clamp(std::experimental::static_simd_cast<Int8>(p), Int8(0), Int8(kBrickCells - 1));  // of NaN as well
+      fraction = p - std::experimental::static_simd_cast<Float8>(cell);
+      return cell;
+    };
+    corner_ = axis(0, x_) + kBrickVoxels * (axis(1, y_) + kBrickVoxels * axis(2, z_));
+  }
+
+  /// Interpolated voxels.
+  template <typename Stored>
+  Float8 interpolate(const Stored* voxels) const {
+    constexpr int kY = kBrickVoxels, kZ = kBrickVoxels * kBrickVoxels;
+    const auto between = [](Float8 a, Float8 b, Float8 share) { return a + share * (b - a); };
+    const auto edge = [&](int at) {
+      Float8 lower, upper;
+      fetch_pairs(voxels + at, lower, upper);
+      return between(lower, upper, x_);
+    };
+    return between(between(edge(0), edge(kY), y_), between(edge(kZ), edge(kZ + kY), y_), z_);
+  }
+
+ private:
+  /// The voxels at each point's corner, and the next ones along x.
+  template <typename Stored>
+  void fetch_pairs(const Stored* voxels, Float8& lower, Float8& upper) const {
+    lower = Float8([&](int k) { return static_cast<float>(voxels[corner_[static_cast<std::size_t>(k)]]); });
+    upper = Float8([&](int k) { return static_cast<float>(voxels[corner_[static_cast<std::size_t>(k)] + 1]); });
+  }
+#ifdef TYNDALL_TRILINEAR_AVX2
+  void fetch_pairs(const std::uint16_t* voxels, Float8& lower, Float8& upper) const {
+    const __m256i pairs = _mm256_i32gather_epi32(reinterpret_cast<const int*>(voxels), static_cast<__m256i>(corner_), 2);
+    lower = Float8(_mm256_cvtepi32_ps(_mm256_and_si256(pairs, _mm256_set1_epi32(0xffff))));
+    upper = Float8(_mm256_cvtepi32_ps(_mm256_srli_epi32(pairs, 16)));
+  }
+#endif
+
+  Int8 corner_;
+  Float8 x_, y_, z_;  // places inside their cells
+};
 
 }  // namespace tyndall

@@ -67,6 +67,7 @@ struct Stripes {
     const double u = static_cast<double>(hash(std::bit_cast<std::uint64_t>(t), 1) >> 11) * 0x1p-53;
     return Rgb((u < share ? 4.0f : 0.0f) - subtracted);
   }
+  ExcessSum excess_at(const Teeth& teeth) const { return sum_of_each(*this, teeth); }
 };
 
 using Of = kernel::RayMarch::Of;

@@ -97,6 +97,33 @@ TEST_CASE("a look-up of one channel, of all and along a line are the same") {
   }
 }
 
+TEST_CASE("points of a brick read together are those read one by one, in it or clamped to it") {
+  const OracleSource source = test::random_voxels(14, {0, -8, 16});
+  Rng rng(15);
+  for (const bool floats : {false, true}) {
+    const BrickGrid grid = build_brick_grid(source, {.rules = {}, .float_bricks = floats});
+    const BrickStore& bricks = grid.bricks();
+    for (int i = 0; i < 2000; ++i) {
+      const auto brick = static_cast<std::uint32_t>(rng.uniform() * static_cast<float>(bricks.size()));
+      Line line;
+      for (int axis = 0; axis < 3; ++axis) {
+        line.o[axis] = -2 + 12 * rng.uniform_wide();
+        line.d[axis] = rng.uniform() < 0.2f ? 0 : 4 * rng.uniform_wide() - 2;
+      }
+      const double t = rng.uniform_wide(), step = rng.uniform_wide();
+      const Float8 together = bricks.read(bricks.plane(brick, 0), BrickPoints(line, t, step));
+      for (int k = 0; k < BrickPoints::kCount; ++k) {
+        const float alone = bricks.read(bricks.plane(brick, 0), BrickPoint(line, t + k * step));
+        CHECK(std::abs(together[static_cast<std::size_t>(k)] - alone) < 1e-4f);
+      }
+    }
+    // What is not a number is some place of the brick.
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const float lost = bricks.read(bricks.plane(1, 0), BrickPoints({{nan, 1e30, 1, 0}, {1, -1, nan, 0}}, 0, 1))[7];
+    CHECK_FALSE(lost > grid.range().max);
+  }
+}
+
 TEST_CASE("float bricks hold voxels exactly") {
   const OracleSource source = test::random_voxels(3, {-16, 8, 64});
   const BrickGrid grid = build_brick_grid(source, {.rules = {}, .float_bricks = true});

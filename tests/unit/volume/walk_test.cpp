@@ -161,6 +161,49 @@ TEST_CASE("pieces tile rays through rotated, stretched, mirrored and far-off gri
   }
 }
 
+namespace {
+
+/// Reads pieces of a walk together and one by one: the largest difference of the sums, in units of the rate.
+template <typename Walk>
+double apart_together(Walk& walk, int& read, int& unbounded) {
+  double worst = 0;
+  while (walk.next()) {
+    if (!(walk.rate() > 0) || std::isinf(walk.t_end())) continue;
+    for (const int count : {1, 3, 8, 16}) {
+      const Teeth teeth{walk.t(), (walk.t_end() - walk.t()) / count, count};
+      const ExcessSum together = walk.excess_at(teeth), each = sum_of_each(walk, teeth);
+      worst = std::max(worst, double{largest(together.sum - each.sum)} / walk.rate());
+      unbounded += together.largest < each.largest * (1 - 1e-5f) || together.largest > walk.rate() * (1 + 1e-6f) ? 1 : 0;
+      ++read;
+    }
+  }
+  return worst;
+}
+
+}  // namespace
+
+TEST_CASE("teeth that are read together add up to what they are one by one, and none of them is above the rate") {
+  const MediumOptics colours{Rgb{0.1f, 0.2f, 0.3f}, Rgb{0.1f}, {}};
+  const auto grid = medium_of(test::random_voxels(8, {0, 0, 0}), {}, colours);
+  const auto channels = medium_of(test::random_voxels(10, {0, 0, 0}, 3), {}, colours);
+  const auto fog = test::homogeneous({Rgb{0.01f}, Rgb{0.02f}, 0});
+  Rng rng(5);
+  int read = 0, unbounded = 0;
+  double worst = 0;
+  for (int i = 0; i < 300; ++i) {
+    const Vec3 a{rng.uniform() * 40, rng.uniform() * 40, rng.uniform() * 40};
+    const Ray ray{a, normalize({rng.uniform() - 0.5f, rng.uniform() - 0.5f, rng.uniform() - 0.5f})};
+    for (const auto& media :
+         std::vector<std::vector<const ParticipatingMedium*>>{{&grid}, {&channels}, {&grid, &fog, &channels}}) {
+      with_walk<WalkMode::march>(media, ray, 0, 40,
+                                 [&](auto& walk) { worst = std::max(worst, apart_together(walk, read, unbounded)); });
+    }
+  }
+  CHECK(worst < 1e-4);
+  CHECK(unbounded == 0);
+  CHECK(read > 5'000);
+}
+
 TEST_CASE("merged pieces tile the ray, rates and coefficients add") {
   const auto first =
       medium_of(test::random_voxels(8, {0, 0, 0}), {}, {Rgb{0.1f, 0.2f, 0.3f}, Rgb{0.1f}, HenyeyGreenstein{0.5f}});

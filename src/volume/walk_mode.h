@@ -1,0 +1,60 @@
+/// What walks through media are for, and what they tell of the places that they read.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "tyndall/math.h"
+
+namespace tyndall {
+
+/// What the pieces must bound. `majorant`: rate >= sigma_t. `march`: rate >= |sigma_t - control|. `residual`: that times
+/// kOversampling, and bricks are walked by octants: both lower the variance of residual tracking more than they cost, where a
+/// march gains more by more look-ups in fewer pieces.
+enum class WalkMode { majorant, residual, march };
+inline constexpr float kOversampling = 1.7f;
+
+/// A node of the grid's tree is split further only while rate * length exceeds this: below it, walking the children
+/// costs more than the look-ups it would save. Finer pieces lower the variance where a control is subtracted; a march gets
+/// that for less by more look-ups.
+template <WalkMode Mode>
+inline constexpr float kRefineDepth = Mode == WalkMode::majorant ? 1.0f
+                                      : Mode == WalkMode::march  ? 0.5f
+                                                                 : 0.125f;
+
+/// A brick is walked by octants where its rate * length exceeds this; residual only.
+inline constexpr float kSplitDepth = 0.1f;
+
+/// Sigma and emission at a point, in 1/world unit and radiance/world unit.
+struct LocalOptics {
+  Rgb sigma_a, sigma_s;
+  Rgb emission;  ///< sigma_a * Le; filled only on request
+};
+
+/// Places at even distances on a ray, in one piece of its walk.
+struct Teeth {
+  double t, apart;
+  int count;  ///< > 0
+};
+
+/// sigma_t minus control of several teeth.
+struct ExcessSum {
+  Rgb sum;
+  float largest = 0;  ///< of one tooth and channel, either sign
+};
+
+inline float largest(Rgb c) { return max_component(Rgb{std::abs(c.r), std::abs(c.g), std::abs(c.b)}); }
+
+/// Read one by one.
+template <typename Walk>
+ExcessSum sum_of_each(Walk& walk, const Teeth& teeth) {
+  ExcessSum result;
+  for (int i = 0; i < teeth.count; ++i) {
+    const Rgb excess = walk.excess_at(teeth.t + i * teeth.apart);
+    result.sum += excess;
+    result.largest = std::max(result.largest, largest(excess));
+  }
+  return result;
+}
+
+}  // namespace tyndall
