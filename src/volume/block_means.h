@@ -24,12 +24,12 @@ class BlockMeans {
   void add(const float* voxels);
 
   /// Number of the block that holds a cell of a brick, each coordinate in [0, 8).
-  static std::size_t block_of(unsigned x, unsigned y, unsigned z) {
+  template <typename Whole>
+  static Whole block_of(Whole x, Whole y, Whole z) {
     return (z / kCells * kSide + y / kCells) * kSide + x / kCells;
   }
-  /// Of a brick that has a slot of its own; between the extremes of its voxels.
-  float mean(std::uint32_t slot, int channel, std::size_t block) const {
-    const std::size_t plane = std::size_t{slot} * channels_ + static_cast<std::size_t>(channel);
+  /// By the number of a BrickStore::Plane, of a brick that has a slot of its own; between the extremes of its voxels.
+  float mean(std::size_t plane, std::size_t block) const {
     const Scale& scale = scales_[plane];
     return scale.low + scale.step * static_cast<float>(steps_[plane * kBlocks + block]);
   }

@@ -1,6 +1,7 @@
 #include "volume/brick_grid.h"
 
 #include <algorithm>
+#include <array>
 
 namespace tyndall {
 
@@ -33,8 +34,38 @@ void BrickGrid::lookup(const GridVec& p, float* out) const {
 
 float BrickGrid::lookup_by_tree(const Line& line, double t) const {
   float out[kMaxChannels] = {};
-  lookup(GridVec{{line.o[0] + t * line.d[0], line.o[1] + t * line.d[1], line.o[2] + t * line.d[2]}}, out);
+  lookup(line.at(t), out);
   return out[0];
+}
+
+float BrickGrid::block_mean_by_tree(const Line& line, double t) const {
+  float out[kMaxChannels] = {};
+  const GridVec p = line.at(t);
+  if (support_.contains(p)) block_mean(p, out);
+  return out[0];
+}
+
+Float8 BrickGrid::block_means(const Line& line, double t, Float8 beyond) const {
+  std::array<float, 8> means{};
+  if (directory_.empty()) {
+    for (std::size_t k = 0; k < 8; ++k) means[k] = block_mean_by_tree(line, t + double{beyond[k]});
+    return load8(means.data());
+  }
+  Mask8 inside(true);
+  const auto cell_along = [&](std::size_t i) {
+    const Float8 p = static_cast<float>(line.o[i] + t * line.d[i]) + static_cast<float>(line.d[i]) * beyond;
+    inside = inside && p >= static_cast<float>(bounds_.lo[i]) && p <= static_cast<float>(bounds_.hi[i]);
+    return clamp(std::experimental::static_simd_cast<Int8>(p), Int8(0), Int8(bounds_.last[i]));
+  };
+  const Int8 x = cell_along(0), y = cell_along(1), z = cell_along(2);
+  const auto rows = static_cast<int>(directory_.size(1)), columns = static_cast<int>(directory_.size(0));
+  const Int8 entry = ((z >> kBrickLog2) * rows + (y >> kBrickLog2)) * columns + (x >> kBrickLog2);
+  const Int8 block = BlockMeans::block_of(x & 7, y & 7, z & 7);
+  for (std::size_t k = 0; k < 8; ++k) {
+    const auto& plane = directory_.entries()[entry[k]].plane;
+    means[k] = plane.number == 0 ? plane.decode.low : block_means_.mean(plane.number, static_cast<std::size_t>(block[k]));
+  }
+  return choose(inside, load8(means.data()), 0.0f);
 }
 
 void BrickGrid::block_mean(const GridVec& p, float* out) const {
@@ -44,7 +75,8 @@ void BrickGrid::block_mean(const GridVec& p, float* out) const {
   const auto inside = [&](std::size_t i) { return static_cast<unsigned>(cell[i]) & 7u; };
   const std::size_t block = BlockMeans::block_of(inside(0), inside(1), inside(2));
   const std::uint32_t brick = brick_at(cell), slot = bricks_.slot(brick);
-  for (int c = 0; c < channels(); ++c) out[c] = slot == 0 ? bricks_.constant(brick, c) : block_means_.mean(slot, c, block);
+  for (int c = 0; c < channels(); ++c)
+    out[c] = slot == 0 ? bricks_.constant(brick, c) : block_means_.mean(bricks_.plane(brick, c).number, block);
 }
 
 ValueRange BrickGrid::range(int channel) const {

@@ -86,11 +86,25 @@ class BrickGrid {
   void lookup(const GridVec& p, float* out) const;
   /// Means of all channels over the block of cells that holds local point `p` in support(), rounded as BlockMeans says.
   void block_mean(const GridVec& p, float* out) const;
+  /// Of the first channel at t of a line in local coordinates; 0 outside.
+  float block_mean(const Line& line, double t) const {
+    if (directory_.empty()) return block_mean_by_tree(line, t);
+    std::uint32_t cell[3];
+    bool inside;
+    const BrickPoint point(line, t, bounds_, cell, inside);
+    if (!inside) return 0;
+    const auto& plane = directory_.at(cell[0] >> kBrickLog2, cell[1] >> kBrickLog2, cell[2] >> kBrickLog2).plane;
+    if (plane.number == 0) return plane.decode.low;
+    return block_means_.mean(plane.number, BlockMeans::block_of(cell[0] & 7u, cell[1] & 7u, cell[2] & 7u));
+  }
+  /// Of eight places that are `beyond` farther, in single precision.
+  Float8 block_means(const Line& line, double t, Float8 beyond) const;
 
  private:
   friend class BrickGridBuilder;
   Index3 cell_of(const GridVec& p) const;
   float lookup_by_tree(const Line& line, double t) const;
+  float block_mean_by_tree(const Line& line, double t) const;
 
   int root_level_ = 0;
   Index3 origin_{};

@@ -1,6 +1,7 @@
 #include "volume/coarse.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -10,66 +11,91 @@
 namespace tyndall {
 namespace {
 
-CoarseOptics means_of(const MediumOptics& optics, float density) {
-  const float s = mean(optics.sigma_s);
-  return {(mean(optics.sigma_a) + s) * density, s * density};
+CoarseOptics means_of(Rgb sigma_a, Rgb sigma_s) {
+  const float s = mean(sigma_s);
+  return {mean(sigma_a) + s, s};
 }
+/// At density 1.
+CoarseOptics means_of(const MediumOptics& optics) { return means_of(optics.sigma_a, optics.sigma_s); }
 
 /// A cloud's density is expensive: its mean over the whole stands in for it.
 float cloud_level(const MediumData& medium) { return std::max(medium.cloud_mean, 1e-4f); }
 
-/// Of a medium that is not homogeneous, at a local point inside its clip box.
-CoarseOptics optics_around(const MediumData& medium, const GridVec& p) {
-  if (medium.kind == MediumData::Kind::cloud) return means_of(medium.optics, cloud_level(medium));
+/// Of a medium that is not homogeneous and `dense` at density 1, at a place of a line in local coordinates that its clip box
+/// holds.
+CoarseOptics optics_around(const MediumData& medium, const CoarseOptics& dense, const Line& line, double t) {
+  if (medium.kind == MediumData::Kind::cloud) return dense * cloud_level(medium);
+  const BrickGrid& grid = medium.density.grid;
+  if (grid.channels() == 1) return dense * grid.block_mean(line, t);
   float values[kMaxChannels];
-  medium.density.grid.block_mean(p, values);
-  if (medium.density.grid.channels() == 1) return means_of(medium.optics, values[0]);
   Rgb sigma_a, sigma_s;
+  grid.block_mean(line.at(t), values);
   medium.scale_by(values, sigma_a, sigma_s);
-  const float s = mean(sigma_s);
-  return {mean(sigma_a) + s, s};
-}
-
-/// At a place on a ray inside the clip box, but for rounding.
-double sigma_t_at(const MediumData& medium, const GridRay& ray, double t) {
-  GridVec p = ray.at(t);
-  for (int axis = 0; axis < 3; ++axis) p[axis] = std::clamp(p[axis], medium.clip.lo[axis], medium.clip.hi[axis]);
-  return double{optics_around(medium, p).sigma_t};
+  return means_of(sigma_a, sigma_s);
 }
 
 double depth_of(const MediumData& medium, const Ray& ray, double t0, double t1, int taps) {
   if (medium.kind == MediumData::Kind::homogeneous) {
-    const float sigma_t = means_of(medium.optics, 1).sigma_t;
+    const float sigma_t = means_of(medium.optics).sigma_t;
     return sigma_t > 0 ? sigma_t * (t1 - t0) : 0;
   }
   const GridRay local(medium.density.to_local, ray);
   const auto [begin, end] = local.clip(medium.clip, t0, t1);
   if (!(begin < end) || taps < 1) return 0;
-  if (medium.kind == MediumData::Kind::cloud)
-    return double{means_of(medium.optics, cloud_level(medium)).sigma_t} * (end - begin);
+  const CoarseOptics dense = means_of(medium.optics);
+  if (medium.kind == MediumData::Kind::cloud) return double{dense.sigma_t} * cloud_level(medium) * (end - begin);
 
   // Denser points would read the same blocks again. Points farther apart than blocks are wide read blocks all the same:
   // the mean of a larger node that the ray only grazes is worse than a gap.
   const double cells = (end - begin) * local.speed();
   const int count = static_cast<int>(std::clamp(std::ceil(cells / BlockMeans::kCells), 1.0, double(taps)));
   const double step = (end - begin) / count;
+  const Line line = local.line();
   double sum = 0;
-  for (int i = 0; i < count; ++i) {
-    sum += sigma_t_at(medium, local, begin + (i + 0.5) * step);
-  }
+  for (int i = 0; i < count; ++i) sum += double{optics_around(medium, dense, line, begin + (i + 0.5) * step).sigma_t};
   return sum * step;
 }
 
-/// Steps from one block, growing by kGrowth.
+/// Steps that grow, eight of them, in units of the first: where they begin and how long they are; then how far all reach.
+struct GrowingSteps {
+  static constexpr double kGrowth = 1.25;
+  std::array<float, 8> begin, length;
+  double all = 0, next = 1;
+  constexpr GrowingSteps() : begin(), length() {
+    for (std::size_t k = 0; k < 8; ++k, next *= kGrowth) {
+      begin[k] = static_cast<float>(all);
+      length[k] = static_cast<float>(next);
+      all += next;
+    }
+  }
+};
+constexpr GrowingSteps kSteps;
+
+/// Of eight places that are `beyond` farther than t, as optics_around().
+Float8 sigma_t_around(const MediumData& medium, const CoarseOptics& dense, const Line& line, double t, Float8 beyond) {
+  if (medium.density.grid.channels() == 1) return dense.sigma_t * medium.density.grid.block_means(line, t, beyond);
+  std::array<float, 8> sigma_t;
+  for (std::size_t k = 0; k < 8; ++k) {
+    const double at = t + double{beyond[k]};
+    sigma_t[k] = medium.clip.contains(line.at(at)) ? optics_around(medium, dense, line, at).sigma_t : 0.0f;
+  }
+  return load8(sigma_t.data());
+}
+
+/// The first step is a block.
 double nearby_depth_of(const MediumData& medium, const Ray& ray, double t1, double most) {
-  constexpr double kGrowth = 1.25;
   if (medium.kind != MediumData::Kind::grid) return depth_of(medium, ray, 0, t1, 1);
   const GridRay local(medium.density.to_local, ray);
   const auto [begin, end] = local.clip(medium.clip, 0, t1);
+  const CoarseOptics dense = means_of(medium.optics);
+  const Line line = local.line();
   double sum = 0, step = BlockMeans::kCells / std::max(local.speed(), 1e-300);
-  for (double t = begin; t < end && sum < most; t += step, step *= kGrowth) {
-    const double length = std::min(step, end - t);
-    sum += sigma_t_at(medium, local, t + 0.5 * length) * length;
+  for (double t = begin; t < end && sum < most; t += step * kSteps.all, step *= kSteps.next) {
+    const auto first = static_cast<float>(step);
+    const Float8 from = first * load8(kSteps.begin.data()), left = static_cast<float>(end - t) - from;
+    const Float8 length = max(min(first * load8(kSteps.length.data()), left), Float8(0.0f));
+    const Float8 depth = sigma_t_around(medium, dense, line, t, from + 0.5f * length) * length;
+    for (std::size_t k = 0; k < 8 && sum < most; ++k) sum += double{depth[k]};
   }
   return sum;
 }
@@ -79,19 +105,19 @@ double nearby_depth_of(const MediumData& medium, const Ray& ray, double t1, doub
 CoarseRay::CoarseRay(MediaView media, const Ray& ray) {
   for (const ParticipatingMedium* medium : media) {
     const MediumData& m = medium->data();
+    const CoarseOptics dense = means_of(m.optics);
     if (m.kind == MediumData::Kind::homogeneous) {
-      homogeneous_ += means_of(m.optics, 1);
+      homogeneous_ += dense;
     } else {
-      locals_.push_back({&m, m.density.to_local.point(ray.o), m.density.to_local.vector(ray.d)});
+      locals_.push_back({&m, GridRay(m.density.to_local, ray).line(), dense});
     }
   }
 }
 
 CoarseOptics CoarseRay::at(float t) const {
   CoarseOptics sum = homogeneous_;
-  for (const auto& [medium, o, d] : locals_) {
-    const GridVec p{{o[0] + t * d[0], o[1] + t * d[1], o[2] + t * d[2]}};
-    if (medium->clip.contains(p)) sum += optics_around(*medium, p);
+  for (const auto& [medium, line, dense] : locals_) {
+    if (medium->clip.contains(line.at(t))) sum += optics_around(*medium, dense, line, t);
   }
   return sum;
 }

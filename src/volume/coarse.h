@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "math/small_vector.h"
-#include "volume/affine.h"
 #include "volume/tracking.h"
+#include "volume/trilinear.h"
 
 namespace tyndall {
 
@@ -18,6 +18,7 @@ struct MediumData;
 /// Means over the colour channels, 1/world unit.
 struct CoarseOptics {
   float sigma_t = 0, sigma_s = 0;
+  friend CoarseOptics operator*(CoarseOptics o, float factor) { return {o.sigma_t * factor, o.sigma_s * factor}; }
   CoarseOptics& operator+=(const CoarseOptics& o) {
     sigma_t += o.sigma_t;
     sigma_s += o.sigma_s;
@@ -37,7 +38,8 @@ class CoarseRay {
   /// A medium that is not homogeneous, and the ray in its local coordinates.
   struct Local {
     const MediumData* medium;
-    GridVec o, d;
+    Line line;
+    CoarseOptics dense;  ///< at density 1
   };
   CoarseOptics homogeneous_;
   SmallVector<Local, 2> locals_;

@@ -86,6 +86,33 @@ TEST_CASE("a block's mean is that of its cells, but for 1/255 of its brick's ran
     }
 }
 
+TEST_CASE("along a line the first channel's means are the same, through the tree as well, and 0 outside") {
+  test::OracleSource far_apart;
+  far_apart.add_leaf({0, 0, 0}, [](std::int64_t x, std::int64_t y, std::int64_t) { return static_cast<float>(1 + x * y); });
+  far_apart.add_leaf({1 << 20, 0, 0}, [](auto, auto, auto) { return 2.0f; });
+  Rng rng(2);
+  for (const BrickGrid& grid : {build_brick_grid(test::random_voxels(5, {-40, -8, -160}, 1), {}),
+                                build_brick_grid(test::random_voxels(6, {0, 0, 0}, 3), {}), build_brick_grid(far_apart, {})}) {
+    int seen = 0;
+    for (int i = 0; i < 2000; ++i) {
+      Index3 cell = random_cell(grid, rng);
+      if (cell[0] > 1000) cell[0] = 8 + cell[0] % 8;  // of those far apart in the first
+      const GridVec p = cell_centre(cell);
+      const Line line{{p[0] - 2, p[1] + 3, p[2] - 1, 0}, {4, -6, 2, 0}};
+      float means[kMaxChannels];
+      grid.block_mean(p, means);
+      CHECK(grid.block_mean(line, 0.5) == means[0]);
+      seen += means[0] > 0 ? 1 : 0;
+      const Float8 together = grid.block_means(line, 0.25, 0.25f - count_to_8() * 1e5f);
+      CHECK(together[0] == means[0]);
+      CHECK(together[7] == 0);
+      CHECK(grid.block_mean(line, 1e6) == 0);
+      CHECK(grid.block_mean(line, -1e6) == 0);
+    }
+    CHECK(seen > 0);
+  }
+}
+
 TEST_CASE("little beside much does not become nothing") {
   test::OracleSource source;
   source.add_leaf({0, 0, 0}, [](std::int64_t x, std::int64_t, std::int64_t) { return x < 4 ? 1e-3f : 1000.0f; });
