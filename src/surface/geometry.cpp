@@ -87,15 +87,19 @@ Trace Geometry::trace(const Ray& ray, float t_min, float t_max) const {
   return trace;
 }
 
+bool Geometry::occluded(const Ray& ray, float t_min, float t_max) const {
+  RTCScene scene = impl_->world().real.get();
+  if (!scene) return false;
+  RTCRay shadow = embree_ray(ray, t_min, t_max).ray;
+  if (!traceable(shadow)) return false;
+  GeometryQuery query = make_query(*impl_, ray);
+  rtcOccluded1(scene, &query.context, &shadow);
+  return shadow.tfar < 0;
+}
+
 std::optional<Crossings> Geometry::trace_shadow(const Ray& ray, float t_min, float t_max) const {
-  const RTCRayHit r = embree_ray(ray, t_min, t_max);
-  if (RTCScene scene = impl_->world().real.get(); scene && traceable(r.ray)) {
-    GeometryQuery query = make_query(*impl_, ray);
-    RTCRay shadow = r.ray;
-    rtcOccluded1(scene, &query.context, &shadow);
-    if (shadow.tfar < 0) return {};
-  }
-  return find_crossings(*impl_, r, GeometryQuery::Boundaries::of_interfaces, ray);
+  if (occluded(ray, t_min, t_max)) return {};
+  return find_crossings(*impl_, embree_ray(ray, t_min, t_max), GeometryQuery::Boundaries::of_interfaces, ray);
 }
 
 Crossings Geometry::trace_all(const Ray& ray, float t_min, float t_max) const {

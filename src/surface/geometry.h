@@ -95,6 +95,9 @@ class Geometry {
   /// The interface boundaries in (t_min, t_max); nothing when a real surface blocks the ray.
   std::optional<Crossings> trace_shadow(const Ray& ray, float t_min, float t_max) const;
 
+  /// Whether a real surface blocks the ray in (t_min, t_max): without what trace_shadow() tells beyond that.
+  bool occluded(const Ray& ray, float t_min, float t_max) const;
+
   /// Every boundary in (t_min, t_max), also those of real surfaces; nothing blocks. To find what holds a point: over a
   /// ray from it to infinity, in any direction, minus the sum of a group's signs is how often the group holds the point.
   Crossings trace_all(const Ray& ray, float t_min, float t_max) const;

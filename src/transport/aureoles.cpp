@@ -53,7 +53,7 @@ std::optional<Aureole> Aureoles::at(const LightContext& context, const Vertex& v
   Aureole aureole({g, albedo_of(media), orders}, rest_ + near_.at(p), std::max(context.guided_weight / kMostWeight, 1.0f));
   for (const FarCone& sun : suns_) {
     const Ray ray{p, sun.directions.axis};
-    if (!world.geometry.trace_shadow(ray, 0, kInfinity)) continue;
+    if (world.geometry.occluded(ray, 0, kInfinity)) continue;
     const float depth = nearby_optical_depth({media.data(), media.size()}, ray, exit_distance(box, ray), deepest);
     aureole.add({ray.d, sun.fluence, std::min(length(sun.mean), 1.0f), depth});
   }

@@ -21,6 +21,12 @@ constexpr float kFaint = 0.1f;
 constexpr float kLeastChance = 1 / 16.0f;
 constexpr float kDeepest = 8;  ///< beyond the optical depth at which that is reached, 7.1
 
+/// (1 + depth/8)^-8: with a longer tail than e^-depth, as the depth is a guess.
+float guessed_transmittance(float depth) {
+  const float step = 1 + depth / 8, squared = step * step, fourth = squared * squared;
+  return 1 / (fourth * fourth);
+}
+
 /// By the media that hold the ray's origin, as far as they reach. Not for single scattering, whose noise nothing else hides.
 float chance_of_tracing(const LightContext& context, const MediaState& media, const Ray& ray, float distance) {
   if (is_single_scattering(context)) return 1;
@@ -32,8 +38,7 @@ float chance_of_tracing(const LightContext& context, const MediaState& media, co
   const float clearest = clearest_channel(there);
   if (!(clearest > 0)) return 1;
   const float depth = clearest * nearby_optical_depth(there, ray, end, kDeepest / clearest);
-  const float T = std::pow(1 + depth / 8, -8.0f);  // with a longer tail than e^-depth, as the depth is a guess
-  return std::clamp(T / kFaint, kLeastChance, 1.0f);
+  return std::clamp(guessed_transmittance(depth) / kFaint, kLeastChance, 1.0f);
 }
 
 /// How many of the groups that hold a point bring the medium whose emission the light is.
@@ -66,7 +71,7 @@ Rgb arriving(const LightContext& context, const MediaState& media, Vec3 origin, 
   const float end = light.volume ? light.distance : light.distance * kShadowEnd;
   if (!world.has_media()) {
     ++context.counters.shadow_rays;
-    return world.geometry.trace_shadow(ray, 0, end) ? Rgb(1.0f) : Rgb();
+    return world.geometry.occluded(ray, 0, end) ? Rgb() : Rgb(1.0f);
   }
   Rng rng = sampler.stream();
   const float chance = chance_of_tracing(context, media, ray, light.distance);

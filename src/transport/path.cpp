@@ -29,9 +29,12 @@ Rgb divided(Rgb a, Rgb b) {
 constexpr float kRouletteBelow = 1 / 3.0f;
 /// The step beyond all others whose numbers the offer takes.
 constexpr int kSharingStep = 1 << 30;
-/// Guided paths have small weights and large contributions; roulette by weight alone would undo the guiding
-/// (docs/measurements.md).
-constexpr float kGuidedLive = 0.75f;
+/// What paths that were guided to be `ratio` times as likely count for in roulette, ratio^(3/4): they have small weights and
+/// large contributions; roulette by weight alone would undo the guiding (docs/measurements.md).
+float guided_life(float ratio) {
+  const float root = std::sqrt(ratio);
+  return root * std::sqrt(root);
+}
 
 }  // namespace
 
@@ -193,8 +196,7 @@ bool Path::scatter(const Vertex& vertex) {
 
 bool Path::survive_roulette() {
   if (depth_ <= 1) return true;
-  const float survival =
-      before_ * max_component(beta_) * eta_scale_ * std::pow(guided_pdf_ratio_, kGuidedLive) / kRouletteBelow;
+  const float survival = before_ * max_component(beta_) * eta_scale_ * guided_life(guided_pdf_ratio_) / kRouletteBelow;
   if (!(survival < 1)) return true;
   if (context_.sampler.next_wide() >= survival) return false;  // many bits, as survival may be next to nothing
   beta_ *= 1 / survival;

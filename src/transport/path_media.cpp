@@ -29,10 +29,10 @@ Rgb tracked_transmittance(const LightContext& context, const Span& span, Rng& rn
 
 }  // namespace
 
-/// In dense homogeneous media whose lights are chosen at collisions, the collision is drawn first: the ray need not be traced
-/// beyond it. Nothing: something is in between, or this is not such a place: nor where media emit, whose light is gathered
-/// beyond the collision too. Where the choice of lights was decided here it
-/// stays so for the traced span: decided again, it would depend on the collision that was drawn.
+/// In media whose lights are chosen at collisions, the collision is drawn first: the ray need not be traced beyond it. Nothing:
+/// something is in between, or this is not such a place: nor where media emit, whose light is gathered beyond the collision
+/// too. The ray is then traced, and flies by the same numbers. Where the choice of lights was decided here it stays so for the
+/// traced span: decided again, it would depend on the collision that was drawn.
 std::optional<Vertex> Path::collide_untraced() {
   span_search_.reset();
   lit_at_collisions_.reset();
@@ -41,17 +41,17 @@ std::optional<Vertex> Path::collide_untraced() {
   const auto& groups = world.geometry.groups();
   const Interval inside{0, media_.first_exit(groups, ray_), media_.active(groups, world.media)};
   const MediaView media = inside.view();
-  if (media.empty() || inside.t1 == kInfinity || !all_homogeneous(media)) return std::nullopt;
+  if (media.empty() || inside.t1 == kInfinity) return std::nullopt;
   context_.bounce = depth_;
   if (seeks_along_spans(context_)) lit_at_collisions_ = collisions_suffice(context_, ray_, inside);
-  if (!lit_at_collisions_.value_or(is_deep(ray_, inside))) return std::nullopt;
+  if (!(lit_at_collisions_ ? *lit_at_collisions_ : is_deep(ray_, inside))) return std::nullopt;
 
   begin(Step::fly);
   Rng rng = context_.sampler.stream();
   const float u = context_.sampler.next_1d();
   const Flight flight = free_flight(media, ray_, 0, kInfinity, beta_, u, rng, context_.counters.tracking);
   const float margin = collision_margin(ray_, flight.t);
-  if (!flight.collided || flight.t < margin || flight.t > inside.t1) return std::nullopt;
+  if (!flight.collided || is_black(flight.weight) || flight.t < margin || flight.t > inside.t1) return std::nullopt;
   const auto crossings = world.geometry.trace_shadow(ray_, 0, flight.t + margin);
   if (!crossings || !crossings->empty()) return std::nullopt;
   beta_ *= flight.weight;

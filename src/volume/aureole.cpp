@@ -33,12 +33,13 @@ void Aureole::add(const Source& source) {
   const auto [g, albedo, orders] = medium_;
   const float tau = std::min(source.optical_depth, kDeepest);
   // Scattered at least once, and not absorbed.
-  float left = std::exp(tau * (albedo - 1)) * -std::expm1(-tau * albedo);
+  const float unscattered = std::exp(-tau);
+  float left = std::exp(tau * (albedo - 1)) - unscattered;
   even_ += doubt_ * source.fluence * (kReturned + kDiffuse * std::pow(albedo, 1 / (1 - std::min(g, 0.99f))));
   if (g >= kLeastForward) {
     Lobes& lobes = sources_[count_++];
     lobes.axis = source.direction;
-    float chance = std::exp(-tau), cosine = source.bundled;  // of an order, and its mean cosine
+    float chance = unscattered, cosine = source.bundled;  // of an order, and its mean cosine
     int order = 0;
     for (std::size_t i = 0; i < kLobes; ++i) {
       float mass = 0, moment = 0;

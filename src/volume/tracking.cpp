@@ -141,7 +141,7 @@ Flight free_flight(MediaView media, const Ray& ray, float t0, float t1, Rgb beta
   }
   // A channel without throughput stays without: its weights mean nothing and must not overflow.
   state.flight.weight = {state.beta.r == 0 ? 0.0f : 1.0f, state.beta.g == 0 ? 0.0f : 1.0f, state.beta.b == 0 ? 0.0f : 1.0f};
-  state.depth = static_cast<float>(-std::log1p(-double{u_first}));
+  state.depth = exponential(u_first);
   with_walk<WalkMode::majorant>(media, ray, t0, t1, [&](auto& walk) {
     fly(walk, state, rng, stats);
     finish(walk, stats);

@@ -187,6 +187,7 @@ TEST_CASE("trace, trace_shadow and trace_all tell one story") {
     const Trace trace = geometry.trace(ray, 0, t_max);
     const auto shadow = geometry.trace_shadow(ray, 0, t_max);
     CHECK(shadow.has_value() != trace.hit.has_value());
+    CHECK(geometry.occluded(ray, 0, t_max) == trace.hit.has_value());
     if (trace.hit) CHECK(trace.hit->shape == 1u);
     const Crossings all = geometry.trace_all(ray, 0, t_max);
     blocked += trace.hit.has_value();
