@@ -1,5 +1,7 @@
 #include "tyndall/denoise.h"
 
+#include <optional>
+
 #include "denoise/collaborative.h"
 #include "denoise/energy.h"
 #include "denoise/fireflies.h"
@@ -95,12 +97,12 @@ LightEstimate filtered(const Halves& halves, const Component& component, const K
 /// would pass for fireflies. Only what media do to their light on the way is filtered.
 LightEstimate denoise_component(Halves halves, const Component& component, const Knowledge& known, ThreadPool& pool) {
   const Energy energy(halves);
-  const ColorPlanes removed =
-      component.emitters ? color_planes(halves.width(), halves.height()) : take_out_fireflies(halves, pool);
+  std::optional<Fireflies> fireflies;
+  if (!component.emitters) fireflies = take_out_fireflies(halves, pool);
   pool_variance(halves, component.emitters ? kOutline : kNoise, pool);
   LightEstimate estimate = filtered(halves, component, known, pool);
+  if (fireflies) fireflies->give_back(estimate, pool);
   energy.restore(estimate.values, halves.variance, pool);
-  if (component.states_errors) add(estimate.mse, removed);
   return estimate;
 }
 
@@ -173,7 +175,7 @@ std::vector<std::string> denoise_aovs() { return input_aovs(); }
 
 /// Planes that are there at once: features in two halves, a component, its fits by two bandwidths, what selects among them, and
 /// what was taken out.
-std::size_t denoise_memory(std::size_t pixels) { return pixels * sizeof(float) * (2 * 11 + 11 + 15 + 20 + 20 + 25 + 3); }
+std::size_t denoise_memory(std::size_t pixels) { return pixels * sizeof(float) * (2 * 11 + 11 + 15 + 20 + 20 + 25 + 9); }
 
 Denoised denoise(const Image& image, const DenoiseSettings& settings, const std::string& name) {
   const Timer timer;

@@ -8,6 +8,7 @@ namespace {
 
 constexpr int kAround = 4;           ///< radius of what a value is held against
 constexpr float kMostTimes = 10.0f;  ///< of the mean around it
+constexpr int kLost = 6;             ///< radius over which lost light is pooled, twice
 constexpr float kPixels = (2 * kAround + 1) * (2 * kAround + 1), kValues = 2 * kPixels;
 
 /// Of both halves: how bright they are.
@@ -55,30 +56,64 @@ float share_confirmed(const Brightness& brightness, int width, int height) {
   return found > 0 ? static_cast<float>(std::clamp(confirmed / found, 0.0, 1.0)) : 0;
 }
 
+PaddedPlane pooled(const PaddedPlane& plane, ThreadPool& pool) { return box_mean(box_mean(plane, kLost, pool), kLost, pool); }
+
+using LostLight = std::array<ColorPlanes, 2>;  ///< by half
+
+/// What stands out in `half` and is not confirmed gives way to the mean around it.
+void take_out(Halves& halves, std::size_t half, const Brightness& brightness, float known, LostLight& lost, ColorPlanes& errors,
+              ThreadPool& pool) {
+  const int width = halves.width(), height = halves.height();
+  pool.for_each(static_cast<std::size_t>(height), 16, [&](std::size_t row) {
+    const int y = static_cast<int>(row);
+    for (int x = 0; x < width; ++x) {
+      if (!brightness.stands_out(half, x, y) || brightness.confirmed(half, x, y)) continue;
+      const float keep = brightness.around(half, x, y) / brightness.of(half, x, y);
+      for (std::size_t c = 0; c < 3; ++c) {
+        float& value = halves.values[half][c].at(x, y);
+        const float excess = (1 - keep) * value;
+        lost[half][c].at(x, y) = excess;
+        errors[c].at(x, y) += known * excess * known * excess;
+        value *= keep;
+      }
+    }
+  });
+}
 }  // namespace
 
-ColorPlanes take_out_fireflies(Halves& halves, ThreadPool& pool) {
+Fireflies take_out_fireflies(Halves& halves, ThreadPool& pool) {
   const int width = halves.width(), height = halves.height();
   const Brightness brightness(halves, pool);
   const float known = share_confirmed(brightness, width, height);
-  ColorPlanes errors = color_planes(width, height);
-  for (std::size_t h = 0; h < 2; ++h) {
-    pool.for_each(static_cast<std::size_t>(height), 16, [&](std::size_t row) {
-      const int y = static_cast<int>(row);
-      for (int x = 0; x < width; ++x) {
-        if (!brightness.stands_out(h, x, y) || brightness.confirmed(h, x, y)) continue;
-        const float keep = brightness.around(h, x, y) / brightness.of(h, x, y);
-        for (std::size_t c = 0; c < 3; ++c) {
-          float& value = halves.values[h][c].at(x, y);
-          const float error = known * (1 - keep) * value;
-          errors[c].at(x, y) += error * error;
-          value *= keep;
-        }
-      }
+  Fireflies found{color_planes(width, height), {}, {}};
+  LostLight lost{color_planes(width, height), color_planes(width, height)};
+  for (std::size_t h = 0; h < 2; ++h) take_out(halves, h, brightness, known, lost, found.errors, pool);
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (ColorPlanes& half : halves.values) half[c].extend();
+    for (ColorPlanes& half : lost) half[c].extend();
+    const PaddedPlane even = pooled(lost[0][c], pool), odd = pooled(lost[1][c], pool);
+    found.light[c] = make_plane(width, height, pool, [&](int x, int y) { return std::min(even.at(x, y), odd.at(x, y)); });
+    found.differences[c] = make_plane(width, height, pool, [&](int x, int y) {
+      const float difference = even.at(x, y) - odd.at(x, y);
+      return halves.share[0] * halves.share[1] * difference * difference;
     });
-    for (PaddedPlane& plane : halves.values[h]) plane.extend();
   }
-  return errors;
+  return found;
+}
+
+void Fireflies::give_back(LightEstimate& filtered, ThreadPool& pool) const {
+  const int width = errors[0].width(), height = errors[0].height();
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto positive = [&](int x, int y) { return std::max(filtered.values[c].at(x, y), 0.0f); };
+    const PaddedPlane around = pooled(make_plane(width, height, pool, positive), pool);
+    for (int y = 0; y < height; ++y) {
+      for (int x = 0; x < width; ++x) {
+        const float share = around.at(x, y) > 0 ? positive(x, y) / around.at(x, y) : 0.0f;
+        filtered.values[c].at(x, y) += share * light[c].at(x, y);
+        filtered.mse[c].at(x, y) += errors[c].at(x, y) + share * share * differences[c].at(x, y);
+      }
+    }
+  }
 }
 
 }  // namespace tyndall
