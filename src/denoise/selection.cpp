@@ -105,13 +105,23 @@ PaddedPlane times_variance(const Candidate& filtered, const PaddedPlane& noise, 
   });
 }
 
+/// Mean over those pixels around that have any light: outlines lie between pixels that have noise and pixels that are black.
+PaddedPlane mean_of_lit(const Halves& halves, std::size_t c, int radius, const PaddedPlane& values, ThreadPool& pool) {
+  const auto lit = [&](int x, int y) { return halves.mean(c, x, y) != 0 || halves.raw_variance(c, x, y) > 0 ? 1.0f : 0.0f; };
+  const PaddedPlane mean = box_mean(values, radius, pool);
+  const PaddedPlane share = box_mean(make_plane(halves.width(), halves.height(), pool, lit), radius, pool);
+  return make_plane(halves.width(), halves.height(), pool,
+                    [&](int x, int y) { return share.at(x, y) > 0 ? mean.at(x, y) / share.at(x, y) : 0.0f; });
+}
+
 /// Pooled relative to the picture, so that bright outlines state nothing for what is dark beside them, and no more than a
 /// pixel's own value and the difference of its halves can be wrong.
 ColorPlanes variance_of_mean(const Halves& halves, const Selection& how, ThreadPool& pool) {
   ColorPlanes variances;
   for (std::size_t c = 0; c < 3; ++c) {
-    const auto relative = [&](int x, int y) { return halves.raw_variance(c, x, y) * how.weight.at(x, y); };
-    const PaddedPlane pooled = box_mean(make_plane(halves.width(), halves.height(), pool, relative), how.noise_radius, pool);
+    const PaddedPlane relative = make_plane(halves.width(), halves.height(), pool,
+                                            [&](int x, int y) { return halves.raw_variance(c, x, y) * how.weight.at(x, y); });
+    const PaddedPlane pooled = mean_of_lit(halves, c, how.noise_radius, relative, pool);
     variances[c] = make_plane(halves.width(), halves.height(), pool, [&](int x, int y) {
       const float mean = halves.mean(c, x, y);
       return std::min(pooled.at(x, y) / how.weight.at(x, y), halves.raw_variance(c, x, y) + mean * mean);
