@@ -108,7 +108,7 @@ void Fireflies::give_back(LightEstimate& filtered, ThreadPool& pool) const {
     const PaddedPlane around = pooled(make_plane(width, height, pool, positive), pool);
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
-        const float share = around.at(x, y) > 0 ? positive(x, y) / around.at(x, y) : 0.0f;
+        const float share = around.at(x, y) > 0 ? std::min(positive(x, y) / around.at(x, y), 1.0f) : 0.0f;
         filtered.values[c].at(x, y) += share * light[c].at(x, y);
         filtered.mse[c].at(x, y) += errors[c].at(x, y) + share * share * differences[c].at(x, y);
       }

@@ -11,7 +11,8 @@ struct Fireflies {
   ColorPlanes light;        ///< that both halves lost around each pixel, a mean over the neighbourhood
   ColorPlanes differences;  ///< squared, of that mean: between what was lost in all and `light`
 
-  /// Gives back `light`, in proportion to the filtered light around, so that black stays black, and states the errors.
+  /// Gives back `light` and states the errors: to a pixel as much less as it is darker than those around, so that black stays
+  /// black, but no more where one stands out.
   void give_back(LightEstimate& filtered, ThreadPool& pool) const;
 };
 
