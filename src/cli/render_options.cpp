@@ -219,7 +219,7 @@ void declare(CLI::App& command, RenderOptions& o) {
       ->check(CLI::Range(1, kMostDeepBins))
       ->needs(deep);
   auto* denoise = command.add_flag("--denoise", o.denoise,
-                                   "take the noise away at the end; the picture as rendered is kept in noisy.R .G .B");
+                                   "take the noise away at the end; an .exr keeps the picture as rendered in noisy.R .G .B");
   command
       .add_option("--preview-every", o.preview_every,
                   "seconds between denoised pictures written to the output while it renders, at 4, 8, 16 ... samples [none]; "

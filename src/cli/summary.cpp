@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <string_view>
 
 namespace tyndall::cli {
 namespace {
@@ -87,8 +88,9 @@ std::string as_text(const Summary& s) {
                       r.non_finite, r.majorant_violations, r.caps_hit, r.parity_errors);
   text += estimated_error(r);
   if (s.denoised) {
-    text += fmt::format("  denoise {:.2f}s, estimated relMSE {:.3g} before and {:.3g} after; as rendered in noisy.R .G .B\n",
-                        s.denoised->seconds, s.denoised->noisy_relmse, s.denoised->relmse);
+    const bool keeps_noisy = std::string_view(s.output).ends_with(".exr");
+    text += fmt::format("  denoise {:.2f}s, estimated relMSE {:.3g} before and {:.3g} after{}\n", s.denoised->seconds,
+                        s.denoised->noisy_relmse, s.denoised->relmse, keeps_noisy ? "; as rendered in noisy.R .G .B" : "");
   }
   if (r.unrendered > 0) {
     text += fmt::format("  stopped in the first pass: {} of {} pixels have no sample and are black\n", r.unrendered,

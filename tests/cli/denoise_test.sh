@@ -8,6 +8,9 @@ channels() { "$T" info "$1" | sed -nE 's/^  ([A-Za-z.]+)$/\1/p' | grep -vE '^(im
 # At the end of a render, or later: the same picture. The noisy one is that of a render that was not denoised.
 expect 0 "$T" render s.pbrt --spp 16 --reproducible --denoise --aov Albedo -o now.exr
 says 'as rendered in noisy.R .G .B' err.txt
+expect 0 "$T" render s.pbrt --spp 4 --denoise -o now.png
+grep -qE 'denoise .* after$' err.txt || fail "no line on denoising: $(cat err.txt)"
+grep -q 'noisy.R' err.txt && fail "a PNG holds no noisy.R: $(cat err.txt)"
 expect 0 "$T" render s.pbrt --spp 16 --reproducible --quiet --aov Denoise -o noisy.exr
 expect 0 "$T" denoise noisy.exr -o later.exr
 expect 0 "$T" diff now.exr later.exr --channels RGB --exact
