@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "math/simd.h"
 
@@ -17,6 +19,18 @@ double dot(const float* a, const float* b, int rows) {
   Float8 sum = 0.0f;
   for (int i = 0; i < rows; i += 8) sum += load8(a + i) * load8(b + i);
   return sum8(sum);
+}
+
+/// Least and greatest of `values` where they have weight.
+std::pair<float, float> range_of(const float* values, std::span<const float> weights) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  Float8 least = kInfinity, most = -kInfinity;
+  for (std::size_t i = 0; i < weights.size(); i += 8) {
+    const Float8 value = load8(values + i), weight = load8(weights.data() + i);
+    least = min(least, choose(weight > 0.0f, value, Float8(kInfinity)));
+    most = max(most, choose(weight > 0.0f, value, Float8(-kInfinity)));
+  }
+  return {hmin(least), hmax(most)};
 }
 
 }  // namespace
@@ -72,6 +86,11 @@ float Regression::fit(const WindowColumns& explanation, const WindowColumns& tar
   const double sum = normal_[0][0];
   solve();
   predict(explanation, fitted);
+  for (std::size_t c = 0; c < 3; ++c) {
+    const auto [least, most] = range_of(target[c], weights);
+    for (int r = 0; r < fitted.rows(); r += 8)
+      store8(fitted[c] + r, min(max(load8(fitted[c] + r), Float8(least)), Float8(most)));
+  }
   return std::min(1.0f, static_cast<float>(static_cast<double>(columns_) / sum));
 }
 

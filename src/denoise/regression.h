@@ -50,7 +50,8 @@ class Regression {
  public:
   explicit Regression(Neighbourhood neighbourhood, std::size_t columns);
 
-  /// Fits `target` (three columns) by `explanation` with `weights`, and puts what it predicts for every row into `fitted`.
+  /// Fits `target` (three columns) by `explanation` with `weights`, and puts what it predicts for every row into `fitted`,
+  /// within the range of what has weight: a slope toward a peak would lead below 0 beside it.
   /// Gives how much of a row's own value is in its prediction, at weight 1: the mean leverage [Hoaglin and Welsch 1978].
   float fit(const WindowColumns& explanation, const WindowColumns& target, std::span<const float> weights,
             WindowColumns& fitted);

@@ -58,6 +58,23 @@ TEST_CASE("a feature that says nothing gets no slope, and one like another is sh
   for (int i = 0; i < kWindow.count(); ++i) REQUIRE(std::abs(fitted[0][i] - target[0][i]) < 0.01f);
 }
 
+TEST_CASE("a fit leads nowhere below the least value or above the greatest") {
+  // A slope by position alone: 0 but for a peak of 9 in a corner.
+  const PaddedPlane peak = plane_of([](int x, int y) { return x > 26 && y > 26 ? 9.0f : 0.0f; });
+  Explanation explanation(kWindow, {});
+  Regression regression(kWindow, 3);
+  WindowColumns target(kWindow, 3), fitted(kWindow, 3);
+  std::vector<float> weights(static_cast<std::size_t>(kWindow.padded()));
+  std::fill_n(weights.begin(), kWindow.count(), 1.0f);
+  explanation.move_to(20, 20);
+  for (std::size_t c = 0; c < 3; ++c) target.load(c, peak, 20, 20);
+  regression.fit(explanation.columns(), target, weights, fitted);
+  for (int i = 0; i < kWindow.count(); ++i) {
+    REQUIRE(fitted[0][i] >= 0);
+    REQUIRE(fitted[0][i] <= 9);
+  }
+}
+
 TEST_CASE("a window of which one pixel counts stays as it is there") {
   const PaddedPlane y = plane_of([](int i, int j) { return static_cast<float>(i * j); });
   Explanation explanation(kWindow, {});
