@@ -29,10 +29,11 @@ Rgb tracked_transmittance(const LightContext& context, const Span& span, Rng& rn
 
 }  // namespace
 
-/// In media whose lights are chosen at collisions, the collision is drawn first: the ray need not be traced beyond it. Nothing:
-/// something is in between, or this is not such a place: nor where media emit, whose light is gathered beyond the collision
-/// too. The ray is then traced, and flies by the same numbers. Where the choice of lights was decided here it stays so for the
-/// traced span: decided again, it would depend on the collision that was drawn.
+/// In a medium whose lights are chosen at collisions, the collision is drawn first: the ray need not be traced beyond it.
+/// Nothing: something is in between, or this is not such a place: nor where media overlap, of which one does not decide for all
+/// of the ray, or emit, as light is gathered beyond the collision too. The ray is then traced, and flies by the same numbers.
+/// Where the choice of lights was decided here it stays so for the traced span: decided again, it would depend on the collision
+/// that was drawn.
 std::optional<Vertex> Path::collide_untraced() {
   span_search_.reset();
   lit_at_collisions_.reset();
@@ -41,7 +42,7 @@ std::optional<Vertex> Path::collide_untraced() {
   const auto& groups = world.geometry.groups();
   const Interval inside{0, media_.first_exit(groups, ray_), media_.active(groups, world.media)};
   const MediaView media = inside.view();
-  if (media.empty() || inside.t1 == kInfinity) return std::nullopt;
+  if (media.size() != 1 || inside.t1 == kInfinity) return std::nullopt;
   context_.bounce = depth_;
   if (seeks_along_spans(context_)) lit_at_collisions_ = collisions_suffice(context_, ray_, inside);
   if (!(lit_at_collisions_ ? *lit_at_collisions_ : is_deep(ray_, inside))) return std::nullopt;
