@@ -56,8 +56,6 @@ float share_confirmed(const Brightness& brightness, int width, int height) {
   return found > 0 ? static_cast<float>(std::clamp(confirmed / found, 0.0, 1.0)) : 0;
 }
 
-PaddedPlane pooled(const PaddedPlane& plane, ThreadPool& pool) { return box_mean(box_mean(plane, kLost, pool), kLost, pool); }
-
 using LostLight = std::array<ColorPlanes, 2>;  ///< by half
 
 /// What stands out in `half` and is not confirmed gives way to the mean around it.
@@ -79,6 +77,7 @@ void take_out(Halves& halves, std::size_t half, const Brightness& brightness, fl
     }
   });
 }
+
 }  // namespace
 
 Fireflies take_out_fireflies(Halves& halves, ThreadPool& pool) {
@@ -91,7 +90,7 @@ Fireflies take_out_fireflies(Halves& halves, ThreadPool& pool) {
   for (std::size_t c = 0; c < 3; ++c) {
     for (ColorPlanes& half : halves.values) half[c].extend();
     for (ColorPlanes& half : lost) half[c].extend();
-    const PaddedPlane even = pooled(lost[0][c], pool), odd = pooled(lost[1][c], pool);
+    const PaddedPlane even = smooth_mean(lost[0][c], kLost, pool), odd = smooth_mean(lost[1][c], kLost, pool);
     found.light[c] = make_plane(width, height, pool, [&](int x, int y) { return std::min(even.at(x, y), odd.at(x, y)); });
     found.differences[c] = make_plane(width, height, pool, [&](int x, int y) {
       const float difference = even.at(x, y) - odd.at(x, y);
@@ -105,14 +104,15 @@ void Fireflies::give_back(LightEstimate& filtered, ThreadPool& pool) const {
   const int width = errors[0].width(), height = errors[0].height();
   for (std::size_t c = 0; c < 3; ++c) {
     const auto positive = [&](int x, int y) { return std::max(filtered.values[c].at(x, y), 0.0f); };
-    const PaddedPlane around = pooled(make_plane(width, height, pool, positive), pool);
-    for (int y = 0; y < height; ++y) {
+    const PaddedPlane around = smooth_mean(make_plane(width, height, pool, positive), kLost, pool);
+    pool.for_each(static_cast<std::size_t>(height), 16, [&](std::size_t row) {
+      const int y = static_cast<int>(row);
       for (int x = 0; x < width; ++x) {
         const float share = around.at(x, y) > 0 ? std::min(positive(x, y) / around.at(x, y), 1.0f) : 0.0f;
         filtered.values[c].at(x, y) += share * light[c].at(x, y);
         filtered.mse[c].at(x, y) += errors[c].at(x, y) + share * share * differences[c].at(x, y);
       }
-    }
+    });
   }
 }
 

@@ -50,6 +50,11 @@ inline ColorPlanes color_planes(int width, int height) {
 /// Mean over the (2 radius + 1)^2 pixels around each, those beyond the edge being the nearest; radius <= kMargin.
 PaddedPlane box_mean(const PaddedPlane& plane, int radius, ThreadPool& pool);
 
+/// That of that: pixels count for less the farther they are.
+inline PaddedPlane smooth_mean(const PaddedPlane& plane, int radius, ThreadPool& pool) {
+  return box_mean(box_mean(plane, radius, pool), radius, pool);
+}
+
 /// Each pixel of a new plane, margin included: value(x, y).
 template <typename Value>
 PaddedPlane make_plane(int width, int height, ThreadPool& pool, const Value& value) {

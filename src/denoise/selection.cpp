@@ -23,9 +23,7 @@ struct Candidate {
   PaddedPlane leverage;
 };
 
-PaddedPlane pooled(const PaddedPlane& plane, ThreadPool& pool) {
-  return box_mean(box_mean(plane, kSmooth, pool), kSmooth, pool);
-}
+PaddedPlane pooled(const PaddedPlane& plane, ThreadPool& pool) { return smooth_mean(plane, kSmooth, pool); }
 
 double sum_of(const PaddedPlane& plane) {
   double sum = 0;
@@ -87,9 +85,7 @@ Candidate better_of(Candidate first, const Candidate& second, ThreadPool& pool) 
 /// of it does not count.
 PaddedPlane times_variance(const Candidate& filtered, const PaddedPlane& noise, ThreadPool& pool) {
   const int width = noise.width(), height = noise.height();
-  const auto of_region = [&](const auto& value) {
-    return box_mean(box_mean(make_plane(width, height, pool, value), kRegion, pool), kRegion, pool);
-  };
+  const auto of_region = [&](const auto& value) { return smooth_mean(make_plane(width, height, pool, value), kRegion, pool); };
   const auto per_noise = [&](const PaddedPlane& plane, int x, int y) {
     const float v = noise.at(x, y);
     return v > 0 ? std::max(std::min(plane.at(x, y) / v, kMostTimes), -kMostTimes) : 0.0f;

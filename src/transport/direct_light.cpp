@@ -38,7 +38,7 @@ float chance_of_tracing(const LightContext& context, const MediaState& media, co
   const float clearest = clearest_channel(there);
   if (!(clearest > 0)) return 1;
   const float depth = clearest * nearby_optical_depth(there, ray, end, kDeepest / clearest);
-  return std::clamp(guessed_transmittance(depth) / kFaint, kLeastChance, 1.0f);
+  return std::min(1.0f, std::max(kLeastChance, guessed_transmittance(depth) / kFaint));
 }
 
 /// How many of the groups that hold a point bring the medium whose emission the light is.

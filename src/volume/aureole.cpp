@@ -15,7 +15,7 @@ constexpr std::array<int, 9> kFirst{1, 2, 3, 5, 8, 13, 21, 34, Aureole::kMostOrd
 constexpr float kWidest = 0.1f;
 /// Phase functions that turn light more than this leave nothing of its direction to go by.
 constexpr float kLeastForward = 0.25f;
-/// What has been turned often comes from everywhere: twice and more where a sun shines on much of a medium, hardly where it
+/// What has been turned often comes from everywhere: twice and more where much of a medium is lit, hardly where a sun's light
 /// passes through (docs/measurements.md). Paths for which this is too little weigh more and more, and are then doubted.
 constexpr float kDiffuse = 1;
 /// Surfaces send light back too. What is not expected may still come: even light is what bounds the weights of paths that

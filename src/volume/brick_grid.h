@@ -74,11 +74,8 @@ class BrickGrid {
   /// Trilinear value of the first channel at t of a line in local coordinates; 0 outside.
   float lookup(const Line& line, double t) const {
     if (directory_.empty()) return lookup_by_tree(line, t);
-    std::uint32_t cell[3];
-    bool inside;
-    const BrickPoint point(line, t, bounds_, cell, inside);
-    if (!inside) return 0;
-    return bricks_.read(directory_.at(cell[0] >> kBrickLog2, cell[1] >> kBrickLog2, cell[2] >> kBrickLog2).plane, point);
+    return read_at(line, t,
+                   [&](const auto& plane, const BrickPoint& point, const auto&) { return bricks_.read(plane, point); });
   }
   /// At local point `p`.
   float lookup(const GridVec& p) const { return lookup(Line{{p[0], p[1], p[2], 0}, {}}, 0); }
@@ -89,13 +86,9 @@ class BrickGrid {
   /// Of the first channel at t of a line in local coordinates; 0 outside.
   float block_mean(const Line& line, double t) const {
     if (directory_.empty()) return block_mean_by_tree(line, t);
-    std::uint32_t cell[3];
-    bool inside;
-    const BrickPoint point(line, t, bounds_, cell, inside);
-    if (!inside) return 0;
-    const auto& plane = directory_.at(cell[0] >> kBrickLog2, cell[1] >> kBrickLog2, cell[2] >> kBrickLog2).plane;
-    if (plane.number == 0) return plane.decode.low;
-    return block_means_.mean(plane.number, BlockMeans::block_of(cell[0] & 7u, cell[1] & 7u, cell[2] & 7u));
+    return read_at(line, t, [&](const auto& plane, const BrickPoint&, const auto& cell) {
+      return mean_of(plane, BlockMeans::block_of(cell[0] & 7u, cell[1] & 7u, cell[2] & 7u));
+    });
   }
   /// Of eight places that are `beyond` farther, in single precision.
   Float8 block_means(const Line& line, double t, Float8 beyond) const;
@@ -103,6 +96,18 @@ class BrickGrid {
  private:
   friend class BrickGridBuilder;
   Index3 cell_of(const GridVec& p) const;
+  /// By the directory, 0 outside: read(plane, point, cell) of the brick that holds t of a line, the point in it, and its cell.
+  template <typename Read>
+  float read_at(const Line& line, double t, const Read& read) const {
+    std::uint32_t cell[3];
+    bool inside;
+    const BrickPoint point(line, t, bounds_, cell, inside);
+    if (!inside) return 0;
+    return read(directory_.at(cell[0] >> kBrickLog2, cell[1] >> kBrickLog2, cell[2] >> kBrickLog2).plane, point, cell);
+  }
+  float mean_of(const BrickStore::Plane& plane, std::size_t block) const {
+    return plane.number == 0 ? plane.decode.low : block_means_.mean(plane.number, block);
+  }
   float lookup_by_tree(const Line& line, double t) const;
   float block_mean_by_tree(const Line& line, double t) const;
 

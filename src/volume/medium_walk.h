@@ -91,7 +91,8 @@ class MediumWalk {
     const ValueSum values = reader_.sum(teeth.t, teeth.apart, teeth.count);
     const Rgb sigma_t = medium_->optics.sigma_a + medium_->optics.sigma_s;
     const Rgb low = sigma_t * values.min - control_, high = sigma_t * values.max - control_;
-    return {sigma_t * values.sum - control_ * static_cast<float>(teeth.count), std::max(largest(low), largest(high))};
+    return {sigma_t * values.sum - control_ * static_cast<float>(teeth.count),
+            std::max(kernel::max_abs(low), kernel::max_abs(high))};
   }
   /// The lobe of the last optics_at().
   void add_phase(PhaseMix& phase) const { phase.add(last_sigma_s_, medium_->optics.phase); }

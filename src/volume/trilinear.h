@@ -150,7 +150,7 @@ class BrickPoint {
 
 #endif
 
-/// Eight points of a brick that are evenly spaced along a line, each clamped to [0, 8]^3.
+/// Eight points of a brick that are evenly spaced along a line, each moved into [0, 8]^3.
 class BrickPoints {
  public:
   static constexpr int kCount = 8;
@@ -159,8 +159,9 @@ class BrickPoints {
   BrickPoints(const Line& line, double t, double step) {
     const auto axis = [&](int i, Float8& fraction) {
       const auto first = static_cast<float>(line.o[i] + t * line.d[i]), apart = static_cast<float>(step * line.d[i]);
-      const Float8 p = clamp(first + apart * count_to_8(), Float8(0.0f), Float8(kBrickCells));
-      const Int8 cell = clamp(std::experimental::static_simd_cast<Int8>(p), Int8(0), Int8(kBrickCells - 1));  // of NaN as well
+      const Float8 p = min(Float8(kBrickCells), max(Float8(0.0f), first + apart * count_to_8()));
+      const Int8 whole = std::experimental::static_simd_cast<Int8>(p);
+      const Int8 cell = min(Int8(kBrickCells - 1), max(Int8(0), whole));  // of NaN as well
       fraction = p - std::experimental::static_simd_cast<Float8>(cell);
       return cell;
     };

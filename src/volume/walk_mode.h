@@ -2,9 +2,8 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 
-#include "tyndall/math.h"
+#include "volume/tracking_kernel.h"
 
 namespace tyndall {
 
@@ -43,8 +42,6 @@ struct ExcessSum {
   float largest = 0;  ///< of one tooth and channel, either sign
 };
 
-inline float largest(Rgb c) { return max_component(Rgb{std::abs(c.r), std::abs(c.g), std::abs(c.b)}); }
-
 /// Read one by one.
 template <typename Walk>
 ExcessSum sum_of_each(Walk& walk, const Teeth& teeth) {
@@ -52,7 +49,7 @@ ExcessSum sum_of_each(Walk& walk, const Teeth& teeth) {
   for (int i = 0; i < teeth.count; ++i) {
     const Rgb excess = walk.excess_at(teeth.t + i * teeth.apart);
     result.sum += excess;
-    result.largest = std::max(result.largest, largest(excess));
+    result.largest = std::max(result.largest, kernel::max_abs(excess));
   }
   return result;
 }

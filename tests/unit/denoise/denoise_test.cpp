@@ -12,12 +12,10 @@
 namespace tyndall {
 namespace {
 
+using test::always;
 using test::FakeRender;
 using test::OfPixel;
 
-OfPixel always(float value) {
-  return [value](int, int) { return value; };
-}
 float wave(int x, int y) { return 2 + std::sin(0.2f * static_cast<float>(x)) * std::cos(0.15f * static_cast<float>(y)); }
 /// A texture whose contrast is a fifth of a sample's deviation.
 float stripes(int x, int) { return x / 3 % 2 == 0 ? 0.9f : 0.7f; }

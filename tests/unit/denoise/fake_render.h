@@ -16,6 +16,10 @@ inline float normal(Rng& rng) { return std::sqrt(-2 * std::log(1 - rng.uniform()
 /// One channel's truth, and the standard deviation of a sample.
 using OfPixel = std::function<float(int x, int y)>;
 
+inline OfPixel always(float value) {
+  return [value](int, int) { return value; };
+}
+
 struct FakeRender {
   int width = 48, height = 40, samples = 16;
   std::uint64_t seed = 1;

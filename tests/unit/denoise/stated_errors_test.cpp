@@ -14,12 +14,9 @@
 namespace tyndall {
 namespace {
 
+using test::always;
 using test::FakeRender;
 using test::OfPixel;
-
-OfPixel always(float value) {
-  return [value](int, int) { return value; };
-}
 
 /// To the even half, or to the odd one, of all channels.
 void add_to_half(Image& image, std::size_t i, bool even, float value) {

@@ -97,7 +97,7 @@ TEST_CASE("a look-up of one channel, of all and along a line are the same") {
   }
 }
 
-TEST_CASE("points of a brick read together are those read one by one, in it or clamped to it") {
+TEST_CASE("points of a brick read together are those read one by one, in it or moved into it") {
   const OracleSource source = test::random_voxels(14, {0, -8, 16});
   Rng rng(15);
   for (const bool floats : {false, true}) {

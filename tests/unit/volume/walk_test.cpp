@@ -172,7 +172,7 @@ double apart_together(Walk& walk, int& read, int& unbounded) {
     for (const int count : {1, 3, 8, 16}) {
       const Teeth teeth{walk.t(), (walk.t_end() - walk.t()) / count, count};
       const ExcessSum together = walk.excess_at(teeth), each = sum_of_each(walk, teeth);
-      worst = std::max(worst, double{largest(together.sum - each.sum)} / walk.rate());
+      worst = std::max(worst, double{kernel::max_abs(together.sum - each.sum)} / walk.rate());
       unbounded += together.largest < each.largest * (1 - 1e-5f) || together.largest > walk.rate() * (1 + 1e-6f) ? 1 : 0;
       ++read;
     }
