@@ -40,8 +40,7 @@ float BrickGrid::lookup_by_tree(const Line& line, double t) const {
 
 float BrickGrid::block_mean_by_tree(const Line& line, double t) const {
   float out[kMaxChannels] = {};
-  const GridVec p = line.at(t);
-  if (support_.contains(p)) block_mean(p, out);
+  block_mean(line.at(t), out);
   return out[0];
 }
 
@@ -69,7 +68,7 @@ Float8 BrickGrid::block_means(const Line& line, double t, Float8 beyond) const {
 
 void BrickGrid::block_mean(const GridVec& p, float* out) const {
   std::fill_n(out, channels(), 0.0f);
-  if (empty()) return;
+  if (empty() || !support_.contains(p)) return;
   const Index3 cell = cell_of(p);
   const auto inside = [&](std::size_t i) { return static_cast<unsigned>(cell[i]) & 7u; };
   const std::size_t block = BlockMeans::block_of(inside(0), inside(1), inside(2));

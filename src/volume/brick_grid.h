@@ -81,7 +81,7 @@ class BrickGrid {
   float lookup(const GridVec& p) const { return lookup(Line{{p[0], p[1], p[2], 0}, {}}, 0); }
   /// Of all channels, into `out`.
   void lookup(const GridVec& p, float* out) const;
-  /// Means of all channels over the block of cells that holds local point `p` in support(), rounded as BlockMeans says.
+  /// Means of all channels over the block of cells that holds local point `p`, rounded as BlockMeans says; 0 outside.
   void block_mean(const GridVec& p, float* out) const;
   /// Of the first channel at t of a line in local coordinates; 0 outside.
   float block_mean(const Line& line, double t) const {

@@ -55,6 +55,21 @@ TEST_CASE("look-ups agree with the dense oracle, anywhere in index space, for on
     }
 }
 
+TEST_CASE("beside a grid, by as little as rounding, the mean of a block is 0") {
+  Rng rng(3);
+  for (const int channels : {1, 3, 6}) {
+    const BrickGrid grid = build_brick_grid(test::random_voxels(11, kCorners[0], channels), {});
+    for (int i = 0; i < 3000; ++i) {
+      GridVec p = random_local(grid, rng, 0);
+      const int axis = i % 3;
+      p[axis] = i % 2 == 0 ? std::nextafter(grid.support().lo[axis], -1e9) : std::nextafter(grid.support().hi[axis], 1e9);
+      float means[kMaxChannels];
+      grid.block_mean(p, means);
+      for (int c = 0; c < channels; ++c) REQUIRE(means[c] == 0);
+    }
+  }
+}
+
 TEST_CASE("bricks far apart are found through the tree, without memory for what lies between them") {
   for (const int channels : {1, 3}) {
     OracleSource source(channels);
