@@ -91,7 +91,7 @@ struct AskedLights {
 
 /// Counts of a render. A correct render has 0 in the second group.
 struct RenderReport {
-  int samples = 0;                          ///< per pixel, done; with RenderSettings::adaptive in the mean, as everywhere
+  int samples = 0;                          ///< per pixel, done; with RenderSettings::adaptive the work of so many everywhere
   int least_samples = 0, most_samples = 0;  ///< of any pixel
   /// As RenderJob tells, and the largest of a block of 8 x 8 pixels, pooled with those around it. Infinity below 2 samples.
   double estimated_relmse = 0, worst_relmse = 0;
@@ -129,7 +129,9 @@ class RenderJob {
   /// leaves the pixels it finished, the others black (report().unrendered, and 0 in channel SampleCount).
   enum class GivenUp { spoilt, undone };
 
-  /// `samples` > 0 more for every pixel, with RenderSettings::adaptive in the mean. False: given up.
+  /// `samples` > 0 more for every pixel; with RenderSettings::adaptive their work, and on to the end of a step of 8, where it
+  /// has
+  /// 8. False: given up.
   bool advance(int samples, const PassWatch& watch = {}, GivenUp given_up = GivenUp::spoilt);
 
   /// The state at this pass end, at least 1 sample, as bytes for restore(). Ends in a checksum.

@@ -192,8 +192,8 @@ void declare(CLI::App& command, RenderOptions& o) {
   command
       .add_option(
           "--error", o.error,
-          "stop when the estimated relMSE, mean of variance / (mean^2 + 0.01), is below this; looked at when the "
-          "samples a pixel are 32, 40, 48, 56, 64, 72 ... in the mean, with --no-adaptive when they are 64, 128, 256 ... "
+          "stop when the estimated relMSE, mean of variance / (mean^2 + 0.01), is below this; looked at when "
+          "there is the work of 32, 40, 48, 56, 64, 72 ... samples a pixel, with --no-adaptive of 64, 128, 256 ... "
           "[none]; --error 0.001")
       ->check(positive());
   command
@@ -204,7 +204,7 @@ void declare(CLI::App& command, RenderOptions& o) {
       ->check(positive());
   command.add_flag_function(
       "--adaptive,!--no-adaptive", [&o](std::int64_t times) { o.adaptive = times > 0; },
-      "more samples where the error is, after 32 everywhere; --spp is then the most that a pixel gets [with "
+      "more samples where the error is, after 8 everywhere; --spp is then the most that a pixel gets [with "
       "--error or --error-max, else not]; --adaptive");
   command.add_option(
       "--slice", o.slice,

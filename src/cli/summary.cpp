@@ -15,7 +15,7 @@ std::string mebibytes(std::size_t bytes) { return fmt::format("{:.1f} MiB", stat
 /// Where not all pixels have as many.
 std::string range_of_samples(const RenderReport& r) {
   if (r.least_samples == r.most_samples) return {};
-  return fmt::format(" in the mean, {} to {}", r.least_samples, r.most_samples);
+  return fmt::format(" in work, {} to {} a pixel", r.least_samples, r.most_samples);
 }
 
 /// One sample a pixel tells no error.

@@ -163,7 +163,9 @@ void compare_channels(const Image& image, const Image& reference, const DiffSett
 
 }  // namespace
 
-bool is_statistic(const std::string& channel) { return channel.starts_with("Variance") || channel == "SampleCount"; }
+bool is_statistic(const std::string& channel) {
+  return channel.starts_with("Variance") || channel == "SampleCount" || channel == "SampleWeight";
+}
 
 ImageDiff compare_images(const Image& image, const Image& reference, const DiffSettings& settings) {
   require_known(image, reference, settings);

@@ -62,7 +62,7 @@ struct ImageDiff {
   std::optional<ImageTest> test;              ///< of R, G, B, when both have variances, none of them negative
 };
 
-/// Variance and SampleCount: channels (and groups) that describe a render and not its picture.
+/// Variance, SampleCount and SampleWeight: channels (and groups) that describe a render and not its picture.
 bool is_statistic(const std::string& channel);
 
 /// Throws Error (usage) when a channel asked for is in neither image, or a setting is out of its range.

@@ -19,6 +19,7 @@ std::string prefix_of(const std::string& channel) {
 MergeSum::Rule MergeSum::rule_of(const std::string& name) {
   const std::string channel = name.substr(prefix_of(name).size());
   if (channel == "SampleCount") return Rule::samples;
+  if (channel == "SampleWeight") return Rule::weight;
   if (channel == "SurfaceCount" || channel == "VolumeCount") return Rule::sum;
   if (channel == "Z" || channel.starts_with("P.")) return Rule::surface_mean;
   if (channel == "Zvol") return Rule::volume_mean;
@@ -34,7 +35,8 @@ MergeSum::MergeSum(PixelBounds box, const Image& header) : box_(box) {
   for (const std::string_view layer : kMatteLayers) {
     if (has_mattes(header, layer)) mattes_.emplace_back(layer, box.size());
   }
-  add_plane("SampleCount");
+  for (const char* name : {"SampleCount", "SampleWeight"}) add_plane(name);
+  if (header.find("Replicate.SampleCount")) add_plane("Replicate.SampleWeight");
   for (const std::string suffix : {"R", "G", "B"}) {
     if (header.find("Variance." + suffix)) add_plane("Dof." + suffix);
   }
@@ -50,14 +52,27 @@ const MergeSum::Plane* MergeSum::find(const std::string& name) const {
   return found == planes_.end() ? nullptr : &*found;
 }
 
-void MergeSum::add(const Image& slice, int samples) {
-  const Channel* given = slice.find("SampleCount");
+MergeSum::Weights MergeSum::weights_in(const Image& slice, int samples) {
+  const auto values = [&](const std::string& name, const std::vector<float>& otherwise) {
+    const Channel* channel = slice.find(name);
+    return channel ? channel->values : otherwise;
+  };
   const auto pixels = static_cast<std::size_t>(slice.width()) * static_cast<std::size_t>(slice.height());
-  const std::vector<float> counts = given ? given->values : std::vector<float>(pixels, static_cast<float>(samples));
-  for (Plane& plane : planes_) add_channel(plane, slice, counts);
+  Weights weights{
+      .counts = values("SampleCount", std::vector<float>(pixels, static_cast<float>(samples))), .all = {}, .even = {}};
+  weights.all = values("SampleWeight", weights.counts);
+  weights.even = values("Replicate.SampleWeight", values("Replicate.SampleCount", {}));
+  return weights;
+}
+
+void MergeSum::add(const Image& slice, int samples) {
+  const Weights weights = weights_in(slice, samples);
+  weighted_ = weighted_ || slice.find("SampleWeight");
+  for (Plane& plane : planes_) add_channel(plane, slice, weights);
   for (MatteSum& sum : mattes_) {
     const MatteReader mattes(slice, sum.layer());
-    for (std::size_t i = 0; i < pixels; ++i) sum.add(place_in_box(slice, i), mattes.at(i), static_cast<double>(counts[i]));
+    for (std::size_t i = 0; i < weights.all.size(); ++i)
+      sum.add(place_in_box(slice, i), mattes.at(i), static_cast<double>(weights.all[i]));
   }
 }
 
@@ -66,7 +81,7 @@ std::size_t MergeSum::place_in_box(const Image& slice, std::size_t i) const {
   return box_.index(slice.data.x0 + static_cast<int>(i % width), slice.data.y0 + static_cast<int>(i / width));
 }
 
-void MergeSum::add_channel(Plane& plane, const Image& slice, const std::vector<float>& counts) const {
+void MergeSum::add_channel(Plane& plane, const Image& slice, const Weights& weights) const {
   const auto values_of = [&](const std::string& name) {
     const Channel* channel = slice.find(name);
     return channel ? channel->values.data() : nullptr;
@@ -75,9 +90,10 @@ void MergeSum::add_channel(Plane& plane, const Image& slice, const std::vector<f
   const float* values = values_of(plane.name);
   const float* surface = values_of(prefix + "SurfaceCount");
   const float* volume = values_of(prefix + "VolumeCount");
-  const float* samples = prefix.empty() ? counts.data() : values_of(prefix + "SampleCount");
+  const float* weight = prefix.empty() ? weights.all.data() : weights.even.data();
+  const float* count = prefix.empty() ? weights.counts.data() : values;
   const auto term = [&](std::size_t i) -> double {
-    const double n = samples[i];
+    const double n = weight[i];
     switch (plane.rule) {
       case Rule::mean:
         return n * values[i];
@@ -90,14 +106,16 @@ void MergeSum::add_channel(Plane& plane, const Image& slice, const std::vector<f
       case Rule::variance:
         return n * n * values[i];
       case Rule::samples:
+        return count[i];
+      case Rule::weight:
         return n;
       case Rule::dof:
         return n * n / (values ? values[i] : 1.0);
     }
     return 0;
   };
-  for (std::size_t i = 0; i < counts.size(); ++i) {
-    if (counts[i] > 0) plane.sums[place_in_box(slice, i)] += term(i);  // else left black by an earlier merge
+  for (std::size_t i = 0; i < weights.counts.size(); ++i) {
+    if (weights.counts[i] > 0) plane.sums[place_in_box(slice, i)] += term(i);  // else left black by an earlier merge
   }
 }
 
@@ -111,9 +129,10 @@ const std::vector<double>* MergeSum::weights_of(const Plane& plane) const {
       return &find(prefix + "VolumeCount")->sums;
     case Rule::sum:
     case Rule::samples:
+    case Rule::weight:
       return nullptr;
     default:
-      return &find(prefix + "SampleCount")->sums;
+      return &find(prefix + "SampleWeight")->sums;
   }
 }
 
@@ -121,6 +140,7 @@ Image MergeSum::result() const {
   Image image;
   image.data = image.display = box_;
   for (const Plane& plane : planes_) {
+    if (plane.rule == Rule::weight && !weighted_) continue;
     std::vector<float>& values = image.add_channel(plane.name).values;
     const std::vector<double>* weights = weights_of(plane);
     for (std::size_t i = 0; i < values.size(); ++i) {
@@ -130,7 +150,7 @@ Image MergeSum::result() const {
       values[i] = static_cast<float>(value);
     }
   }
-  for (const MatteSum& sum : mattes_) sum.store(image, find("SampleCount")->sums);
+  for (const MatteSum& sum : mattes_) sum.store(image, find("SampleWeight")->sums);
   return image;
 }
 

@@ -13,7 +13,8 @@ namespace tyndall {
 /// The double sums behind merge_slices, which says what is summed how.
 class MergeSum {
  public:
-  /// Over the pixels of `box`; the channels of `header`, SampleCount, and Dof.R .. beside Variance.R ..
+  /// Over the pixels of `box`; the channels of `header`, SampleCount, SampleWeight where slices have it, and Dof.R .. beside
+  /// Variance.R ..
   MergeSum(PixelBounds box, const Image& header);
 
   /// A slice that lies within the box and has these channels. `samples`: in every pixel, where it has no SampleCount.
@@ -22,15 +23,16 @@ class MergeSum {
   Image result() const;  ///< windows and channels; display = data
 
  private:
-  /// What a channel's sum is of, x the channel's value, n the pixel's sample count. Means over the even samples are counted by
-  /// channels with the same prefix, "Replicate.".
+  /// What a channel's sum is of, x the channel's value, n what the pixel weighs: SampleWeight, where that is told, else its
+  /// sample count. Means over the even samples are weighed by channels with the same prefix, "Replicate.".
   enum class Rule {
     mean,          ///< n x
     surface_mean,  ///< SurfaceCount x
     volume_mean,   ///< VolumeCount x
     sum,           ///< x
     variance,      ///< n^2 x
-    samples,       ///< n
+    samples,       ///< the sample count
+    weight,        ///< n
     dof,           ///< n^2 / x
   };
   struct Plane {
@@ -41,7 +43,12 @@ class MergeSum {
 
   static Rule rule_of(const std::string& channel);
   void add_plane(const std::string& name);
-  void add_channel(Plane& plane, const Image& slice, const std::vector<float>& counts) const;
+  /// Of a slice.
+  struct Weights {
+    std::vector<float> counts, all, even;  ///< samples; what means over all and over the even ones weigh
+  };
+  static Weights weights_in(const Image& slice, int samples);
+  void add_channel(Plane& plane, const Image& slice, const Weights& weights) const;
   const std::vector<double>* weights_of(const Plane& plane) const;
   const Plane* find(const std::string& name) const;
 
@@ -50,6 +57,7 @@ class MergeSum {
 
   PixelBounds box_;
   std::vector<Plane> planes_;
+  bool weighted_ = false;         ///< some slice tells SampleWeight
   std::vector<MatteSum> mattes_;  ///< of the layers of the header
 };
 

@@ -133,7 +133,7 @@ void require_new_samples(const std::vector<Slice>& slices) {
 }  // namespace
 
 bool is_shared_channel(const std::string& name) {
-  return name != "SampleCount" && !name.starts_with("Dof.") && !name.starts_with("Sum.");
+  return name != "SampleCount" && !name.ends_with("SampleWeight") && !name.starts_with("Dof.") && !name.starts_with("Sum.");
 }
 
 bool are_of_one_render(const std::vector<Slice>& slices) {

@@ -10,22 +10,19 @@ namespace tyndall {
 
 /// What is known of a block of pixels.
 struct BlockNoise {
-  double error = 0;   ///< over its pixels, the sum of the relative variance of one sample
+  double error = 0;   ///< sum over its pixels of their relative variance
   double pixels = 0;  ///< in the block
-  double work = 0;    ///< of a sample of all of them, in any unit
-  int samples = 0;    ///< of each pixel, so far
 };
 
-/// Over all pixels, of the relative variance with the samples that they have.
+/// Over all pixels.
 double mean_error(std::span<const BlockNoise> blocks);
-/// The same of each block with those around it, as pooled_error() weights them.
-std::vector<double> errors_around(std::vector<BlockNoise> blocks, int across);
-/// The largest of these.
-double worst_error(std::vector<BlockNoise> blocks, int across);
-
-/// The mean over a block, number `at`, and the eight around it, weighted 4, 2 and 1 by distance, of the relative variance of
-/// one sample of a pixel. By itself a block would have few degrees of freedom, and its samples would decide their own number.
+/// That of a block, number `at`, and the eight around it, weighted 4, 2 and 1 by distance. By itself a block would have few
+/// degrees of freedom.
 double pooled_error(std::span<const BlockNoise> blocks, int across, int at);
+/// The same of each block.
+std::vector<double> errors_around(std::span<const BlockNoise> blocks, int across);
+/// The largest of these.
+double worst_error(std::span<const BlockNoise> blocks, int across);
 
 /// Below which errors shall be.
 struct ErrorGoal {
@@ -33,19 +30,15 @@ struct ErrorGoal {
   double worst = kInfinity;  ///< worst_error()
 };
 
-struct SampleBudget {
-  double mean = 0;  ///< samples a pixel of the frame
-  int most = 0;     ///< samples that any pixel may have
-  ErrorGoal goal{};
+/// A block that is to have samples.
+struct BlockShare {
+  double amount = 0;        ///< in proportion to which
+  double work = 0;          ///< of a sample of all its pixels, in any unit
+  int least = 2, most = 2;  ///< samples a pixel, even numbers
 };
 
-/// Samples for each block, an even number, at least as many as it has, in the mean over pixels as the budget says: in
-/// proportion to sqrt(error / work), which makes the sum of error / samples least for the work it takes [Cochran 1977, 5.5].
-/// At least a quarter of the mean, so that what was missed can still be found, and at most four times what the block has, so
-/// that what was seen by chance is not taken for sure.
-/// With a goal for the worst error each block gets at least what that takes, error / goal, which keeps the above a least under
-/// this constraint. Where the budget is too small for that, or nothing but that is missing, in proportion to the error alone,
-/// which makes the largest one least.
-std::vector<int> allot(std::span<const BlockNoise> blocks, int across, const SampleBudget& budget);
+/// Samples a pixel for each block: even numbers, which together take as much work as `everywhere` samples of each, or less by
+/// as little as even numbers allow.
+std::vector<int> allot(std::span<const BlockShare> blocks, int everywhere);
 
 }  // namespace tyndall

@@ -24,7 +24,7 @@ void BlockRender::render_apart(const PixelBlock& block, SampleSpan samples, cons
     for (int s = samples.begin; s < samples.end; ++s) {
       scratch.group.clear();
       scratch.group.add(shared_.context, key_of(p, s), film, scratch.counters);
-      add_to_film(scratch);
+      add_to_film(scratch, samples.share);
     }
   }
 }
@@ -34,11 +34,11 @@ void BlockRender::render_shared(const PixelBlock& block, SampleSpan samples, con
   for (int s = samples.begin; s < samples.end; ++s) {
     scratch.group.clear();
     for (const PixelPlace p : block.pixels()) scratch.group.add(shared_.context, key_of(p, s), film_of(p), scratch.counters);
-    add_to_film(scratch);
+    add_to_film(scratch, samples.share);
   }
 }
 
-void BlockRender::add_to_film(const Scratch& scratch) const {
+void BlockRender::add_to_film(const Scratch& scratch, float share) const {
   auto& [group, counters] = scratch;
   FilmBuffer& film = shared_.film;
   group.run(shared_.context, counters);
@@ -57,14 +57,14 @@ void BlockRender::add_to_film(const Scratch& scratch) const {
       record.alpha = 0;
       groups = {};
     }
-    film.add(key.x, key.y, key.sample, record, sample.weight());
-    if (!groups.empty()) film.add_groups({key.x, key.y, key.sample}, record.radiance(), groups, sample.weight());
-    if (finite) add_seen(sample);
+    const FilmBuffer::SamplePlace at{key.x, key.y, key.sample, share};
+    film.add(at, record, sample.weight());
+    if (!groups.empty()) film.add_groups(at, record.radiance(), groups, sample.weight());
+    if (finite) add_seen(sample, at);
   }
 }
 
-void BlockRender::add_seen(const PixelSample& sample) const {
-  const FilmBuffer::SamplePlace at{sample.key().x, sample.key().y, sample.key().sample};
+void BlockRender::add_seen(const PixelSample& sample, const FilmBuffer::SamplePlace& at) const {
   if (sample.matte()) shared_.mattes.add(shared_.film, at, *sample.matte(), sample.weight());
   shared_.film.add_deep(at, sample.by_depth(), sample.weight());
 }

@@ -13,6 +13,7 @@ namespace tyndall {
 /// Of a pixel in a pass: [begin, end).
 struct SampleSpan {
   int begin, end;
+  float share = 1;  ///< FilmBuffer::SamplePlace::share of each
 };
 
 class BlockRender {
@@ -41,8 +42,8 @@ class BlockRender {
   SampleKey key_of(PixelPlace p, int sample) const;
   void render_apart(const PixelBlock& block, SampleSpan samples, const Scratch& scratch) const;
   void render_shared(const PixelBlock& block, SampleSpan samples, const Scratch& scratch) const;
-  void add_to_film(const Scratch& scratch) const;
-  void add_seen(const PixelSample& sample) const;
+  void add_to_film(const Scratch& scratch, float share) const;
+  void add_seen(const PixelSample& sample, const FilmBuffer::SamplePlace& at) const;
 
   Shared shared_;
 };

@@ -86,19 +86,21 @@ void FilmBuffer::clear(const PixelBounds& tile) {
   for (KeyedSums& sums : keyed_) sums.clear(crop_, tile);
 }
 
-void FilmBuffer::add(int x, int y, int sample, const PathRecord& record, float weight) {
-  const std::size_t first = first_of(x, y);
-  add3(first + ((sample & 1) ? kOdd : kEven), record.radiance(), weight);
+void FilmBuffer::add(const SamplePlace& at, const PathRecord& record, float weight) {
+  const std::size_t first = first_of(at.x, at.y);
+  weight *= at.share;
+  add3(first + ((at.sample & 1) ? kOdd : kEven), record.radiance(), weight);
   sums_.add(first + kAlpha, record.alpha * weight);
-  const bool twice = replicate_ && !(sample & 1);
+  const bool twice = replicate_ && !(at.sample & 1);
   for (std::size_t i = 0; i < aovs_.size(); ++i) {
-    add_aov(aovs_[i], first + offsets_[i], record, weight);
-    if (twice) add_aov(aovs_[i], first + offsets_[i] + sums_of(aovs_[i]), record, weight);
+    add_aov(aovs_[i], first + offsets_[i], record, weight, at.share);
+    if (twice) add_aov(aovs_[i], first + offsets_[i] + sums_of(aovs_[i]), record, weight, at.share);
   }
 }
 
 void FilmBuffer::add_groups(const SamplePlace& at, Rgb radiance, std::span<const Rgb> by_group, float weight) {
   const std::size_t first = first_of(at.x, at.y) + first_group_ + ((at.sample & 1) ? kOdd : kEven);
+  weight *= at.share;
   for (int k = 0; k < 3; ++k) {
     double rest = radiance[k] * weight, light = 0;
     std::size_t brightest = 0;
@@ -120,7 +122,7 @@ void FilmBuffer::add3(std::size_t first, float x, float y, float z, float weight
   sums_.add(first + 2, z * weight);
 }
 
-void FilmBuffer::add_aov(Aov aov, std::size_t first, const PathRecord& r, float weight) {
+void FilmBuffer::add_aov(Aov aov, std::size_t first, const PathRecord& r, float weight, float share) {
   switch (aov) {
     case Aov::albedo:
       return add3(first, r.albedo, weight);
@@ -138,15 +140,15 @@ void FilmBuffer::add_aov(Aov aov, std::size_t first, const PathRecord& r, float 
       return add3(first, r.volume_indirect, weight);
     case Aov::emission:
       return add3(first, r.emission, weight);
-    // Positions are means over the samples that have one, unweighted: a filter's negative lobe makes no sense here.
+    // Positions are means over the samples that have one, whatever the filter: its negative lobe makes no sense here.
     case Aov::p:
-      if (r.hit_surface) add3(first, r.p.x, r.p.y, r.p.z, 1), sums_.add(first + 3, 1);
+      if (r.hit_surface) add3(first, r.p.x, r.p.y, r.p.z, share), sums_.add(first + 3, share);
       return;
     case Aov::z:
-      if (r.hit_surface) sums_.add(first, r.z), sums_.add(first + 1, 1);
+      if (r.hit_surface) sums_.add(first, r.z * share), sums_.add(first + 1, share);
       return;
     case Aov::z_volume:
-      if (r.hit_volume) sums_.add(first, r.z_volume), sums_.add(first + 1, 1);
+      if (r.hit_volume) sums_.add(first, r.z_volume * share), sums_.add(first + 1, share);
       return;
     case Aov::variance:
     case Aov::sample_count:
@@ -171,7 +173,7 @@ void FilmBuffer::store_color(Image& image, const std::string& name, std::size_t 
   for (std::size_t i = 0; i < pixels; ++i) {
     const auto mean = [&](std::size_t k) {
       const double odd = halves == Halves::apart && !means.even_only ? sum(i, offset + kOdd + k) : 0;
-      return static_cast<float>((sum(i, offset + k) + odd) / means.count(i));
+      return static_cast<float>((sum(i, offset + k) + odd) / means.count());
     };
     const Rgb c = to_film_space({mean(0), mean(1), mean(2)});
     for (int k = 0; k < 3; ++k) image.channels[first + k].values[i] = c[k];
@@ -207,9 +209,9 @@ void FilmBuffer::store_aov(Image& image, Aov aov, std::size_t offset, const Mean
   for (std::size_t i = 0; i < pixels; ++i) {
     const auto s = [&](std::size_t k) { return sum(i, offset + k); };
     if (aov == Aov::sample_count) {
-      image.channels[first].values[i] = static_cast<float>(means.samples.of(i));
+      image.channels[first].values[i] = static_cast<float>(means.paths_of(i));
     } else if (vector) {
-      const double count = aov == Aov::n ? means.count(i) : std::max(s(3), 1.0);
+      const double count = aov == Aov::n ? means.count() : std::max(s(3), 1.0);
       for (int k = 0; k < 3; ++k)
         image.channels[first + k].values[i] = static_cast<float>(s(static_cast<std::size_t>(k)) / count);
     } else {
@@ -283,24 +285,35 @@ void FilmBuffer::store_groups(Image& image, const Means& means) const {
   }
 }
 
-Image FilmBuffer::image(const SampleCounts& samples) const {
+/// Without SampleCount of all samples, which is an AOV.
+void FilmBuffer::store_paths(Image& image, const Means& means) const {
+  if (means.even_only) {
+    std::vector<float>& count = image.add_channel(means.prefix + "SampleCount").values;
+    for (std::size_t i = 0; i < count.size(); ++i) count[i] = static_cast<float>(means.paths_of(i));
+  }
+  if (means.paths.empty()) return;
+  for (float& weight : image.add_channel(means.prefix + "SampleWeight").values) weight = static_cast<float>(means.count());
+}
+
+Image FilmBuffer::image(int samples, std::span<const int> paths) const {
   Image image;
   image.data = crop_;
   image.display = {0, 0, film_.width, film_.height};
   image.chromaticities = film_.chromaticities;
-  store_color(image, "", kEven, {"", samples}, Halves::apart);
+  const Means all{"", samples, paths};
+  store_color(image, "", kEven, all, Halves::apart);
   Channel& alpha = image.add_channel("A");
   for (std::size_t i = 0; i < alpha.values.size(); ++i) {
-    alpha.values[i] = static_cast<float>(sum(i, kAlpha) / samples.of(i));
+    alpha.values[i] = static_cast<float>(sum(i, kAlpha) / samples);
   }
-  store_means(image, {"", samples});
+  store_means(image, all);
+  store_paths(image, all);
   store_mattes(image, samples);
   if (!replicate_) return image;
-  const Means even{"Replicate.", samples, true};
+  const Means even{"Replicate.", samples, paths, true};
   store_color(image, "", kEven, even, Halves::apart);
   store_means(image, even);
-  std::vector<float>& count = image.add_channel("Replicate.SampleCount").values;
-  for (std::size_t i = 0; i < count.size(); ++i) count[i] = static_cast<float>(even.count(i));
+  store_paths(image, even);
   return image;
 }
 

@@ -12,7 +12,6 @@
 #include "session/deep_layout.h"
 #include "session/film_sums.h"
 #include "session/keyed_sums.h"
-#include "session/sample_counts.h"
 #include "transport/deep_sample.h"
 #include "transport/path_record.h"
 #include "tyndall/cryptomatte.h"
@@ -21,6 +20,9 @@
 #include "tyndall/scene.h"
 
 namespace tyndall {
+
+/// Samples of a pixel of which the odd ones are left out.
+inline int even_of(int samples) { return samples - samples / 2; }
 
 /// What a FilmBuffer holds of a few pixels.
 struct FilmTile {
@@ -47,12 +49,12 @@ class FilmBuffer {
   const PixelBounds& crop() const { return crop_; }
   const Film& film() const { return film_; }
 
-  /// Add sample number `sample` of pixel (x, y) of the full frame, weighted by the pixel filter.
-  void add(int x, int y, int sample, const PathRecord& record, float weight);
-
   struct SamplePlace {
-    int x, y, sample;
+    int x, y, sample;  ///< its number, in pixel (x, y) of the full frame
+    float share = 1;   ///< of how many samples of the mean it is, where pixels have different numbers (SamplePlan::share)
   };
+  /// Add a sample, weighted by the pixel filter.
+  void add(const SamplePlace& at, const PathRecord& record, float weight);
   /// The same sample by light groups, one for each. What rounding makes their sum differ from `radiance` by goes to the
   /// brightest of them, so that the sums of the groups are those of R G B.
   void add_groups(const SamplePlace& at, Rgb radiance, std::span<const Rgb> by_group, float weight);
@@ -75,13 +77,14 @@ class FilmBuffer {
   void restore(const PixelBounds& tile, const FilmTile& sums);
   void clear(const PixelBounds& tile);
 
-  /// Means of the `samples` that each pixel has received, in the film's colour space. Beside P and Z stands
+  /// Means over `samples` of each pixel, in the film's colour space. `paths`: how many it has had in their place, where that
+  /// differs; the channel SampleWeight then tells `samples`. Beside P and Z stands
   /// SurfaceCount, beside Zvol VolumeCount: over how many samples their means are, so that renders can be merged. With
   /// Aov::replicate each channel that is a mean comes a second time, as "Replicate.R" and so on: over the even samples. Light
   /// groups are "LightGroup.key.R" and so on, with Aov::variance "Variance.LightGroup.key.R".
-  Image image(const SampleCounts& samples) const;
+  Image image(int samples, std::span<const int> paths = {}) const;
   /// The same in depth; nothing where that was not asked for. Attributes are the caller's.
-  std::optional<DeepImage> deep_image(const SampleCounts& samples) const;
+  std::optional<DeepImage> deep_image(int samples) const;
 
   /// The exact sums as channels "Sum.N.high", ".mid" and ".low", floats that add up to sum number N; and back, added to those
   /// here: of an image of the same crop that has_sums().
@@ -90,8 +93,8 @@ class FilmBuffer {
   void add_sums(const Image& image);
 
   /// Mean of variance / (mean^2 + 0.01) over pixels and channels, as the two replicates tell; infinity for samples < 2.
-  double estimated_relmse(const SampleCounts& samples) const;
-  /// Of a block of pixels with so many samples each, 2 or more.
+  double estimated_relmse(int samples) const;
+  /// Of a block of pixels that are means over so many samples, 2 or more.
   BlockNoise noise(const PixelBounds& block, int samples) const;
 
  private:
@@ -100,14 +103,19 @@ class FilmBuffer {
   double sum(std::size_t pixel, std::size_t offset) const { return sums_.value(pixel * stride_ + offset); }
   void add3(std::size_t first, float x, float y, float z, float weight);
   void add3(std::size_t first, Rgb c, float weight) { add3(first, c.r, c.g, c.b, weight); }
-  void add_aov(Aov aov, std::size_t first, const PathRecord& record, float weight);
+  void add_aov(Aov aov, std::size_t first, const PathRecord& record, float weight, float share);
   /// Which samples the channels of an image are means of.
   struct Means {
     std::string prefix;  ///< of the channels
-    const SampleCounts& samples;
+    int samples;
+    std::span<const int> paths;
     bool even_only = false;
 
-    int count(std::size_t pixel) const { return even_only ? even_of(samples.of(pixel)) : samples.of(pixel); }
+    int count() const { return even_only ? even_of(samples) : samples; }
+    int paths_of(std::size_t pixel) const {
+      const int all = paths.empty() ? samples : paths[pixel];
+      return even_only ? even_of(all) : all;
+    }
   };
   void store_means(Image& image, const Means& means) const;
   /// Sums at `offset`; light that is summed by halves has those of the odd samples after those of the even ones.
@@ -115,16 +123,17 @@ class FilmBuffer {
   void store_color(Image& image, const std::string& name, std::size_t offset, const Means& means, Halves halves) const;
   void store_ratio(Image& image, const std::string& name, std::size_t offset, const Means& means) const;
   void store_aov(Image& image, Aov aov, std::size_t offset, const Means& means) const;
-  void store_variance(Image& image, const std::string& name, std::size_t offset, const SampleCounts& samples) const;
+  void store_variance(Image& image, const std::string& name, std::size_t offset, int samples) const;
   /// Of the means of even and odd samples, at `offset`; of a pixel with one sample, its mean.
   Rgb difference(std::size_t pixel, std::size_t offset, int samples) const;
   void store_groups(Image& image, const Means& means) const;
-  void store_mattes(Image& image, const SampleCounts& samples) const;
+  void store_mattes(Image& image, int samples) const;
   void store_keyed(Image& image) const;
   void add_keyed(const Image& image);
   std::string keyed_name(std::size_t layer) const;
   void store_count(Image& image, const std::string& name, std::size_t offset) const;
   void store_counts(Image& image, const Means& means) const;
+  void store_paths(Image& image, const Means& means) const;
   /// By channel.
   struct PixelNoise {
     std::array<double, 3> mean, variance;  ///< of all samples, and that mean's variance

@@ -90,14 +90,14 @@ std::vector<DeepPixelSample> samples_of(const Places& places) {
 
 }  // namespace
 
-std::optional<DeepImage> FilmBuffer::deep_image(const SampleCounts& samples) const {
+std::optional<DeepImage> FilmBuffer::deep_image(int samples) const {
   if (!deep_) return std::nullopt;
   DeepImage image;
   image.data = crop_;
   image.display = {0, 0, film_.width, film_.height};
   image.chromaticities = film_.chromaticities;
   for (std::size_t pixel = 0; pixel < crop_.size(); ++pixel) {
-    std::vector<DeepPixelSample> found = samples_of(Places(keyed_.back(), pixel, *deep_, samples.of(pixel)));
+    std::vector<DeepPixelSample> found = samples_of(Places(keyed_.back(), pixel, *deep_, samples));
     for (DeepPixelSample& sample : found) {
       const Rgb c = to_film_space({sample.rgba[0], sample.rgba[1], sample.rgba[2]});
       std::copy_n(&c.r, 3, sample.rgba.begin());

@@ -14,11 +14,11 @@ constexpr std::size_t kMatteRanksOfSlice = 12;
 
 void FilmBuffer::add_matte(const SamplePlace& at, Aov layer, MatteCoverage cover, float weight) {
   const auto i = std::find(mattes_.begin(), mattes_.end(), layer) - mattes_.begin();
-  const float term = cover.coverage * weight;
+  const float term = cover.coverage * weight * at.share;
   if (term != 0) keyed_[static_cast<std::size_t>(i)].add(crop_.index(at.x, at.y), cover.id, {&term, 1});
 }
 
-void FilmBuffer::store_mattes(Image& image, const SampleCounts& samples) const {
+void FilmBuffer::store_mattes(Image& image, int samples) const {
   for (std::size_t layer = 0; layer < mattes_.size(); ++layer) {
     MatteWriter writer(image, name_of_aov(mattes_[layer]));
     const KeyedSums& sums = keyed_[layer];
@@ -26,16 +26,17 @@ void FilmBuffer::store_mattes(Image& image, const SampleCounts& samples) const {
     for (std::size_t pixel = 0; pixel < sums.pixels(); ++pixel) {
       covers.clear();
       for (std::size_t i = 0; i < sums.size(pixel); ++i)
-        covers.push_back({sums.key(pixel, i), static_cast<float>(sums.value(pixel, i, 0) / samples.of(pixel))});
+        covers.push_back({sums.key(pixel, i), static_cast<float>(sums.value(pixel, i, 0) / samples)});
       writer.set(pixel, covers);
     }
   }
 }
 
 void FilmBuffer::add_deep(const SamplePlace& at, std::span<const DeepSample::Part> parts, float weight) {
+  weight *= at.share;
   for (const DeepSample::Part& part : parts) {
-    const std::array<float, kSumsOfDepth> terms{
-        part.light.r * weight, part.light.g * weight, part.light.b * weight, part.opacity * weight, part.z, part.count};
+    const std::array<float, kSumsOfDepth> terms{part.light.r * weight, part.light.g * weight, part.light.b * weight,
+                                                part.opacity * weight, part.z * at.share,     part.count * at.share};
     keyed_.back().add(crop_.index(at.x, at.y), part.key, terms);
   }
 }

@@ -45,24 +45,23 @@ Rgb FilmBuffer::difference(std::size_t pixel, std::size_t offset, int samples) c
 }
 
 /// `offset`: of sums by halves.
-void FilmBuffer::store_variance(Image& image, const std::string& name, std::size_t offset, const SampleCounts& samples) const {
+void FilmBuffer::store_variance(Image& image, const std::string& name, std::size_t offset, int samples) const {
   const std::size_t first = image.channels.size();
   for (const char* suffix : {"R", "G", "B"}) image.add_channel("Variance." + name + suffix);
   const std::size_t pixels = image.channels[first].values.size();
+  const float factor = variance_factor(samples);
   for (std::size_t i = 0; i < pixels; ++i) {
-    const float factor = variance_factor(samples.of(i));
-    const Rgb d = difference(i, offset, samples.of(i));
+    const Rgb d = difference(i, offset, samples);
     for (int k = 0; k < 3; ++k) image.channels[first + k].values[i] = d[k] * d[k] * factor;
   }
 }
 
-double FilmBuffer::estimated_relmse(const SampleCounts& samples) const {
-  if (samples.least() < 2) return kInfinity;
+double FilmBuffer::estimated_relmse(int samples) const {
+  if (samples < 2) return kInfinity;
   const BlockGrid grid(crop_);
   std::vector<BlockNoise> blocks;
   for (std::size_t b = 0; b < grid.size(); ++b) {
-    const PixelBounds pixels = grid.pixels(b);
-    blocks.push_back(noise(pixels, samples.of(crop_.index(pixels.x0, pixels.y0))));
+    blocks.push_back(noise(grid.pixels(b), samples));
   }
   return mean_error(blocks);
 }
@@ -74,7 +73,7 @@ BlockNoise FilmBuffer::noise(const PixelBounds& block, int samples) const {
   for (int y = block.y0; y < block.y1; ++y) {
     for (int x = block.x0; x < block.x1; ++x) pixels.push_back(noise_of(crop_.index(x, y), samples));
   }
-  BlockNoise noise{.pixels = static_cast<double>(pixels.size()), .samples = samples};
+  BlockNoise noise{.pixels = static_cast<double>(pixels.size())};
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     for (std::size_t k = 0; k < 3; ++k) {
       const auto around = [&](std::array<double, 3> PixelNoise::*value) {
@@ -83,7 +82,7 @@ BlockNoise FilmBuffer::noise(const PixelBounds& block, int samples) const {
       const double v = pixels[i].variance[k], off = pixels[i].mean[k] - around(&PixelNoise::mean);
       const double doubt = v > 0 ? std::min(1.0, v / (off * off)) : 0.0;
       const double square = pixels[i].square[k] + doubt * (around(&PixelNoise::square) - pixels[i].square[k]);
-      noise.error += samples * v / (std::max(square, 0.0) + kRelativeEpsilon) / 3;
+      noise.error += v / (std::max(square, 0.0) + kRelativeEpsilon) / 3;
     }
   }
   return noise;

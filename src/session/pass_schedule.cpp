@@ -20,7 +20,7 @@ int samples_to_next_checkpoint(int samples) {
 
 /// Between looks at the error of an adaptive render, which has as many samples.
 int error_check_step(int samples) {
-  return std::max(static_cast<int>(std::bit_floor(static_cast<unsigned>(samples))) / 8, SamplePlan::kPilot / 4);
+  return std::max(static_cast<int>(std::bit_floor(static_cast<unsigned>(samples))) / 8, SamplePlan::kStep);
 }
 
 }  // namespace
@@ -28,21 +28,30 @@ int error_check_step(int samples) {
 bool PassSchedule::is_error_check(int samples) const {
   if (!until_error_) return false;
   if (!adaptive_) return samples >= kFirstErrorCheck && is_checkpoint(samples);
-  return samples >= SamplePlan::kPilot && samples % error_check_step(samples) == 0;
+  return samples >= SamplePlan::kLeast && samples % error_check_step(samples) == 0;
 }
 
 /// By which factor the errors are above those that were asked for, the worse of both.
-double PassSchedule::excess(const RenderJob& job) const {
-  const RenderReport report = job.report();
+double PassSchedule::excess(const RenderReport& report) const {
   const double of_mean = settings_.error ? report.estimated_relmse / *settings_.error : 0;
   const double of_worst = settings_.error_max ? report.worst_relmse / *settings_.error_max : 0;
   return std::max(of_mean, of_worst);
 }
 
+bool PassSchedule::is_good_enough(const RenderReport& report) const {
+  return excess(report) < 1 && (!adaptive_ || report.least_samples >= SamplePlan::kLeast);
+}
+
+/// Or nearer than the end of the next step, where a render goes on in such.
+bool PassSchedule::is_time_up(const RenderJob& job) const {
+  const double half_a_step = adaptive_ && job.samples() >= SamplePlan::kStep ? 0.5 * SamplePlan::kStep : 0.0;
+  return job.seconds() * (1 + half_a_step / job.samples()) >= *settings_.time;
+}
+
 bool PassSchedule::complete(const RenderJob& job) const {
   if (job.samples() >= samples_wanted_) return true;
-  if (settings_.time && job.samples() > 0 && job.seconds() >= *settings_.time) return true;
-  return is_error_check(job.samples()) && excess(job) < 1;
+  if (settings_.time && job.samples() > 0 && is_time_up(job)) return true;
+  return is_error_check(job.samples()) && is_good_enough(job.report());
 }
 
 int PassSchedule::next_pass(const RenderJob& job) {
@@ -61,7 +70,7 @@ int PassSchedule::next_pass(const RenderJob& job) {
   if (checkpoints_ || until_error_) pass = std::min(pass, samples_to_next_checkpoint(done));
   if (until_error_ && adaptive_) pass = std::min(pass, error_check_step(done) - done % error_check_step(done));
   // The error falls like 1/samples: good enough to tell how long it will take.
-  if (until_error_ && done >= 2 && is_checkpoint(done)) samples_needed_ = done * excess(job);
+  if (until_error_ && done >= 2 && is_checkpoint(done)) samples_needed_ = done * excess(job.report());
   return std::min(pass, samples_wanted_ - done);
 }
 
@@ -70,7 +79,7 @@ double PassSchedule::fraction(double samples, double seconds) const {
   if (settings_.time) fraction = std::max(fraction, seconds / *settings_.time);
   if (samples_needed_ > 0)
     fraction =
-        std::max(fraction, samples / std::max<double>(samples_needed_, adaptive_ ? SamplePlan::kPilot : kFirstErrorCheck));
+        std::max(fraction, samples / std::max<double>(samples_needed_, adaptive_ ? SamplePlan::kLeast : kFirstErrorCheck));
   return std::min(fraction, 1.0);
 }
 

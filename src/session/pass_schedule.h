@@ -35,7 +35,9 @@ class PassSchedule {
 
  private:
   bool is_error_check(int samples) const;
-  double excess(const RenderJob& job) const;
+  bool is_time_up(const RenderJob& job) const;
+  double excess(const RenderReport& report) const;
+  bool is_good_enough(const RenderReport& report) const;
   double fraction(double samples, double seconds) const;
 
   /// The job as the first pass found it: empty, or resumed.

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <mutex>
+#include <tuple>
 
 #include "math/parallel.h"
 #include "session/block_render.h"
@@ -16,6 +17,7 @@
 #include "session/scene_hash.h"
 #include "session/slice.h"
 #include "session/unrendered.h"
+#include "transport/prices.h"
 #include "tyndall/timer.h"
 
 namespace tyndall {
@@ -46,9 +48,6 @@ RenderReport report_of(const Counters& counters) {
   r.bad_samples = counters.bad_samples;
   return r;
 }
-
-/// Of the time that samples take, as near as what is counted tells: a path and its ray, shadow rays, reads of media.
-std::uint64_t work_of(const Counters& c) { return 2 * (c.paths + c.rays + c.shadow_rays) + c.tracking.lookups; }
 
 }  // namespace
 
@@ -85,7 +84,7 @@ class RenderJob::Impl {
     if (!plan_) return run_pass(count, watch, if_given_up);
     for (int done = 0; done < count;) {
       if (plan_->is_open(samples_)) plan_->decide(samples_, block_noise());
-      const int part = std::min(count - done, plan_->round_end(samples_) - samples_);
+      const int part = plan_->pass_end(samples_, count - done) - samples_;
       PassWatch on_the_whole;
       if (watch) on_the_whole = [&](double samples) { return watch(done + samples); };
       if (!run_pass(part, on_the_whole, if_given_up)) return false;
@@ -146,7 +145,7 @@ class RenderJob::Impl {
   }
 
   Image image() const {
-    Image image = film_.image(counts());
+    Image image = film_.image(samples_, counts());
     if (!unrendered_.empty()) mark_unrendered(image, unrendered_, samples_);
     write_header(image, world_, settings_, counted());
     mattes_.describe(image);
@@ -156,7 +155,7 @@ class RenderJob::Impl {
 
   /// What the flat image says of itself goes for it as well, but what is said of channels that it has not.
   std::optional<DeepImage> deep_image() const {
-    std::optional<DeepImage> deep = film_.deep_image(counts());
+    std::optional<DeepImage> deep = film_.deep_image(samples_);
     if (!deep) return deep;
     Image header;
     write_header(header, world_, settings_, counted());
@@ -196,8 +195,8 @@ class RenderJob::Impl {
   RenderReport counted() const {
     RenderReport r = report_of(counters_);
     r.samples = samples_;
-    r.least_samples = counts().least();
-    r.most_samples = counts().most();
+    r.least_samples = r.most_samples = samples_;
+    if (plan_) std::tie(r.least_samples, r.most_samples) = plan_->range(samples_);
     r.seconds = seconds_;
     if (budget_) r.collisions_shared = budget_->collisions_shared;
     if (budget_ && budget_->counts_measured) {
@@ -228,30 +227,30 @@ class RenderJob::Impl {
   SampleSpan samples_of(PixelPlace p, int count) const {
     if (!plan_) return {samples_, samples_ + count};
     const std::size_t block = plan_->grid().index(p.x, p.y);
-    return {plan_->samples(block, samples_), plan_->samples(block, samples_ + count)};
+    return {plan_->samples(block, samples_), plan_->samples(block, samples_ + count), plan_->share(block)};
   }
   ErrorGoal goal() const { return {settings_.error.value_or(kInfinity), settings_.error_max.value_or(kInfinity)}; }
-  SampleCounts counts() const { return plan_ ? plan_->counts(samples_) : SampleCounts(samples_); }
+  std::vector<int> counts() const { return plan_ ? plan_->counts(samples_) : std::vector<int>(); }
 
   std::vector<BlockNoise> block_noise() const {
     const BlockGrid grid(film_.crop());
     std::vector<BlockNoise> blocks(grid.size());
-    pool_.for_each(blocks.size(), 16, [&](std::size_t b) {
-      blocks[b] = film_.noise(grid.pixels(b), plan_ ? plan_->samples(b, samples_) : samples_);
-    });
+    pool_.for_each(blocks.size(), 16, [&](std::size_t b) { blocks[b] = film_.noise(grid.pixels(b), samples_); });
     return blocks;
   }
 
   /// False: the pass was given up.
   bool render_tile(RenderPass& pass, const PixelBounds& pixels, Counters& counters) {
     const auto group = std::make_unique<PixelGroup>();
+    const Prices prices(world_.built.lights.size());
     for (int y = pixels.y0; y < pixels.y1; y += PixelBlock::kSide - y % PixelBlock::kSide) {
       for (int x = pixels.x0; x < pixels.x1; x += PixelBlock::kSide - x % PixelBlock::kSide) {
         if (pass.given_up) return false;
         const SampleSpan samples = samples_of({x, y}, pass.count);
-        const std::uint64_t before = work_of(counters);
-        blocks_.render({x, y}, pixels, samples, {*group, counters});
-        if (plan_) plan_->add_work(plan_->grid().index(x, y), work_of(counters) - before);
+        Counters here;
+        blocks_.render({x, y}, pixels, samples, {*group, here});
+        if (plan_) plan_->add_work(plan_->grid().index(x, y), static_cast<std::uint64_t>(prices.of(here)));
+        counters += here;
         pass.tell(PixelBlock(x, y, pixels).pixels().size() * static_cast<std::size_t>(samples.end - samples.begin));
       }
     }

@@ -1,6 +1,7 @@
 #include "session/slice.h"
 
 #include "session/resolved_settings.h"
+#include "session/sample_plan.h"
 #include "tyndall/error.h"
 
 namespace tyndall {
@@ -15,7 +16,7 @@ int begin_of(int slice, int count, int total) {
 }  // namespace
 
 SampleRange sample_range(const RenderSettings& settings) {
-  if (!settings.slice) return {0, settings.spp};
+  if (!settings.slice) return {0, is_adaptive(settings) ? SamplePlan::last_end(settings.spp) : settings.spp};
   const auto& [index, count] = *settings.slice;
   const std::string name = std::to_string(index) + "/" + std::to_string(count);
   if (index < 1 || index > count) throw Error(Failure::usage, "slice " + name + " cannot be; give I/N with I from 1 to N");

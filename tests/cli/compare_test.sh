@@ -22,7 +22,7 @@ says '"name": "power"' preset/results.json
 
 # Samples where the error is, where a variant asks for it and not where the scene does; with the samples of each pixel.
 sed 's/^Integrator "volpath"/& "bool adaptive" true/' s.pbrt >asks.pbrt
-expect 0 "$T" compare asks.pbrt --variants "adaptive,own:--adaptive --lights power" --resolution 24x16 --spp 96 --reference-error 0.003 -o where
+expect 0 "$T" compare asks.pbrt --variants "adaptive,own:--adaptive --lights power" --resolution 72x48 --spp 96 --reference-error 0.003 -o where
 for name in 'not adaptive' adaptive own; do says "\"name\": \"$name\"" where/results.json; done
 awk '/"name"/ { name = $0 } /"(least|most)_samples"/ { gsub(/[^0-9]/, ""); n[name] = n[name] " " $0 }
   END { for (v in n) { split(n[v], r, " "); if ((v ~ /not adaptive/) != (r[1] == r[2])) { print v n[v]; exit 1 } } }' where/results.json ||

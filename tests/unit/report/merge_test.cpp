@@ -113,6 +113,35 @@ TEST_CASE("each channel by its own rule, pixel by pixel") {
   CHECK(m.find("Dof.G") == nullptr);
 }
 
+TEST_CASE("adaptive renders are merged by what they weigh, not by their samples; other renders by these") {
+  Files files;
+  Image adaptive = made_slice(1, 3);
+  const Image plain = made_slice(2, 5);
+  adaptive.attributes["tyndall/samples"] = "2..64";
+  Rng rng(3);
+  for (float& count : adaptive.add_channel("SampleCount").values) count = 2 + std::floor(62 * rng.uniform());
+  for (float& weight : adaptive.add_channel("SampleWeight").values) weight = 16;
+  files.write("a.exr", adaptive);
+  files.write("b.exr", plain);
+  const Image m = files.merge({"a.exr", "b.exr"});
+  for (int y = 0; y < 6; ++y) {
+    for (int x = 0; x < 8; ++x) {
+      const auto of = [&](const char* name) { return std::pair{value(adaptive, name, x, y), value(plain, name, x, y)}; };
+      const auto [a, b] = of("R");
+      const auto [va, vb] = of("Variance.R");
+      CHECK(value(m, "R", x, y) == doctest::Approx((16 * a + 5 * b) / 21));
+      CHECK(value(m, "Variance.R", x, y) == test::relative((256 * va + 25 * vb) / (21 * 21)));
+      CHECK(value(m, "SampleCount", x, y) == value(adaptive, "SampleCount", x, y) + 5);
+      CHECK(value(m, "SampleWeight", x, y) == 21);
+    }
+  }
+  files.write("m.exr", m);
+  files.write("c.exr", made_slice(4, 7));
+  const Image again = files.merge({"m.exr", "c.exr"});
+  CHECK(value(again, "R", 3, 2) == doctest::Approx((21 * value(m, "R", 3, 2) + 7 * value(made_slice(4, 7), "R", 3, 2)) / 28));
+  CHECK(files.merge({"b.exr", "c.exr"}).find("SampleWeight") == nullptr);
+}
+
 TEST_CASE("attributes: kept where equal, listed or summed where they differ") {
   Files files;
   Image a = made_slice(7, 4), b = made_slice(3, 4), c = made_slice(5, 8);

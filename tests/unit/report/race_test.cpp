@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "report/compare.h"
+#include "support/sphere_scene.h"
 #include "tyndall/io.h"
 
 namespace tyndall {
@@ -34,6 +35,9 @@ RenderSettings method(LightStrategy lights, std::uint64_t seed = 3) {
   s.aovs = {"Variance"};
   return s;
 }
+
+/// Large enough for blocks to differ.
+World blocks_world() { return test::world_of(test::sphere_scene(60, 40), {.lights = {LightStrategy::power}, .threads = 1}); }
 
 Image plain(const World& w, LightStrategy lights, int spp) {
   RenderSettings s = method(lights);
@@ -166,7 +170,7 @@ TEST_CASE("a filter makes every variant a second one, from two samples on, and i
 }
 
 TEST_CASE("a method may put samples where the error is: as many in the mean as the others, whatever its own ends say") {
-  const World w = world();
+  const World w = blocks_world();
   RenderSettings adaptive = method(LightStrategy::power);
   adaptive.adaptive = true;
   adaptive.spp = 1;
@@ -190,7 +194,7 @@ TEST_CASE("a method may put samples where the error is: as many in the mean as t
 }
 
 TEST_CASE("a comparison keeps the samples of each pixel where they differ") {
-  const World w = world();
+  const World w = blocks_world();
   ComparePlan plan{
       .variants = {{"uniform", "", method(LightStrategy::power)}, {"adaptive", "--adaptive", method(LightStrategy::power)}},
       .budget = {.seconds = std::nullopt, .samples = 96},

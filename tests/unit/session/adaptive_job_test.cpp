@@ -32,11 +32,13 @@ TEST_CASE("an adaptive picture is the same however its samples are grouped, for 
   const World w = world();
   RenderJob one(w, settings_of()), many(w, settings_of(1 << 20, 1)), paused(w, settings_of()), resumed(w, settings_of());
   one.advance(107);
-  for (const int n : {1, 40, 3, 4, 1, 30, 28}) many.advance(n);
+  CHECK(one.samples() == 112);  // where a step ends
+  for (const int n : {1, 40, 3, 4, 1, 30, 8}) many.advance(n);
+  CHECK(many.samples() == 112);
   paused.advance(53);
   resumed.restore(paused.save(), "a");
-  CHECK(resumed.samples() == 53);
-  resumed.advance(54);
+  CHECK(resumed.samples() == 56);
+  resumed.advance(56);
   CHECK(one.report().most_samples > one.report().least_samples);
   CHECK(same(one.image(), many.image()));
   CHECK(same(one.image(), resumed.image()));
@@ -55,38 +57,42 @@ TEST_CASE("a pass that is given up leaves an adaptive job as it was") {
   CHECK(whole.report().paths == broken.report().paths);
 }
 
-TEST_CASE("each pixel is the mean of its own samples, and the header tells how many these are") {
+TEST_CASE("a picture weighs all rounds alike, and the header tells how many samples pixels have") {
   const World w = world();
   RenderJob job(w, settings_of());
   job.advance(96);
   const Image image = job.image();
   const std::vector<float>& counts = image.find("SampleCount")->values;
   const auto [least, most] = std::minmax_element(counts.begin(), counts.end());
-  CHECK(*least >= 32);
-  CHECK(*most > *least);
-  CHECK(std::accumulate(counts.begin(), counts.end(), 0.0) / static_cast<double>(counts.size()) ==
-        doctest::Approx(96).epsilon(0.02));
+  CHECK(*most > 2 * *least);
   CHECK(job.report().least_samples == static_cast<int>(*least));
   CHECK(job.report().most_samples == static_cast<int>(*most));
+  CHECK(job.report().samples == 96);
   const std::string range = std::to_string(job.report().least_samples) + ".." + std::to_string(job.report().most_samples);
   CHECK(*image.attribute<std::string>("tyndall/samples") == range);
+  for (const float weight : image.find("SampleWeight")->values) REQUIRE(weight == 96);
+  for (const float weight : image.find("Replicate.SampleWeight")->values) REQUIRE(weight == 48);
+  for (const float alpha : image.find("A")->values) REQUIRE(alpha <= 1);
 
-  // A pixel with as many samples as the least is that of a uniform render.
   RenderSettings uniform = settings_of();
   uniform.adaptive = false;
   RenderJob even(w, uniform);
-  even.advance(static_cast<int>(*least));
+  even.advance(96);
   const Image expected = even.image();
-  for (const std::string name : {"R", "G", "A", "Variance.R", "Z", "N.X", "Replicate.G", "Replicate.SampleCount"}) {
-    const auto &here = image.find(name)->values, &there = expected.find(name)->values;
-    for (std::size_t i = 0; i < counts.size(); ++i) {
-      if (counts[i] != *least) continue;
-      REQUIRE(here[i] == there[i]);
-    }
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    const auto pair = [&](const char* name) { return std::pair{image.find(name)->values[i], expected.find(name)->values[i]}; };
+    const auto [seen, seen_there] = pair("SurfaceCount");
+    if (seen < 90 || seen_there < 90) continue;
+    const auto [depth, depth_there] = pair("Z");
+    REQUIRE(depth == doctest::Approx(depth_there).epsilon(0.02));
+    const auto [light, light_there] = pair("G");
+    const double deviation = std::sqrt(image.find("Variance.G")->values[i] + expected.find("Variance.G")->values[i]);
+    REQUIRE(std::abs(light - light_there) <= 0.1 * light_there + 6 * deviation);
   }
+  for (const float seen : image.find("SurfaceCount")->values) REQUIRE(seen <= 96);
 }
 
-TEST_CASE("an error goal ends an adaptive render near the error; at the most samples all pixels have as many") {
+TEST_CASE("an error goal ends an adaptive render near the error; no pixel has more samples than the most") {
   const World w = world();
   RenderSettings s = settings_of();
   s.adaptive.reset();
@@ -98,12 +104,12 @@ TEST_CASE("an error goal ends an adaptive render near the error; at the most sam
   CHECK(report.estimated_relmse < *s.error);
   CHECK(report.estimated_relmse > 0.7 * *s.error);
   CHECK(report.worst_relmse > report.estimated_relmse);
+  CHECK(report.least_samples >= 32);
   s.error = 1e-12;
   s.spp = 70;
   const RenderReport most = render(w, s).report;
-  CHECK(most.samples == 70);
-  CHECK(most.least_samples == 70);
-  CHECK(most.most_samples == 70);
+  CHECK(most.samples == 64);
+  CHECK(most.most_samples <= 70);
   s.slice = SliceChoice{1, 2};
   s.error.reset();
   s.adaptive = true;

@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
+
 #include "math/rng.h"
 #include "support/relative.h"
 #include "tyndall/error.h"
@@ -28,10 +30,10 @@ TEST_CASE("the mean of the samples, split into its parts, over a crop") {
   a.hit_surface = true;
   a.p = {1, 2, 3};
   a.z = 5;
-  buffer.add(2, 1, 0, a, 1);
-  buffer.add(2, 1, 1, b, 1);
-  buffer.add(1, 1, 0, b, 1);
-  buffer.add(1, 1, 1, b, 1);
+  buffer.add({2, 1, 0}, a, 1);
+  buffer.add({2, 1, 1}, b, 1);
+  buffer.add({1, 1, 0}, b, 1);
+  buffer.add({1, 1, 1}, b, 1);
   const Image image = buffer.image(2);
 
   CHECK(image.data == PixelBounds{1, 1, 3, 2});
@@ -59,7 +61,7 @@ TEST_CASE("replicates are the means over the even samples, of what was asked for
     record.n = {0, 0, static_cast<float>(s)};
     record.hit_surface = s >= 3;
     record.z = static_cast<float>(s);
-    buffer.add(0, 0, s, record, 1);
+    buffer.add({0, 0, s}, record, 1);
   }
   const Image image = buffer.image(5);
   const auto value = [&](const char* channel) { return image.find(channel)->values[0]; };
@@ -90,7 +92,7 @@ TEST_CASE("variance of the pixel mean from the two replicates is right on averag
     Rng rng(n);
     for (int y = 0; y < 50; ++y) {
       for (int x = 0; x < 80; ++x) {
-        for (int s = 0; s < n; ++s) buffer.add(x, y, s, grey(rng.uniform()), 1);
+        for (int s = 0; s < n; ++s) buffer.add({x, y, s}, grey(rng.uniform()), 1);
       }
     }
     const Image image = buffer.image(n);
@@ -111,9 +113,9 @@ TEST_CASE("light groups are means of halves like all light, and what rounding le
   FilmBuffer buffer(film, {0, 0, 2, 1}, {parse_aovs({"Variance", "Replicate"}), {"key", "default"}});
   const std::vector<Rgb> even{Rgb(1), Rgb(4)}, odd{Rgb(3), Rgb(0.25f)};
   const float more = 5 * (1 + 1e-5f);  // than the groups
-  buffer.add(1, 0, 0, grey(more), 0.5f);
+  buffer.add({1, 0, 0}, grey(more), 0.5f);
   buffer.add_groups({1, 0, 0}, Rgb(more), even, 0.5f);
-  buffer.add(1, 0, 1, grey(3.25f), 1);
+  buffer.add({1, 0, 1}, grey(3.25f), 1);
   buffer.add_groups({1, 0, 1}, Rgb(3.25f), odd, 1);
   const Image image = buffer.image(2);
   const auto at = [&](const std::string& channel) { return image.find(channel)->values[1]; };
@@ -143,4 +145,29 @@ TEST_CASE("sums of light groups go through slices") {
   again.add_sums(image);
   CHECK(again.image(1).find("LightGroup.sky.B")->values[0] == 2);
   CHECK_FALSE(FilmBuffer(film, {0, 0, 1, 1}, {{}, {"key"}}).has_sums(image));
+}
+
+TEST_CASE("samples count for their share, in every mean and in what is not weighted by the filter") {
+  Film film;
+  film.width = film.height = 1;
+  FilmBuffer buffer(film, {0, 0, 1, 1}, {parse_aovs({"Z", "Replicate", "SampleCount"})});
+  PathRecord near = grey(1), far = grey(4);
+  near.hit_surface = far.hit_surface = true;
+  near.z = 2, far.z = 5;
+  near.alpha = far.alpha = 1;
+  for (const int s : {0, 1}) buffer.add({0, 0, s}, near, 1);
+  for (const int s : {2, 3}) buffer.add({0, 0, s, 3}, far, 0.5f);
+  const std::array paths{4};
+  const Image image = buffer.image(8, paths);
+  const auto value = [&](const char* name) { return image.find(name)->values[0]; };
+  CHECK(value("R") == doctest::Approx((2 * 1 + 6 * 4 * 0.5) / 8));
+  CHECK(value("Replicate.R") == value("R"));
+  CHECK(value("A") == doctest::Approx((2 + 6 * 0.5) / 8));
+  CHECK(value("Z") == doctest::Approx((2 * 2 + 6 * 5) / 8.0));
+  CHECK(value("SurfaceCount") == 8);
+  CHECK(value("SampleCount") == 4);
+  CHECK(value("SampleWeight") == 8);
+  CHECK(value("Replicate.SampleCount") == 2);
+  CHECK(value("Replicate.SampleWeight") == 4);
+  CHECK(buffer.image(8).find("SampleWeight") == nullptr);
 }

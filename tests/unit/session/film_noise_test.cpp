@@ -28,12 +28,12 @@ double told_over_true(const Sample& sample, const Mean& mean, const Variance& va
         for (int s = 0; s < kSamples; ++s) {
           PathRecord record;
           record.surface_direct = Rgb(sample(x, y, rng));
-          buffer.add(x, y, s, record, 1);
+          buffer.add({x, y, s}, record, 1);
         }
         truth += variance(x, y) / kSamples / (mean(x, y) * mean(x, y) + 0.01);
       }
     }
-    told += buffer.noise(crop, kSamples).error / kSamples;
+    told += buffer.noise(crop, kSamples).error;
   }
   return told / truth;
 }
