@@ -5,8 +5,8 @@
 #include "session/matte_layers.h"
 #include "session/pixel_block.h"
 #include "session/pixel_sample.h"
-#include "transport/film_emitters.h"
-#include "transport/film_light.h"
+#include "transport/pixel/camera_joint.h"
+#include "transport/pixel/film_emitters.h"
 
 namespace tyndall {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "session/film_sums.h"
-#include "transport/counters.h"
+#include "transport/sample/counters.h"
 
 namespace tyndall {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "session/world_parts.h"
-#include "transport/depth_bins.h"
+#include "transport/sample/depth_bins.h"
 
 namespace tyndall {
 

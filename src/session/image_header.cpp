@@ -5,7 +5,7 @@
 
 #include "session/resolved_settings.h"
 #include "session/scene_hash.h"
-#include "transport/suffix_reuse.h"
+#include "transport/sharing/suffix_reuse.h"
 #include "tyndall/version.h"
 
 namespace tyndall {

@@ -6,8 +6,8 @@
 
 #include "session/aov.h"
 #include "session/film_buffer.h"
-#include "transport/built_world.h"
-#include "transport/camera_matte.h"
+#include "transport/sample/camera_matte.h"
+#include "transport/world/built_world.h"
 #include "tyndall/cryptomatte.h"
 
 namespace tyndall {

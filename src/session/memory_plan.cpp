@@ -5,8 +5,8 @@
 
 #include "math/process_memory.h"
 #include "session/deep_layout.h"
-#include "transport/light_groups.h"
 #include "transport/planned_memory.h"
+#include "transport/world/light_groups.h"
 #include "tyndall/cryptomatte.h"
 #include "tyndall/deep_image.h"
 #include "tyndall/error.h"

@@ -5,7 +5,7 @@
 
 #include "math/parallel.h"
 #include "session/pixel_sample.h"
-#include "transport/light_budget.h"
+#include "transport/budget/light_budget.h"
 
 namespace tyndall {
 

@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "session/world_parts.h"
-#include "transport/camera_matte.h"
-#include "transport/deep_sample.h"
-#include "transport/film_light.h"
-#include "transport/light_budget.h"
-#include "transport/suffix_reuse.h"
-#include "transport/visible_emitters.h"
+#include "transport/budget/light_budget.h"
+#include "transport/pixel/camera_joint.h"
+#include "transport/pixel/visible_emitters.h"
+#include "transport/sample/camera_matte.h"
+#include "transport/sample/deep_sample.h"
+#include "transport/sharing/suffix_reuse.h"
 
 namespace tyndall {
 

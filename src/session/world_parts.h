@@ -4,7 +4,7 @@
 #include <cstdint>
 
 #include "session/unit_scene.h"
-#include "transport/built_world.h"
+#include "transport/world/built_world.h"
 
 namespace tyndall {
 

@@ -8,7 +8,7 @@
 #include "light/cell_densities.h"
 #include "light/instance_runs.h"
 #include "texture/mip_map.h"
-#include "transport/film_emitters.h"
+#include "transport/pixel/film_emitters.h"
 #include "tyndall/error.h"
 #include "tyndall/frames.h"
 #include "tyndall/io.h"

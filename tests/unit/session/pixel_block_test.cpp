@@ -5,7 +5,7 @@
 #include <set>
 #include <vector>
 
-#include "transport/suffix_reuse.h"
+#include "transport/sharing/suffix_reuse.h"
 
 using namespace tyndall;
 

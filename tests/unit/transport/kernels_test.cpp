@@ -2,8 +2,8 @@
 #include <span>
 
 #include "support/adversarial.h"
-#include "transport/direct_light.h"
-#include "transport/resampling.h"
+#include "transport/techniques/direct_light.h"
+#include "transport/techniques/resampling.h"
 
 using namespace tyndall;
 using namespace tyndall::test;

@@ -1,0 +1,44 @@
+/// What paths spend where it matters most: lights asked at their first vertex and along their first segment, and what they
+/// share.
+#pragma once
+
+#include <optional>
+
+#include "transport/budget/light_trial.h"
+#include "tyndall/settings.h"
+
+namespace tyndall {
+
+struct LightCounts {
+  int candidates;   ///< 0: as many as splitting makes clusters
+  int shadow_rays;  ///< 0: to all candidates
+};
+
+struct LightBudget {
+  LightCounts vertex, span;
+  bool counts_measured = false;
+  /// Whether neighbours share what they find beyond collisions in grids. Nothing: by how far apart they are (segment_shares.h).
+  std::optional<bool> collisions_shared{};
+
+  /// What stands where nothing is measured. Light of later vertices is averaged over the paths that share it, that of the first
+  /// is not.
+  static LightBudget unmeasured(ReuseStrategy reuse) {
+    return {reuse == ReuseStrategy::pixels ? LightCounts{8, 4} : LightCounts{2, 2}, {3, 2}};
+  }
+};
+
+/// Of samples that were rendered with some budget, each in the same unit of variance.
+struct Trials {
+  PerSpent<double> variance{}, cost{};  ///< of the choices
+  double all_variance = 0, all_cost = 0;
+  double trust = 1;  ///< from 0, they may be wrong, to 1, they know: how far the budget follows them
+
+  double product() const { return all_variance * all_cost; }  ///< what is to be least
+};
+
+/// The numbers n_i that make variance x cost least. With B_i and c_i of one more of each, and A and C of all else, that is
+/// (A + sum B_i / n_i) (C + sum c_i n_i), least at n_i = sqrt(B_i C / (A c_i)). From 2 to 64; what trials can't tell stays as
+/// it was during them. No more rays than candidates.
+LightBudget best_budget(const Trials& trials, const LightBudget& during);
+
+}  // namespace tyndall

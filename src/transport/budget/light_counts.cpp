@@ -1,0 +1,100 @@
+#include "transport/budget/light_counts.h"
+
+#include <algorithm>
+
+namespace tyndall {
+namespace {
+
+constexpr LightCounts kOnlyVertex{8, 0}, kSecondVertex{2, 2}, kLater{1, 1};
+/// Bounds of clusters say little of where a narrow lobe meets a light. Where most is scattered elsewhere, as under a coat, more
+/// candidates are not worth their time (docs/measurements.md).
+constexpr LightCounts kGlossyVertex{4, 2};
+/// Where paths go on, most of the error is of later bounces, and more pairs cost more than they save, for the camera's span as
+/// well (docs/measurements.md). Fewer leave fireflies among lights in smoke.
+constexpr LightCounts kSecondSpan{3, 2};
+constexpr SpanCounts kOnlySpan{{16, 0}};
+/// Spans that scatter less than this share of the light take one candidate.
+constexpr float kThin = 1e-3f;
+constexpr LightCounts kThinSpan{1, 1};
+/// Except in single scattering, spans that scatter less than this sample lights with a lower probability: around smoke many
+/// rays pass next to nothing (docs/measurements.md).
+constexpr float kFaint = 0.1f;
+/// What is scattered is known coarsely: what was underestimated must still be sampled, with a bounded weight.
+constexpr float kLeastChance = 1 / 16.0f;
+/// In media of more than this optical depth most of the candidates are attenuated, and few of the distances matter
+/// (docs/measurements.md).
+constexpr float kDense = 3;
+constexpr SpanCounts kOnlyDenseSpan{{16, 8}, 2};
+
+LightCounts chosen(const RenderSettings& settings, LightCounts unless_set) {
+  return {settings.candidates.value_or(unless_set.candidates), settings.shadow_rays.value_or(unless_set.shadow_rays)};
+}
+
+/// Candidates that are counted by the settings are pairs, and always sampled.
+SpanCounts chosen(const RenderSettings& settings, SpanCounts unless_set) {
+  const LightCounts counts = chosen(settings, static_cast<LightCounts>(unless_set));
+  return settings.candidates ? SpanCounts{counts} : SpanCounts{counts, unless_set.distances, unless_set.chance};
+}
+
+/// Not more candidates than there are lights, and a shadow ray for every other one: for one light along media a single pair is
+/// the most efficient (docs/measurements.md).
+LightCounts among(std::size_t lights, LightCounts counts) {
+  const int n = static_cast<int>(std::clamp<std::size_t>(lights, 1, 1000));
+  return {std::min(counts.candidates, n), std::min(counts.shadow_rays, (n + 1) / 2)};
+}
+
+/// Few candidates are drawn as well from the whole tree, in strata of one number: to split clusters for them costs more than it
+/// saves (docs/measurements.md).
+constexpr int kSplitFrom = 8;
+constexpr float kSplitting = 0.5f;
+
+bool mostly_glossy(const PointQuery& query) { return query.glossy() && query.diffuse < 0.5f; }
+
+LightBudget budget_of(const LightContext& context) {
+  return context.budget ? *context.budget : LightBudget::unmeasured(context.settings.reuse);
+}
+
+LightCounts counts_at_bounce(const LightContext& context, bool glossy) {
+  LightCounts counts = context.bounce == 0 ? budget_of(context).vertex : context.bounce == 1 ? kSecondVertex : kLater;
+  if (glossy)
+    counts = {std::max(counts.candidates, kGlossyVertex.candidates), std::max(counts.shadow_rays, kGlossyVertex.shadow_rays)};
+  return counts;
+}
+
+LightCounts counts_along_bounce(const LightContext& context) {
+  return context.bounce == 0 ? budget_of(context).span : context.bounce == 1 ? kSecondSpan : kLater;
+}
+
+}  // namespace
+
+LightCounts limits_of_cut(const RenderSettings& settings) { return chosen(settings, LightCounts{0, 0}); }
+
+CutSettings cut_settings(const LightContext& context, int candidates) {
+  const float unless_set = candidates == 0 || candidates >= kSplitFrom ? kSplitting : 0.0f;
+  return {.candidates = candidates, .splitting = context.settings.splitting.value_or(unless_set)};
+}
+
+LightCounts counts_at_vertex(const LightContext& context, const PointQuery& query) {
+  const Lights& lights = context.world.lights;
+  const bool volumes = seeks_volume_lights(context);
+  if (is_single_scattering(context)) {
+    // From one point a light without extent is always the same.
+    LightCounts counts = kOnlyVertex;
+    if (lights.stats().points == lights.stats().lights) counts.candidates = among(lights.sought(volumes), counts).candidates;
+    return chosen(context.settings, counts);
+  }
+  return chosen(context.settings, among(lights.sought(volumes), counts_at_bounce(context, mostly_glossy(query))));
+}
+
+SpanCounts counts_along_span(const LightContext& context, float scattered, float depth) {
+  const bool thin = scattered < kThin;
+  if (is_single_scattering(context)) {
+    return chosen(context.settings, thin ? SpanCounts{kThinSpan} : depth > kDense ? kOnlyDenseSpan : kOnlySpan);
+  }
+  const std::size_t sought = context.world.lights.sought(seeks_volume_lights(context));
+  SpanCounts counts{thin ? kThinSpan : among(sought, counts_along_bounce(context))};
+  if (scattered < kFaint) counts.chance = std::max(scattered / kFaint, kLeastChance);
+  return chosen(context.settings, counts);
+}
+
+}  // namespace tyndall

@@ -1,0 +1,27 @@
+/// How many candidates a vertex or span draws, and to how many of them it traces a shadow ray.
+#pragma once
+
+#include "light/query.h"
+#include "transport/budget/light_budget.h"
+#include "transport/sample/light_context.h"
+
+namespace tyndall {
+
+struct SpanCounts : LightCounts {
+  int distances = 1;  ///< along the span, for each candidate
+  float chance = 1;   ///< probability of drawing any
+};
+
+/// For a strategy that sizes its cuts itself (LightSelector::sizes_cut): the settings are limits, and unset ones none.
+LightCounts limits_of_cut(const RenderSettings& settings);
+
+/// How clusters are split for that many candidates.
+CutSettings cut_settings(const LightContext& context, int candidates);
+
+/// As the settings say; unset ones by what follows: in single scattering nothing else shares the path's cost, so more
+/// candidates pay.
+LightCounts counts_at_vertex(const LightContext& context, const PointQuery& query);
+/// `scattered`: the fraction of light that the span scatters, roughly; `depth`: its optical depth.
+SpanCounts counts_along_span(const LightContext& context, float scattered, float depth);
+
+}  // namespace tyndall

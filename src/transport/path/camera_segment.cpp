@@ -1,0 +1,39 @@
+#include "transport/path/camera_segment.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "transport/media/transmittance_walk.h"
+
+namespace tyndall {
+namespace {
+
+/// Probability of estimating the transmittance, over the chance of passing.
+constexpr double kSeenMore = 2;
+/// Step of marching, as for what the path itself gathers along the ray.
+constexpr float kSpacing = 0.25f;
+
+}  // namespace
+
+const std::optional<SpanProfile>& CameraSegment::profile() {
+  if (!looked_) {
+    looked_ = true;
+    profile_ = SpanProfile::of(span_, SpanProfile::Bins::few);
+    g_ = mean_cosine(span_);
+  }
+  return profile_;
+}
+
+float CameraSegment::chance_of_passing() { return profile() ? std::exp(-profile_->optical_depth()) : 1.0f; }
+
+DistanceSampler CameraSegment::distances_to(Vec3 p) {
+  return DistanceSampler(*profile(), span_.ray, LightPlace{.center = p}, DistanceSampler::Weights{g_});
+}
+
+Rgb CameraSegment::transmittance(TransmittanceStrategy strategy, TrackingStats& stats) {
+  const double chance = std::min(1.0, kSeenMore * double{chance_of_passing()});
+  if (!(rng_.uniform_wide() < chance)) return {};
+  return TransmittanceWalk({strategy, kSpacing}, span_, rng_, stats).to(span_.t_end) * static_cast<float>(1 / chance);
+}
+
+}  // namespace tyndall

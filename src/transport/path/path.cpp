@@ -1,0 +1,315 @@
+#include "transport/path/path.h"
+
+#include <bit>
+#include <cmath>
+#include <utility>
+
+#include "math/hash.h"
+#include "transport/sample/camera_matte.h"
+#include "transport/sample/deep_sample.h"
+
+namespace tyndall {
+namespace {
+
+/// A uniform number that depends on where a surface is seen and from where, and on nothing else: makes the choices of
+/// mix materials and of coated materials' walks repeatable, as in pbrt.
+float hash_to_unit(Vec3 p, Vec3 w) {
+  const auto bits = [](float f) { return static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(f)); };
+  const std::uint64_t h = hash(bits(p.x), bits(p.y), bits(p.z), bits(w.x), bits(w.y), bits(w.z));
+  return static_cast<float>(h >> 40) * 0x1p-24f;
+}
+
+Rgb divided(Rgb a, Rgb b) {
+  for (int channel = 0; channel < 3; ++channel) a[channel] = b[channel] != 0 ? a[channel] / b[channel] : 0.0f;
+  return a;
+}
+
+/// Russian roulette is for paths of less throughput than this: a dark wall's path into bright smoke is too rare to be made
+/// rarer (docs/measurements.md).
+constexpr float kRouletteBelow = 1 / 3.0f;
+/// The step beyond all others whose numbers the offer takes.
+constexpr int kSharingStep = 1 << 30;
+/// What paths that were guided to be `ratio` times as likely count for in roulette, ratio^(3/4): they have small weights and
+/// large contributions; roulette by weight alone would undo the guiding (docs/measurements.md).
+float guided_life(float ratio) {
+  const float root = std::sqrt(ratio);
+  return root * std::sqrt(root);
+}
+
+}  // namespace
+
+Path::Path(const LightContext& context, const Limits& limits, const Ray& camera_ray)
+    : context_(context), limits_(limits), ray_(camera_ray), media_(context.world.media_at_start(camera_ray.o)) {}
+
+void Path::run() {
+  ++context_.counters.paths;
+  follow(next_vertex());
+}
+
+PathRecord Path::result() { return beyond_ ? Path(*this, *beyond_).run_beyond(beyond_->trace) : record_; }
+
+void Path::run_until_offer() {
+  ++context_.counters.paths;
+  sharing_ = Sharing::offering;
+  auto vertex = follow(next_vertex());
+  if (!offer_ || !vertex) return;
+  offer_->at.emplace(std::move(*vertex));
+  offer_->arrived = beta_;
+  offer_->flown = flown_;
+  context_.sampler.begin_step(kSharingStep);
+  offer_->rng = context_.sampler.stream();
+}
+
+void Path::complete_offer() {
+  const PathRecord before = std::exchange(record_, {});
+  GroupedLight* const groups = context_.groups;
+  const GroupedLight::Sums found_before = groups ? groups->begin_find() : GroupedLight::Sums();
+  before_ = max_component(beta_);
+  beta_ = Rgb(1.0f);
+  sharing_ = Sharing::completing;
+  follow(offer_->at);
+  sharing_ = Sharing::none;
+  const Rgb scattered = offer_->at->on_surface() ? Rgb(1.0f) : offer_->scattered;
+  offer_->radiance = divided(record_.radiance(), scattered);
+  record_ = before;
+  add(offer_->arrived * offer_->own, 2);
+  if (!groups) return;
+  groups->end_find(found_before);
+  for (Rgb& light : groups->find) light = divided(light, scattered);
+  GroupedLight::add(offer_->arrived, groups->own, groups->found);
+}
+
+/// Not where a path draws numbers for its vertex: others must not.
+PathOffer* Path::behind() {
+  if (behind_ || !segment_ || !segment_->end()) return behind_ ? &*behind_ : nullptr;
+  const SurfaceHit& hit = *segment_->end();
+  if (context_.world.materials.is_dispersive(context_.world.material_of(hit))) return nullptr;
+  const Span& span = segment_->span();
+  const Vertex vertex = surface_vertex(hit, -span.ray.d, span.end);
+  context_.bounce = 0;
+  return may_share(vertex) ? &behind_.emplace(context_, vertex, Rgb(1.0f)) : nullptr;
+}
+
+void Path::take(Rgb factor, const Path& finder, Received where) {
+  (where == Received::on_surface ? record_.surface_indirect : record_.volume_indirect) += factor * finder.offer_->radiance;
+  if (context_.groups) GroupedLight::add(factor, finder.context_.groups->find, context_.groups->found);
+}
+
+void Path::take_at(float t, Rgb factor, const Path& finder) {
+  take(factor, finder, Received::in_medium);
+  if (context_.deep) context_.deep->scattered(t, factor * finder.offer_->radiance);
+}
+
+bool Path::completes_collision() const { return sharing_ == Sharing::completing && !offer_->at->on_surface(); }
+
+bool Path::may_offer(const Vertex& first) const {
+  return sharing_ == Sharing::offering && depth_ == 1 && !channel_ && may_share(first);
+}
+
+/// Not where dispersion has left a single channel: others want them all. Nor where they could not tell how likely the path
+/// went where it did.
+bool Path::may_share(const Vertex& first) const { return limits_.max_depth > 1 && first.has_smooth() && first.has_exact_pdf(); }
+
+/// What the surface sends back must not depend on which of the paths looks at it. Of a collision's light only that of the
+/// next bounce and later is shared.
+bool Path::is_offered(const Vertex& second) const {
+  if (sharing_ != Sharing::offering || depth_ != 1 || !offer_ || !light_sampled_) return false;
+  return second.on_surface() ? second.surface()->bsdf.diffuse() : limits_.max_depth > 2;
+}
+
+Path::Path(const Path& camera, const Beyond& beyond)
+    : context_(camera.context_),
+      limits_(camera.limits_),
+      ray_(beyond.ray),
+      media_(beyond.media),
+      beta_{},
+      seen_(beyond.seen),
+      record_(camera.record_) {
+  context_.joint = nullptr;
+}
+
+PathRecord Path::run_beyond(const Trace& trace) {
+  follow(arrive(trace));
+  return record_;
+}
+
+/// From bounce to bounce until the path ends, or, then with its vertex, stands where it is to be shared.
+std::optional<Vertex> Path::follow(std::optional<Vertex> vertex) {
+  for (; vertex; vertex = next_vertex()) {
+    if (is_offered(*vertex)) return vertex;
+    if (depth_++ >= limits_.max_depth) break;
+    if (depth_ == 1) first_bounce_in_medium_ = !vertex->on_surface();
+    if (!scatter(*vertex)) break;
+  }
+  return std::nullopt;
+}
+
+/// Light sampling may draw as many numbers as it likes: the path stays the same.
+void Path::begin(Step step) { context_.sampler.begin_step(1 + kSteps * depth_ + static_cast<int>(step)); }
+
+/// For the emission along the path's ray, which has a step of its own beyond all others.
+Rng Path::stream_for_emission() {
+  constexpr int kBeyond = 1 << 29;
+  context_.sampler.begin_step(kBeyond + depth_);
+  return context_.sampler.stream();
+}
+
+/// Next-event estimation, then the direction of the next ray. False ends the path.
+bool Path::scatter(const Vertex& vertex) {
+  context_.bounce = depth_ - 1;
+  context_.guided_weight = 1 / guided_pdf_ratio_;
+  if (vertex.on_surface()) context_.joint = nullptr;  // it was about what the ray gathers in media
+  begin(Step::light);
+  const Rgb seen = seen_.value_or(beta_);
+  seen_.reset();
+  std::optional<Directions> own;
+  const Directions& directions =
+      may_offer(vertex) ? offer_.emplace(context_, vertex, beta_).directions : own.emplace(context_, vertex);
+  add_estimate(seen, light_at(directions, seen), depth_);
+  if (is_black(beta_) || (is_last_bounce(context_) && !context_.world.rays_find_lights())) return false;
+
+  // What is aimed at lights weighs against the directions of this path alone.
+  const bool offered = depth_ == 2 && completes_collision();
+  const auto joint = offered ? std::nullopt : joint_search(context_, vertex);
+  if (joint) add_estimate(beta_, joint_light(context_, vertex, *joint), depth_ + 1);
+
+  begin(Step::scatter);
+  const auto s = directions.sample(beta_, context_.sampler);
+  if (!s) return false;
+  if (offered) {
+    offer_->wi = s->wi;
+    offer_->aureole = directions.aureole();
+    offer_->scattered = s->weight;
+  }
+  light_sampled_ = !s->specular && vertex.has_smooth();
+  from_ = vertex.p();
+  pdf_ = span_collision_ ? vertex.pdf(s->wi, Rgb(1.0f)) : s->pdf;
+  media_ = vertex.media_toward(context_.world.geometry, s->wi);
+  ray_ = {vertex.origin(context_.world.geometry, s->wi), s->wi};
+  context_.joint = joint ? &joint_.emplace(*joint, s->wi, vertex.pdf(s->wi, Rgb(1.0f))) : nullptr;
+  flown_ = Rgb(1.0f);
+  beta_ *= s->weight;
+  eta_scale_ *= s->eta * s->eta;
+  guided_pdf_ratio_ *= s->guided_pdf_ratio;
+  return !is_black(beta_) && survive_roulette();
+}
+
+bool Path::survive_roulette() {
+  if (depth_ <= 1) return true;
+  const float survival = before_ * max_component(beta_) * eta_scale_ * guided_life(guided_pdf_ratio_) / kRouletteBelow;
+  if (!(survival < 1)) return true;
+  if (context_.sampler.next_wide() >= survival) return false;  // many bits, as survival may be next to nothing
+  beta_ *= 1 / survival;
+  return true;
+}
+
+/// Trace the ray to where it scatters next, adding the light it meets. Nothing: it left the scene or was absorbed.
+std::optional<Vertex> Path::next_vertex() {
+  ++context_.counters.rays;
+  if (context_.world.has_media()) {
+    if (auto collision = collide_untraced()) return collision;
+  }
+  const Trace trace = context_.world.geometry.trace(ray_, 0, kInfinity);
+  if (depth_ == 0) record_camera_ray(trace);
+  if (context_.world.has_media()) {
+    if (auto collision = pass_media(trace)) return collision;
+  }
+  return is_black(beta_) && !seen_ ? std::nullopt : arrive(trace);
+}
+
+/// At the ray's end, adding the light that is there.
+std::optional<Vertex> Path::arrive(const Trace& trace) {
+  if (!trace.hit) {
+    // What is left of the throughput of an unscattered ray is the media's transmittance, on average.
+    if (depth_ == 0) record_.alpha = 1 - mean(seen_.value_or(beta_));
+    add_environment();
+    return std::nullopt;
+  }
+  add_surface_emission(*trace.hit);
+  if (depth_ > 0 && depth_ >= limits_.max_depth) return std::nullopt;  // follow() would end the path there
+  Vertex vertex = surface_vertex(*trace.hit, -ray_.d, media_);
+  if (depth_ == 0 && limits_.want_albedo) record_.albedo += seen_.value_or(beta_) * vertex.albedo();
+  return vertex;
+}
+
+Vertex Path::surface_vertex(const SurfaceHit& hit, Vec3 wo, const MediaState& media) {
+  const Materials& materials = context_.world.materials;
+  const MaterialId material = context_.world.material_of(hit);
+  SurfaceQuery query{.p = hit.p,
+                     .uv = hit.uv,
+                     .shading = Frame::around(hit.ns, hit.dpdu),
+                     .wo = wo,
+                     .random = hash_to_unit(hit.p, wo),
+                     .ng = hit.ng};
+  std::optional<SurfaceDetail> detail;
+  if (materials.wants_detail(material)) query.detail = &detail.emplace(surface_detail(hit));
+  if (materials.is_dispersive(material)) query.channel = narrow_to_channel();
+  Vertex::Surface surface{hit, materials.bsdf(material, query)};
+  if (materials.bends_normals(material)) surface.hit.ns = surface.bsdf.normal();  // what lights are chosen by
+  return Vertex(surface, wo, media);
+}
+
+/// Every hit takes the camera's footprint, reduced as pbrt reduces it for 64 samples a pixel and more: a picture must not
+/// depend on how many are yet to come.
+SurfaceDetail Path::surface_detail(const SurfaceHit& hit) const {
+  constexpr float kShare = 0.125f;
+  const auto [dpdx, dpdy] = context_.world.camera.pixel_steps(hit.p, hit.ng);
+  const SurfaceTangents tangents = context_.world.geometry.tangents(hit);
+  return {tangents, footprint_on(tangents, kShare * dpdx, kShare * dpdy)};
+}
+
+/// At its first dispersive surface a path chooses the channel it goes on with, whose weight makes up for the others.
+int Path::narrow_to_channel() {
+  if (!channel_) {
+    channel_ = std::min(static_cast<int>(3 * context_.sampler.next_1d()), 2);
+    Rgb one;
+    one[*channel_] = 3;
+    beta_ *= one;
+    if (seen_) *seen_ *= one;
+  }
+  return *channel_;
+}
+
+/// Light that reached the camera after `events` bounces.
+void Path::add(Rgb contribution, int events) {
+  if (events == 2 && completes_collision()) {
+    offer_->own += contribution;
+  } else if (events == 0) {
+    record_.emission += contribution;
+  } else if (first_bounce_in_medium_) {
+    (events == 1 ? record_.volume_direct : record_.volume_indirect) += contribution;
+  } else {
+    (events == 1 ? record_.surface_direct : record_.surface_indirect) += contribution;
+  }
+}
+
+/// The same by light groups: where that light goes.
+GroupedLight::Sums& Path::sums_by_group(int events) {
+  return events == 2 && completes_collision() ? context_.groups->own : context_.groups->found;
+}
+
+/// Of several lights, times `factor`.
+void Path::add_estimate(Rgb factor, Rgb estimate, int events) {
+  add(factor * estimate, events);
+  if (context_.groups) context_.groups->settle(factor, sums_by_group(events));
+}
+
+void Path::record_camera_ray(const Trace& trace) {
+  if (context_.matte) context_.matte->meet(trace);
+  if (context_.deep) context_.deep->meet(ray_, trace);
+  if (trace.hit) {
+    record_.hit_surface = true;
+    record_.p = trace.hit->p;
+    record_.n = trace.hit->ns;
+    record_.z = context_.world.camera.depth(trace.hit->p);
+  }
+}
+
+/// The albedo AOV is what the camera sees of it: attenuated by the media before the bounce, as beta_ is.
+void Path::record_collision(float t) {
+  record_.albedo += beta_;
+  record_.hit_volume = true;
+  record_.z_volume = context_.world.camera.depth(ray_.at(t));
+}
+
+}  // namespace tyndall

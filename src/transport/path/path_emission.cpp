@@ -1,0 +1,127 @@
+/// The light that a path gathers: at its bounces, and where its rays end.
+#include <algorithm>
+
+#include "transport/path/path.h"
+#include "transport/pixel/visible_emitters.h"
+#include "transport/sample/deep_sample.h"
+#include "transport/sample/emission_by_group.h"
+
+namespace tyndall {
+namespace {
+
+/// Look-ups of the emission that the camera sees, for each one of what paths meet later (docs/measurements.md).
+constexpr float kSeenDensity = 2;
+
+}  // namespace
+
+/// Of one light.
+void Path::add_light(LightId light, Rgb contribution, int events) {
+  add(contribution, events);
+  if (context_.groups) sums_by_group(events)[context_.groups->groups().of(light)] += contribution;
+}
+
+/// Light from emitters that is scattered at the vertex, by a path of throughput `beta`, without what the span's pairs estimate.
+Rgb Path::light_at(const Directions& directions, Rgb beta) {
+  const Vertex& vertex = directions.vertex();
+  span_collision_.reset();
+  if (vertex.on_surface() || !span_search_) {
+    search_ = light_search(context_, vertex);
+    return is_black(beta) ? Rgb() : direct_light(context_, directions, search_, beta);
+  }
+  span_collision_ = SpanCollision{*span_search_, collision_t_, collision_density_};
+  return span_search_->tracked ? collision_light(context_, vertex, *span_collision_, beta) : Rgb();
+}
+
+/// MIS weight of a scattered ray that found light `id`, which next-event estimation samples with `light_pdf`.
+float Path::scattering_mis_weight(LightId id, float light_pdf) const {
+  if (!light_sampled_ || light_pdf == 0) return 1;
+  if (span_collision_) {
+    const SpanDensities others = span_densities(context_, *span_collision_, id);
+    return mis_weight(span_collision_->density * pdf_, others.pair * light_pdf, others.tracked * light_pdf);
+  }
+  return mis_weight(pdf_, search_.among->n_pmf(search_.cut, search_.query, id) * light_pdf);
+}
+
+/// What a ray that was scattered from a vertex counts of the emission that it passes.
+class Path::ScatteredEmission final : public EmissionGauge {
+ public:
+  explicit ScatteredEmission(const Path& path) : path_(path) {}
+
+  Rgb counted(MediaView media, Vec3 p, Rgb emission) const override {
+    const auto emits = [](const ParticipatingMedium* medium) { return medium->emissive(); };
+    const auto first = std::find_if(media.begin(), media.end(), emits);
+    if (std::find_if(first + 1, media.end(), emits) == media.end()) return emission * mis_weight_of(**first, p);
+    Rgb sum;
+    for (const ParticipatingMedium* medium : media) {
+      if (!medium->emissive()) continue;
+      const Coefficients c = medium->at(p);
+      sum += c.sigma_a * c.Le * mis_weight_of(*medium, p);
+    }
+    return sum;
+  }
+
+ private:
+  float mis_weight_of(const ParticipatingMedium& medium, Vec3 p) const {
+    const auto held = path_.context_.world.volume_lights.at(medium, p, path_.from_);
+    return held ? path_.scattering_mis_weight(held->light, held->pdf) : 1.0f;
+  }
+
+  const Path& path_;
+};
+
+/// What the ray of an offered collision passes comes to it from one direction, as later light does, and is shared like that.
+/// What next-event estimation weighs against, which is the path's own, is not.
+int Path::events_of_emission(bool weighed) const { return completes_collision() && !weighed ? depth_ + 1 : depth_; }
+
+/// All of it that reaches the span's origin: how far the path goes does not matter.
+void Path::add_volume_emission(const Span& span) {
+  const auto emits = [](const SpanPart& part) { return any_emissive(part.view()); };
+  const auto last = std::find_if(span.parts.rbegin(), span.parts.rend(), emits).base();
+  if (last == span.parts.begin()) return;
+  Rng rng = stream_for_emission();
+  const ScatteredEmission gauge(*this);
+  const bool weighs = light_sampled_ && (span_collision_ ? span_collision_->search.volumes : search_.volumes);
+  DeepSample* const deep = depth_ == 0 ? context_.deep : nullptr;
+  const EmissionLook look{weighs ? &gauge : nullptr, depth_ == 0 ? kSeenDensity : 1.0f, deep};
+  const int events = events_of_emission(weighs);
+  Rgb T = beta_;
+  for (auto part = span.parts.begin(); part != last && !is_black(T); ++part) {
+    TrackingStats& stats = context_.counters.tracking;
+    if (emits(*part)) {
+      const Rng before = rng;
+      if (deep) deep->begin_emission(*part, T);
+      const auto passed = emission_and_transmittance(part->view(), ray_, part->t0, part->t1, look, rng, stats);
+      add(T * passed.emitted, events);
+      if (context_.groups)
+        add_by_medium({*part, ray_, look, before}, passed.emitted, T, context_.groups->groups(), sums_by_group(events));
+      T *= passed.transmittance;
+    } else {
+      T *= transmittance(span_method(context_), part->view(), ray_, part->t0, part->t1, rng, stats);
+    }
+  }
+}
+
+void Path::add_environment() {
+  const Lights& lights = context_.world.lights;
+  const Ray ray{depth_ == 0 ? ray_.o : from_, ray_.d};  // from where lights were sampled, as portals depend on it
+  for (const LightId id : lights.infinite()) {
+    const Rgb L = lights.environment(id, ray);
+    if (is_black(L)) continue;
+    const float pdf = light_sampled_ ? lights.environment_pdf(id, ray, true) : 0.0f;
+    add_light(id, seen_.value_or(beta_) * L * scattering_mis_weight(id, pdf), depth_);
+  }
+}
+
+void Path::add_surface_emission(const SurfaceHit& hit) {
+  const auto id = context_.world.light_of(hit);
+  if (!id) return;
+  if (depth_ == 0 && context_.emitters && context_.emitters->hold(context_.world, *id)) return;
+  const Lights& lights = context_.world.lights;
+  const EmitterHit emitter{.p = hit.p, .ng = hit.ng, .uv = hit.uv, .distance = hit.t};
+  const Rgb L = lights.emitted(*id, emitter, -ray_.d);
+  if (is_black(L)) return;
+  const float pdf = light_sampled_ ? lights.pdf(*id, from_, emitter) : 0.0f;
+  add_light(*id, seen_.value_or(beta_) * L * scattering_mis_weight(*id, pdf), depth_);
+}
+
+}  // namespace tyndall

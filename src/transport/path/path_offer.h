@@ -1,0 +1,37 @@
+/// What a path offers to the paths of neighbouring pixels.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+#include "transport/vertex/directions.h"
+
+namespace tyndall {
+
+/// Most paths that share.
+inline constexpr std::size_t kMostSharing = 64;
+
+/// What the path met after its first bounce, a diffuse surface or a collision, and the light that is scattered there.
+struct PathOffer {
+  PathOffer(const LightContext& context, const Vertex& vertex, Rgb throughput)
+      : first(vertex), directions(context, first), beta(throughput) {}
+  PathOffer(const PathOffer&) = delete;  // directions refers to first
+
+  Vertex first;           ///< of the first bounce
+  Directions directions;  ///< how the path went on from there
+  Rgb beta;               ///< throughput before that bounce
+
+  std::optional<Vertex> at;  ///< what was met; nothing: others may still have found something for this path
+  Rgb arrived;               ///< throughput with which the path itself came there
+  Rgb flown;                 ///< the part of it that the flight through media weighs
+  Rng rng{0};                ///< for the connections of others
+
+  /// An estimate: of what a surface scatters to all on the side of `first`; of what comes to a collision from `wi`.
+  Rgb radiance;
+  Vec3 wi;                         ///< where the path went on from a collision
+  std::optional<Aureole> aureole;  ///< by which that was drawn
+  Rgb scattered{1.0f};             ///< phase function toward `first`, over its density
+  Rgb own;                         ///< light that a collision scatters toward `first` and that only the path itself counts
+};
+
+}  // namespace tyndall

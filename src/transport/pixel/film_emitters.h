@@ -1,0 +1,61 @@
+/// Emissive surfaces, by the pixels whose filters see a part of them.
+///
+/// Where an emitter ends within a pixel one of the filter's samples hits it and the next does not: in a picture of bright
+/// emitters that is most of the noise. Such a pixel therefore draws film positions on its emitters' images instead
+/// (visible_emitters.h).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "math/polygon.h"
+#include "transport/pixel/film_search.h"
+#include "tyndall/image.h"
+
+namespace tyndall {
+
+/// A primitive of an emissive shape.
+struct FilmEmitter {
+  std::uint32_t shape, primitive;  ///< of Geometry::placed()
+  float share;                     ///< probability that its pixel draws it
+
+  LightId light(const BuiltWorld& world) const { return world.first_light[shape] + primitive; }
+};
+
+/// A convex polygon on the film (pixels of the full frame) that holds the image of a primitive, and is little larger. Nothing
+/// where it is not all before the camera, or the camera does not see it sharply.
+std::optional<ConvexPolygon> image_of(const BuiltWorld& world, std::uint32_t shape, std::uint32_t primitive);
+
+/// The emitters that a pixel draws: all of the directly visible emission of these, and of no other, is found that way.
+struct PixelEmitters {
+  std::span<const FilmEmitter> emitters;  ///< shares add up to 1
+  int positions = 0;                      ///< film positions a sample
+
+  bool empty() const { return emitters.empty(); }
+  bool hold(const BuiltWorld& world, LightId light) const;
+  /// One by its share; `u` in [0, 1) is made anew of what is left of it. Not when empty.
+  const FilmEmitter& draw(float& u) const;
+};
+
+class FilmEmitters {
+ public:
+  /// Pixels. Wider filters hit emitters often enough, and would list each hundreds of times.
+  static constexpr float kWidestFilter = 4;
+  /// In the picture. More would take seconds to process, and are triangles of larger things rather than bulbs.
+  static constexpr std::size_t kMostSeen = 1'000'000;
+
+  FilmEmitters() = default;
+  /// Of the pixels that are rendered: none where settings or the camera rule it out, or no emitter ends in any.
+  explicit FilmEmitters(const FilmSearch& search);
+  PixelEmitters of(int x, int y) const;
+
+ private:
+  PixelBounds pixels_;
+  std::vector<std::uint32_t> begin_;     ///< of each pixel's emitters, and the end of the last's; empty without any
+  std::vector<std::uint8_t> positions_;  ///< by pixel, likewise
+  std::vector<FilmEmitter> emitters_;
+};
+
+}  // namespace tyndall

@@ -1,0 +1,51 @@
+#include "transport/pixel/seen_light.h"
+
+#include <cmath>
+
+#include "transport/media/span_walk.h"
+#include "transport/techniques/direct_light.h"
+#include "volume/coarse.h"
+
+namespace tyndall {
+namespace {
+
+/// Optical depth, roughly.
+constexpr float kDeepest = 5;
+constexpr int kReads = 4;
+
+SpanWalk walk_to(const BuiltWorld& world, const Ray& ray, const Trace& trace) {
+  return SpanWalk(world.media_context(), world.media_at_start(ray.o), trace.crossings, trace.t_end);
+}
+
+}  // namespace
+
+std::optional<SeenLight> seen_light(const BuiltWorld& world, const Ray& ray) {
+  // Traced as the path's own ray is, not as a shadow ray, which ends before the light: the glass of a distant bulb, as close to
+  // it as that, hides it.
+  Trace trace = world.geometry.trace(ray, 0, kInfinity);
+  const auto id = trace.hit ? world.light_of(*trace.hit) : std::nullopt;
+  if (!id) return std::nullopt;
+  const EmitterHit hit{.p = trace.hit->p, .ng = trace.hit->ng, .uv = trace.hit->uv, .distance = trace.hit->t};
+  const Rgb L = world.lights.emitted(*id, hit, -ray.d);
+  if (is_black(L)) return std::nullopt;
+  return SeenLight{*id, hit, L, std::move(trace)};
+}
+
+Rgb attenuated(const LightContext& context, const Ray& ray, const SeenLight& seen, Sampler& sampler) {
+  if (!context.world.has_media()) return Rgb(1.0f);
+  Rng rng = sampler.stream();
+  SpanWalk walk = walk_to(context.world, ray, seen.trace);
+  const Rgb T = transmittance_along(context, walk, ray, rng);
+  context.counters.parity_errors += walk.parity_errors();
+  return T;
+}
+
+float attenuated_roughly(const BuiltWorld& world, const Ray& ray, const SeenLight& seen) {
+  if (!world.has_media()) return 1;
+  float depth = 0;
+  SpanWalk walk = walk_to(world, ray, seen.trace);
+  while (const auto i = walk.next()) depth += coarse_optical_depth(i->view(), ray, i->t0, i->t1, kReads);
+  return depth < kDeepest ? std::exp(-depth) : 0.0f;
+}
+
+}  // namespace tyndall

@@ -1,0 +1,101 @@
+#include "transport/sharing/find_link.h"
+
+#include <cmath>
+
+#include "transport/media/span_walk.h"
+#include "volume/coarse.h"
+#include "volume/homogeneous.h"
+
+namespace tyndall {
+namespace {
+
+/// Shadow rays end this fraction short of the surface, so that they do not meet it.
+constexpr float kShadowEnd = 1 - 1e-4f;
+/// Steps of marching: as for shadow rays, and half of it for inverses, whose noise has a longer tail.
+constexpr float kSpacing = 0.5f, kInverseSpacing = 0.25f;
+/// Reads of a grid for the chance of passing it.
+constexpr int kReads = 16;
+
+bool same_side(Vec3 n, Vec3 a, Vec3 b) { return dot(n, a) * dot(n, b) > 0; }
+bool has_all_channels(Rgb c) { return c.r != 0 && c.g != 0 && c.b != 0; }
+
+}  // namespace
+
+Connection scattered_back(const PathOffer& find, Vec3 w) {
+  if (const auto* medium = find.at->medium()) {
+    const Rgb phase = medium->phase.eval(-w, find.wi);
+    if (!has_all_channels(phase)) return {phase, 0};
+    float pdf = medium->phase.pdf(-w, find.wi, Rgb(1.0f));
+    if (find.aureole) pdf *= find.aureole->pdf_ratio(medium->phase, -w, find.wi, Rgb(1.0f));
+    return {phase, pdf};
+  }
+  const SurfaceHit& hit = find.at->surface()->hit;
+  if (!same_side(hit.ng, -w, find.at->wo()) || !same_side(hit.ns, -w, find.at->wo())) return {};
+  const float cosine = abs_dot(hit.ng, w);
+  return {Rgb(cosine), cosine};
+}
+
+Connection connect(const PathOffer& from, const PathOffer& find) {
+  const Vec3 v = find.at->p() - from.first.p();
+  const float d2 = length_squared(v);
+  if (!(d2 > 0)) return {};
+  const Vec3 w = v * (1 / std::sqrt(d2));
+  const Connection back = scattered_back(find, w);
+  if (!(back.pdf > 0)) return {};
+  const float pdf = from.directions.pdf(w, from.beta);
+  if (!(pdf > 0)) return {};
+  return {from.first.eval(w) * back.f * (1 / d2), pdf * back.pdf / d2};
+}
+
+Link::Link(const Between& between, const Vertex& from, PathOffer& find, bool own) : between_(between), find_(find), own_(own) {
+  const Geometry& geometry = between.world.geometry;
+  const Vec3 w = normalize(find.at->p() - from.p());
+  ray_ = {from.origin(geometry, w), w};
+  media_ = from.media_toward(geometry, w);
+}
+
+std::optional<Passage> Link::pass(Rgb throughput) const {
+  const BuiltWorld& world = between_.world;
+  const float distance = length(find_.at->p() - ray_.o);
+  ++between_.counters.shadow_rays;
+  const auto crossings = world.geometry.trace_shadow(ray_, 0, find_.at->on_surface() ? distance * kShadowEnd : distance);
+  if (!crossings) return std::nullopt;
+  Passage passage;
+  if (own_) passage.weight = find_.flown;
+  if (!world.has_media()) return passage;
+
+  SpanWalk walk(world.media_context(), media_, *crossings, distance);
+  while (const auto interval = walk.next()) {
+    if (all_homogeneous(interval->view())) {
+      pass_uniform(*interval, throughput, passage);
+    } else {
+      if (!has_all_channels(throughput)) passage.chance = 0;  // the flight does not tell of all
+      pass_varying(*interval, passage);
+    }
+  }
+  between_.counters.parity_errors += walk.parity_errors();
+  return passage;
+}
+
+void Link::pass_uniform(const Interval& interval, Rgb& throughput, Passage& passage) const {
+  const double length = double{interval.t1} - interval.t0;
+  const UniformPassage uniform = passage_of(interval.view(), length, throughput);
+  const Rgb T = uniform.transmittance;
+  throughput *= T;
+  passage.weight *= own_ ? Rgb(1 / T.r, 1 / T.g, 1 / T.b) : T;
+  passage.chance *= has_all_channels(T) ? uniform.probability : 0.0f;
+  passage.likely *= has_all_channels(T) ? mean(T) : 0.0f;
+}
+
+void Link::pass_varying(const Interval& interval, Passage& passage) const {
+  const MediaView media = interval.view();
+  const float t0 = interval.t0, t1 = interval.t1;
+  TrackingStats& stats = between_.counters.tracking;
+  passage.weight *= own_ ? inverse_transmittance(kInverseSpacing, media, ray_, t0, t1, find_.rng, stats)
+                         : transmittance({between_.transmittance, kSpacing}, media, ray_, t0, t1, find_.rng, stats);
+  const float passes = std::exp(-coarse_optical_depth(media, ray_, t0, t1, kReads));
+  passage.chance *= passes;
+  passage.likely *= passes;
+}
+
+}  // namespace tyndall

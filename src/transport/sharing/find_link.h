@@ -1,0 +1,58 @@
+/// From where light is received to a find (path_offer.h): how much of it comes there, and how likely the way was to be taken.
+#pragma once
+
+#include <optional>
+
+#include "transport/path/path_offer.h"
+#include "transport/sample/counters.h"
+#include "transport/world/built_world.h"
+
+namespace tyndall {
+
+/// What links go through, how, and where they are counted.
+struct Between {
+  const BuiltWorld& world;
+  TransmittanceStrategy transmittance;
+  Counters& counters;
+};
+
+/// A scattering function and its density.
+struct Connection {
+  Rgb f;          ///< scattering functions times cosine over squared distance
+  float pdf = 0;  ///< 1/area or 1/volume, times that of the find's direction, by which a path would have made the find
+};
+/// What the find scatters back along `w`, which points to it, and how likely: the factors of a Connection that are the find's.
+Connection scattered_back(const PathOffer& find, Vec3 w);
+/// By the path of `from`, from its first vertex; without visibility.
+Connection connect(const PathOffer& from, const PathOffer& find);
+
+/// What lies in between.
+struct Passage {
+  Rgb weight{1.0f};  ///< the transmittance; of a path's own find, what its flight weighs over its transmittance
+  float chance = 1;  ///< of flying through: a proxy in grids, that both sides know; 0: the flight does not tell of all channels
+  float likely = 1;  ///< the same for white light, whatever the path's throughput
+};
+
+/// A ray to a find.
+class Link {
+ public:
+  /// Of the path that made the find.
+  static Link own(const Between& between, PathOffer& find) { return Link(between, find.first, find, true); }
+  Link(const Between& between, const Vertex& from, PathOffer& find) : Link(between, from, find, false) {}
+
+  /// By light of `throughput` before it. Nothing where surfaces are in between.
+  std::optional<Passage> pass(Rgb throughput) const;
+
+ private:
+  Link(const Between& between, const Vertex& from, PathOffer& find, bool own);
+  void pass_uniform(const Interval& interval, Rgb& throughput, Passage& passage) const;
+  void pass_varying(const Interval& interval, Passage& passage) const;
+
+  const Between& between_;
+  PathOffer& find_;
+  Ray ray_;
+  MediaState media_;
+  bool own_;
+};
+
+}  // namespace tyndall

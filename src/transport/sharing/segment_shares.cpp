@@ -1,0 +1,220 @@
+#include "transport/sharing/segment_shares.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "transport/media/scattering.h"
+#include "transport/media/transmittance_walk.h"
+
+namespace tyndall {
+namespace {
+
+/// Step of marching along the camera's ray, as for the path itself.
+constexpr float kSpacing = 0.25f;
+/// Distances toward several finds are spread by the golden ratio.
+constexpr float kGolden = 0.618034f;
+
+/// Where media are known by look-ups, what is received behind them has to be tracked for every ray: more than it gains. Where
+/// few rays collide, passing and colliding are told apart with little noise anyway (docs/measurements.md).
+constexpr std::size_t kLooks = 4;
+constexpr float kCloser = 4, kLeastColliding = 0.25f;
+/// Mean free paths between two rays, a third of the block apart, beyond which sharing is more noise than it takes away.
+constexpr float kApart = 2;
+
+/// About how far light goes along the segment from one collision to the next.
+float free_path(CameraSegment& segment) {
+  return segment.profile()->reach() / std::max(segment.profile()->optical_depth(), 1.0f);
+}
+
+/// Between two rays where one of them scatters most.
+float gap(const CameraSegment& a, CameraSegment& b) {
+  const float t = b.profile()->begin() + 0.5f * b.profile()->reach();
+  return length(a.span().ray.at(t) - b.span().ray.at(t));
+}
+
+/// Colliding on the camera's ray, and going on toward a find: what both ways to receive it know of that.
+struct Collision {
+  Collision(CameraSegment& segment, float t, const PathOffer& find)
+      : part(&segment.span().part_at(t)),
+        p(segment.span().ray.at(t)),
+        wo(-segment.span().ray.d),
+        scattering(Scattering::at(part->media, p)) {
+    const Vec3 v = find.at->p() - p;
+    const float d2 = length_squared(v);
+    if (!(d2 > 0)) return;
+    const Vec3 w = v * (1 / std::sqrt(d2));
+    const Connection back = scattered_back(find, w);
+    if (!(back.pdf > 0)) return;
+    f = scattering.sigma_s * scattering.phase.eval(wo, w) * back.f * (1 / d2);
+    pdf = segment.density(t, scattering.sigma_t) * scattering.pdf(wo, w) * back.pdf / d2;
+  }
+
+  const SpanPart* part;
+  Vec3 p, wo;
+  Scattering scattering;
+  Rgb f;
+  float pdf = 0;  ///< 1/length, times that of the find; without the chance of flying there
+};
+
+/// Whether the path rather than others finds this: they would hardly have part in it, and cost shadow rays. By what all know
+/// who might receive it there.
+bool is_own(const Collision& collision, double others) { return !(double{collision.pdf} < others); }
+
+/// Of a block's rays a few tell: number i of them; null where it passes no media that scatter.
+CameraSegment* look(std::span<Path* const> paths, std::size_t i) {
+  CameraSegment* const segment = paths[i * (paths.size() - 1) / (kLooks - 1)]->segment();
+  return segment && segment->profile() ? segment : nullptr;
+}
+
+}  // namespace
+
+/// Of a find's light at a place of the receiver's ray, before visibility.
+struct SegmentShares::Candidate {
+  const Find* find;
+  float t;
+  Collision collision;
+  float others;  ///< density with which others made the find, and the receiver drew the place
+};
+
+bool SegmentShares::pay(std::span<Path* const> paths) {
+  CameraSegment* before = nullptr;
+  float colliding = 0;
+  for (std::size_t i = 0; i < kLooks; ++i) {
+    CameraSegment* const segment = look(paths, i);
+    if (!segment) continue;
+    if (!homogeneous_throughout(segment->span().parts)) return false;
+    if (before && kCloser * gap(*before, *segment) > free_path(*segment)) return false;
+    colliding += 1 - segment->chance_of_passing();
+    before = segment;
+  }
+  return colliding >= kLeastColliding * kLooks;
+}
+
+bool SegmentShares::near_each_other(std::span<Path* const> paths) {
+  CameraSegment* before = nullptr;
+  float gaps = 0, free_paths = 0;
+  for (std::size_t i = 0; i < kLooks; ++i) {
+    CameraSegment* const segment = look(paths, i);
+    if (!segment) continue;
+    if (homogeneous_throughout(segment->span().parts)) return true;
+    if (before) gaps += gap(*before, *segment), free_paths += free_path(*segment);
+    before = segment;
+  }
+  return gaps <= kApart * free_paths;
+}
+
+SegmentShares::SegmentShares(const Between& between, std::span<Path* const> paths) : between_(between), paths_(paths) {
+  for (std::size_t k = 0; k < paths.size(); ++k) {
+    if (paths[k]->offers() && !paths[k]->offer().first.on_surface()) makers_.push_back(k);
+    CameraSegment* const segment = paths[k]->segment();
+    if (segment && segment->profile()) receivers_.push_back(k);
+  }
+}
+
+SegmentShares::Find SegmentShares::consider(Path& finder) const {
+  Find find{.path = &finder, .scale = 1, .flight = {}};
+  for (const std::size_t k : makers_) {
+    find.might[k] = connect(paths_[k]->offer(), finder.offer()).pdf;
+    find.might_sum += double{find.might[k]};
+  }
+  return find;
+}
+
+float SegmentShares::sharers(Path& finder) {
+  CameraSegment& segment = *finder.segment();
+  if (!segment.profile()) return 1;
+  const PathOffer& offer = finder.offer();
+  const Find find = consider(finder);
+  const double others = find.might_sum - double{connect(offer, offer).pdf};
+  const double b = others * double{segment.distances_to(offer.at->p()).pdf(segment.collision())};
+  const auto all = static_cast<double>(makers_.size() + receivers_.size());
+  return static_cast<float>(std::min(1 + b / double{Collision(segment, segment.collision(), offer).pdf}, all));
+}
+
+void SegmentShares::share(Path& finder, float scale) {
+  Find find = consider(finder);
+  find.scale = scale;
+  for (const std::size_t k : makers_) {
+    if (!(find.might[k] > 0)) continue;
+    const PathOffer& maker = paths_[k]->offer();
+    const bool own = paths_[k] == &finder;
+    const Link link = own ? Link::own(between_, finder.offer()) : Link(between_, maker.first, finder.offer());
+    const auto passage = link.pass(maker.beta * connect(maker, finder.offer()).f);
+    if (!passage) continue;
+    find.made[k] = find.might[k] * passage->chance;
+    find.made_sum += double{find.made[k]};
+    if (!own) continue;
+    find.likely = passage->likely;
+    find.flight = passage->weight * passage->chance;
+  }
+  finds_.push_back(find);
+}
+
+void SegmentShares::hand_out() {
+  for (const std::size_t k : receivers_) receive(k);
+  for (const Find& find : finds_) {
+    if (!find.path->segment()->profile())
+      find.path->take(find.path->own_factor() * find.scale, *find.path, Path::Received::in_medium);
+  }
+}
+
+void SegmentShares::receive(std::size_t k) {
+  CameraSegment& segment = *paths_[k]->segment();
+  std::vector<Candidate> candidates;
+  float u = segment.u();
+  for (const Find& find : finds_) {
+    u += u < 1 - kGolden ? kGolden : kGolden - 1;
+    if (find.path == paths_[k]) {
+      take_own(find, k);
+    } else if (const auto candidate = draw(find, k, u)) {
+      candidates.push_back(*candidate);
+    }
+  }
+  if (candidates.empty()) return;
+  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) { return a.t < b.t; });
+  TransmittanceWalk walk({between_.transmittance, kSpacing}, segment.span(), segment.rng(), between_.counters.tracking);
+  for (const Candidate& candidate : candidates) {
+    const Rgb T = walk.to(candidate.t);
+    if (is_black(T)) return;
+    link(candidate, *paths_[k], T);
+  }
+}
+
+void SegmentShares::take_own(const Find& find, std::size_t k) const {
+  CameraSegment& segment = *paths_[k]->segment();
+  const PathOffer& offer = find.path->offer();
+  const float t = segment.collision(), drawn = segment.distances_to(offer.at->p()).pdf(t);
+  const Collision collision(segment, t, offer);
+  float share = 1;
+  if (!is_own(collision, (find.might_sum - double{find.might[k]}) * double{drawn})) {
+    const float own = collision.pdf * find.likely;
+    const float others = static_cast<float>(find.made_sum - double{find.made[k]}) * drawn;
+    if (own > 0 && std::isfinite(own + others)) share = own / (own + others);
+  }
+  find.path->take(find.path->own_factor() * (find.scale * share), *find.path, Path::Received::in_medium);
+}
+
+std::optional<SegmentShares::Candidate> SegmentShares::draw(const Find& find, std::size_t k, float u) const {
+  CameraSegment& segment = *paths_[k]->segment();
+  const PathOffer& offer = find.path->offer();
+  const auto made = static_cast<float>(find.made_sum - double{find.made[k]});
+  if (is_black(find.flight) || !(made > 0) || !std::isfinite(made)) return std::nullopt;
+  const auto [t, drawn] = segment.distances_to(offer.at->p()).sample(std::clamp(u, 0.0f, 0x1.fffffep-1f));
+  if (!(drawn > 0) || !std::isfinite(t)) return std::nullopt;
+  const Collision collision(segment, t, offer);
+  if (t < collision.part->t0 || t > collision.part->t1 || is_black(collision.f)) return std::nullopt;
+  if (!(collision.pdf > 0) || is_own(collision, (find.might_sum - double{find.might[k]}) * double{drawn})) return std::nullopt;
+  return Candidate{&find, t, collision, made * drawn};
+}
+
+void SegmentShares::link(const Candidate& candidate, Path& receiver, Rgb T) const {
+  const auto& [find, t, collision, others] = candidate;
+  const Vertex vertex(Vertex::InMedium{collision.p, collision.scattering.phase}, collision.wo, collision.part->state);
+  const auto passage = Link(between_, vertex, find->path->offer()).pass(Rgb(1.0f));
+  if (!passage) return;
+  const float own = collision.pdf * passage->likely;
+  if (!(own > 0) || !std::isfinite(own + others)) return;
+  receiver.take_at(t, collision.f * T * passage->weight * find->flight * (find->scale / (own + others)), *find->path);
+}
+
+}  // namespace tyndall

@@ -1,0 +1,103 @@
+#include "transport/sharing/suffix_reuse.h"
+
+#include <algorithm>
+#include <array>
+
+#include "transport/sharing/segment_shares.h"
+#include "transport/sharing/vertex_shares.h"
+
+namespace tyndall {
+namespace {
+
+/// Finds for each path, at most on average. What is received along its ray and behind it has half of them each.
+constexpr double kMostFinds = 16;
+
+/// Counts what the path has found where it is alone.
+void keep(Path& path) {
+  const PathOffer& find = path.offer();
+  if (find.at) path.take(path.own_factor(), path, Path::received_at(find.first));
+}
+
+/// What the find brings its own path, which is of the order of what it brings others. Zero: there is nothing to share. What is
+/// not a number stays with its path, where it is counted once.
+float worth_of(Path& path) {
+  const PathOffer& find = path.offer();
+  if (!find.at || is_black(find.radiance)) return 0;
+  const Rgb own = path.own_factor() * find.radiance;
+  if (is_finite(own)) return mean(own);
+  keep(path);
+  return 0;
+}
+
+/// Roulette by strata of one number: how many survive hardly varies.
+class Roulette {
+ public:
+  explicit Roulette(double u) : next_(u) {}
+  bool survives(double chance) {
+    passed_ += chance;
+    if (!(passed_ > next_)) return false;
+    next_ += 1;
+    return true;
+  }
+
+ private:
+  double passed_ = 0, next_;
+};
+
+/// Of the `finders`, whose finds `receivers` can receive. A find of worth c that a of n receive costs a connections, and the
+/// variance of leaving it to chance is spread over as many: c^2 / a is least for a given cost where chances go with c / a. With
+/// n c / (a sum c) times `most` each gets that many, at most; where few finds have nearly all, as where rays pass a flame
+/// by chance, fewer.
+template <typename Shares>
+void share_among(Shares& shares, std::span<Path* const> finders, std::size_t receivers, double most = kMostFinds) {
+  std::array<float, kMostSharing> worth;
+  double total = 0;
+  for (std::size_t j = 0; j < finders.size(); ++j) total += worth[j] = worth_of(*finders[j]);
+  if (!(total > 0)) return;
+  const auto* const first = std::find_if(worth.begin(), worth.end(), [](float w) { return w > 0; });
+  Roulette roulette(finders[static_cast<std::size_t>(first - worth.begin())]->offer().rng.uniform() + 0x1p-25);
+  for (std::size_t j = 0; j < finders.size(); ++j) {
+    if (!(worth[j] > 0)) continue;
+    double chance = most * worth[j] / total;
+    if (chance < 1) chance *= static_cast<double>(receivers) / static_cast<double>(shares.sharers(*finders[j]));
+    chance = std::min(1.0, chance);
+    if (roulette.survives(chance)) shares.share(*finders[j], static_cast<float>(1 / chance));
+  }
+}
+
+void share_collisions(const Between& between, std::span<Path* const> finders, std::span<Path* const> paths,
+                      std::optional<bool> shared) {
+  if (finders.empty()) return;
+  if (!(shared ? *shared : SegmentShares::near_each_other(paths))) {
+    for (Path* path : finders) keep(*path);
+    return;
+  }
+  VertexShares collisions(between);
+  for (Path* path : finders) collisions.add_arrived(*path);
+  share_among(collisions, finders, finders.size());
+}
+
+}  // namespace
+
+/// Finders on surfaces and in media are not mixed: what they find is found so differently that it is not worth connecting.
+void share_suffixes(const Between& between, std::span<Path* const> paths, std::optional<bool> collisions_shared) {
+  if (paths.empty()) return;
+  std::array<Path*, kMostSharing> finders;
+  auto* const end = std::copy_if(paths.begin(), paths.end(), finders.begin(), [](const Path* path) { return path->offers(); });
+  auto* const middle = std::stable_partition(finders.begin(), end, [](Path* path) { return path->offer().first.on_surface(); });
+  const std::span<Path*const> on_surface(finders.begin(), middle), in_medium(middle, end);
+  VertexShares surfaces(between);
+  if (!SegmentShares::pay(paths)) {
+    for (Path* path : on_surface) surfaces.add_arrived(*path);
+    share_among(surfaces, on_surface, on_surface.size());
+    share_collisions(between, in_medium, paths, collisions_shared);
+    return;
+  }
+  for (Path* path : paths) surfaces.add_behind(*path);
+  share_among(surfaces, on_surface, paths.size(), kMostFinds / 2);
+  SegmentShares segments(between, paths);
+  share_among(segments, in_medium, paths.size(), kMostFinds / 2);
+  segments.hand_out();
+}
+
+}  // namespace tyndall

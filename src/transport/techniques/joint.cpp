@@ -1,0 +1,76 @@
+#include "transport/techniques/joint.h"
+
+#include "transport/sample/grouped_light.h"
+#include "transport/techniques/direct_light.h"
+#include "transport/techniques/point_aim.h"
+#include "transport/techniques/way.h"
+#include "volume/coarse.h"
+
+namespace tyndall {
+namespace {
+
+/// A second one costs more than it saves.
+constexpr CutSettings kOneLight{.candidates = 1, .splitting = 0};
+/// Optical depth toward a light, roughly: behind more of it, little of what is drawn arrives (docs/measurements.md).
+constexpr float kDeepest = 3;
+constexpr int kReads = 4;
+
+/// Whether there may be a medium that scatters near the light, and little enough in between for it to be worth two rays. It
+/// depends only on the collision and the light, as both sides of MIS ask.
+bool in_reach(const JointSearch& search, Vec3 point) {
+  const Vec3 to_point = point - search.query.p;
+  const float distance = length(to_point);
+  if (!search.reach.contains(point) || !(distance > 0)) return false;
+  const MediaView media{search.media.data(), search.media.size()};
+  return coarse_optical_depth(media, {search.query.p, to_point * (1 / distance)}, 0, distance, kReads) < kDeepest;
+}
+
+/// By one light that was chosen.
+Rgb by_way_of(const LightContext& context, const Vertex& vertex, const JointSearch& search, LightCandidate candidate,
+              Sampler& sampler) {
+  const Vec2 around = sampler.next_2d();
+  const float along = sampler.next_1d();
+  const auto point = context.world.lights.point(candidate.light);
+  if (!point || !(candidate.n_pmf > 0) || !in_reach(search, *point)) return {};
+  const auto aim = aim_near(vertex.p(), *point, search.query.g, around, along);
+  if (!aim) return {};
+  const Rgb f = vertex.eval(aim->w);
+  if (is_black(f)) return {};
+  const float share = mis_weight(candidate.n_pmf * aim->pdf, vertex.pdf(aim->w, Rgb(1.0f)));
+  const Way way{vertex.media(), {vertex.origin(context.world.geometry, aim->w), aim->w}, aim->t};
+  return f * in_scattered(context, way, candidate.light, sampler) * (aim->spread * share / candidate.n_pmf);
+}
+
+}  // namespace
+
+std::optional<JointSearch> joint_search(const LightContext& context, const Vertex& vertex) {
+  if (context.settings.joint == JointStrategy::off || vertex.on_surface() || is_last_bounce(context)) return std::nullopt;
+  if (context.selector.exhaustive()) return std::nullopt;
+  const auto& groups = context.world.geometry.groups();
+  const Bounds3 reach = vertex.media().bounds(groups);
+  if (overlap(reach, context.world.lights.point_box()).empty()) return std::nullopt;
+  JointSearch search{vertex.light_query(), {}, vertex.media().active(groups, context.world.media), reach};
+  search.cut = context.selector.cut(search.query, kOneLight);
+  return search;
+}
+
+Rgb joint_light(const LightContext& context, const Vertex& vertex, const JointSearch& search) {
+  Sampler sampler = context.sampler.fork();
+  Rgb sum;
+  for (const LightCandidate& candidate : context.selector.draw(search.cut, search.query, sampler.next_wide())) {
+    const Rgb light = by_way_of(context, vertex, search, candidate, sampler);
+    if (context.groups) context.groups->estimate(candidate.light, light);
+    sum += light;
+  }
+  return sum;
+}
+
+float CollisionRay::path_mis_weight(const LightContext& context, LightId light) const {
+  const auto point = context.world.lights.point(light);
+  if (!point) return 1;
+  const float aimed = aim_pdf(search_.query.p, *point, w_);
+  if (!(aimed > 0) || !in_reach(search_, *point)) return 1;
+  return mis_weight(pdf_, context.selector.n_pmf(search_.cut, search_.query, light) * aimed);
+}
+
+}  // namespace tyndall

@@ -1,0 +1,71 @@
+/// The scene as light transport runs on it.
+#pragma once
+
+#include <vector>
+
+#include "light/lights.h"
+#include "surface/geometry.h"
+#include "surface/material.h"
+#include "texture/textures.h"
+#include "transport/camera/camera_ray.h"
+#include "transport/camera/filter_cells.h"
+#include "transport/camera/pixel_filter.h"
+#include "transport/media/media_state.h"
+#include "transport/media/span_walk.h"
+#include "transport/world/aureoles.h"
+#include "transport/world/bright_media.h"
+#include "transport/world/light_distances.h"
+#include "transport/world/light_groups.h"
+#include "transport/world/volume_lights.h"
+#include "tyndall/render.h"
+#include "volume/medium.h"
+
+namespace tyndall {
+
+/// Triangles or patches of a mesh; 1 of other shapes.
+std::size_t primitives_of(const Shape& shape);
+
+/// Everything that a path may meet, in the units of the scene it was made from.
+struct BuiltWorld {
+  /// `volume_memory`: bytes that volume files may take. Fills its part of `summary`. Throws Error for what is wrong with the
+  /// scene.
+  BuiltWorld(Scene unit_scene, const BuildSettings& settings, std::size_t volume_memory, BuildSummary& summary);
+  BuiltWorld(const BuiltWorld&) = delete;  // its members refer to each other
+
+  Scene scene;
+  Textures textures;
+  Materials materials;
+  Geometry geometry;
+  std::vector<ParticipatingMedium> media;
+  VolumeLights volume_lights;  ///< empty unless asked for
+  bool has_volume_lights;      ///< whether they were asked for
+  Lights lights;
+  LightDistances light_distances;    ///< empty where all media are unbounded, or all lights are far
+  BrightMedia bright_media;          ///< empty where all media are homogeneous
+  Aureoles aureoles;                 ///< empty where the scene has no sun
+  LightGroups light_groups;          ///< empty where the scene names none
+  std::vector<LightId> first_light;  ///< by placed shape; kNone where it does not emit
+  CameraRays camera;
+  FilterSampler filter;
+  FilterCells filter_cells;
+  MediaState camera_media;  ///< what holds the camera's center
+
+  SpanWalk::Context media_context() const { return {geometry.groups(), media}; }
+  /// Membership where a ray of the camera begins, which is not the center of a lens or screen.
+  MediaState media_at_start(Vec3 origin) const;
+  /// No medium anywhere: nothing of src/volume needs to run.
+  bool has_media() const { return !media.empty(); }
+  bool media_emit;  ///< some medium does
+  bool opaque;      ///< no shape has alpha: whatever ray is traced between two points, it meets the same
+  MaterialId material_of(const SurfaceHit& hit) const { return geometry.placed()[hit.shape].shape->material; }
+  /// Whether there are lights that a ray can hit: emissive surfaces and environments.
+  bool rays_find_lights() const { return lights.stats().emitters > 0 || !lights.infinite().empty(); }
+  /// The light that the hit primitive is, if it emits.
+  std::optional<LightId> light_of(const SurfaceHit& hit) const {
+    const LightId first = first_light[hit.shape];
+    if (first == kNone) return std::nullopt;
+    return first + hit.primitive;
+  }
+};
+
+}  // namespace tyndall
