@@ -52,11 +52,12 @@ std::optional<SelectedLight> CellSelector::select(const PointQuery& query, doubl
     light = choice->light;
   }
   if (!light) return std::nullopt;
-  return SelectedLight{*light, pmf(query, *light)};
+  return SelectedLight{*light, pmf_in(clusters, query, *light)};
 }
 
-float CellSelector::pmf(const PointQuery& query, LightId light) const {
-  const Clusters clusters = cells_.at(query);
+float CellSelector::pmf(const PointQuery& query, LightId light) const { return pmf_in(cells_.at(query), query, light); }
+
+float CellSelector::pmf_in(Clusters clusters, const PointQuery& query, LightId light) const {
   const double by_tree = TreeSelector::pmf(query, light);
   if (clusters.empty()) return static_cast<float>(by_tree);
   return static_cast<float>(kDefensiveShare * by_tree + (1 - kDefensiveShare) * chance_in(clusters, query, light));

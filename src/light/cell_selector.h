@@ -22,6 +22,7 @@ class CellSelector final : public TreeSelector<LightTree> {
  private:
   using Clusters = std::span<const CellDensities::Cluster>;
   std::optional<LightId> choose_in(Clusters clusters, const PointQuery& query, double u) const;
+  float pmf_in(Clusters clusters, const PointQuery& query, LightId light) const;
   double chance_in(Clusters clusters, const PointQuery& query, LightId light) const;
 
   CellDensities cells_;
