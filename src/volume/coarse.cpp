@@ -137,12 +137,7 @@ float nearby_optical_depth(MediaView media, const Ray& ray, float t1, float most
 
 float clearest_channel(MediaView media) {
   float part = 1;
-  for (const ParticipatingMedium* medium : media) {
-    const MediumData& m = medium->data();
-    if (m.kind == MediumData::Kind::grid && m.density.grid.channels() != 1) return 0;
-    const Rgb sigma_t = m.optics.sigma_a + m.optics.sigma_s;
-    if (!is_black(sigma_t)) part = std::min(part, std::min({sigma_t.r, sigma_t.g, sigma_t.b}) / mean(sigma_t));
-  }
+  for (const ParticipatingMedium* medium : media) part = std::min(part, medium->clearest_channel());
   return part;
 }
 

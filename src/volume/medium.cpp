@@ -30,7 +30,18 @@ Rgb EmissionField::at(Vec3 p) const {
   return {};
 }
 
-ParticipatingMedium::ParticipatingMedium(std::shared_ptr<const MediumData> data) : data_(std::move(data)) {}
+namespace {
+
+float clearest_of(const MediumData& m) {
+  if (m.kind == MediumData::Kind::grid && m.density.grid.channels() != 1) return 0;
+  const Rgb sigma_t = m.optics.sigma_a + m.optics.sigma_s;
+  return is_black(sigma_t) ? 1.0f : std::min(1.0f, std::min({sigma_t.r, sigma_t.g, sigma_t.b}) / mean(sigma_t));
+}
+
+}  // namespace
+
+ParticipatingMedium::ParticipatingMedium(std::shared_ptr<const MediumData> data)
+    : data_(std::move(data)), clearest_channel_(clearest_of(*data_)) {}
 ParticipatingMedium::ParticipatingMedium(ParticipatingMedium&&) noexcept = default;
 ParticipatingMedium& ParticipatingMedium::operator=(ParticipatingMedium&&) noexcept = default;
 ParticipatingMedium::~ParticipatingMedium() = default;

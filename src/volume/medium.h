@@ -53,6 +53,8 @@ class ParticipatingMedium {
   bool homogeneous() const;
   const Phase& phase() const;
   float albedo() const;  ///< of single scattering, mean of the channels; of grids with channels where those are alike
+  /// Extinction of the clearest channel over the mean of all, at least: 1 of grey media, 0 of grids with channels of their own.
+  float clearest_channel() const { return clearest_channel_; }
   /// World-space box around all non-zero density: infinite for a homogeneous medium, empty for an empty grid.
   Bounds3 bounds() const;
   /// Largest extinction coefficient of any channel anywhere, 1/world unit.
@@ -63,6 +65,7 @@ class ParticipatingMedium {
 
  private:
   std::shared_ptr<const MediumData> data_;  ///< that of a file may be kept for another scene
+  float clearest_channel_;
 };
 
 /// Load and prepare `medium`. Appends to `notes` what was chosen or changed ("smoke.vdb: density grid "density", ...").
