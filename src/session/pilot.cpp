@@ -9,7 +9,7 @@
 #include "math/hash.h"
 #include "session/block_grid.h"
 #include "session/flush_denormals.h"
-#include "transport/budget/prices.h"
+#include "transport/budget/light_trial.h"
 
 namespace tyndall {
 namespace {

@@ -17,7 +17,7 @@ PixelSample::PixelSample(const SampleContext& sample, const SampleKey& key, Pixe
       sampler_(key),
       offset_(sample.world.built.filter.sample(sampler_.next_2d())),
       on_film_(center_of(key) + offset_.p),
-      film_ray_(film_.points, on_film_, offset_.pdf) {
+      joint_weight_(film_.points, on_film_, offset_.pdf) {
   const Vec2 lens = sampler_.next_2d();
   LightContext context{world_.built, sample.selector, sample.settings, sampler_, counters};
   context.selector_with_volumes = sample.selector_with_volumes;
@@ -26,8 +26,8 @@ PixelSample::PixelSample(const SampleContext& sample, const SampleKey& key, Pixe
   if (sample.mattes) context.matte = &matte_.emplace();
   if (sample.bins) context.deep = &deep_.emplace(*sample.bins, world_.built.camera);
   if (!film_.points.empty()) {
-    context.joint = &film_ray_;
-    of_points_ = film_light(context, film_.points, center_of(key), sampler_.fork());
+    context.joint = &joint_weight_;
+    of_points_ = camera_joint_estimate(context, film_.points, center_of(key), sampler_.fork());
   }
   if (!film_.emitters.empty()) {
     context.emitters = &film_.emitters;

@@ -66,7 +66,7 @@ class PixelSample {
   Sampler sampler_;
   FilterSampler::Offset offset_;
   Vec2 on_film_;
-  FilmRay film_ray_;
+  CameraJointWeight joint_weight_;
   Rgb of_points_, of_emitters_;
   float weight_of_ray_ = 1;
   std::optional<GroupedLight> groups_;

@@ -17,7 +17,7 @@
 #include "session/scene_hash.h"
 #include "session/slice.h"
 #include "session/unrendered.h"
-#include "transport/budget/prices.h"
+#include "transport/sample/counters.h"
 #include "tyndall/timer.h"
 
 namespace tyndall {

@@ -1,5 +1,4 @@
 #include "transport/planned_memory.h"
-#include "texture/mip_map.h"
 
 #include <set>
 #include <string>

@@ -46,10 +46,10 @@ tracking='with_walk|MediumWalk|MergedWalk|BrickReader|GridRay|BrickGrid::lookup'
 absent "$(grep -E "$tracking" fog.txt)" "homogeneous media are tracked"
 present "$(grep -E "$tracking" smoke.txt)" "a grid is not tracked"
 
-joint='aim_near|joint_light|film_light'
+joint='aim_near|joint_estimate'
 absent "$(grep -E "$joint" bare.txt two.txt fog.txt smoke.txt)" "rays are drawn near point lights that no medium holds"
-present "$(grep -E 'joint_light' within.txt)" "collisions are not drawn near a point light in fog"
-present "$(grep -E 'film_light' within.txt)" "film positions are not drawn near a point light in fog"
+present "$(grep -E 'tyndall::joint_estimate' within.txt)" "collisions are not drawn near a point light in fog"
+present "$(grep -E 'tyndall::camera_joint_estimate' within.txt)" "film positions are not drawn near a point light in fog"
 
 emitters='visible_emitters|tyndall::image_of'
 absent "$(grep -E "$emitters" two.txt fog.txt smoke.txt within.txt)" "emitters are aimed at where there are none"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <span>
 
-#include "transport/techniques/direct_light.h"
 #include "volume/coarse.h"
 
 namespace tyndall {

@@ -2,9 +2,10 @@
 /// share.
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <optional>
 
-#include "transport/budget/light_trial.h"
 #include "tyndall/settings.h"
 
 namespace tyndall {
@@ -12,6 +13,18 @@ namespace tyndall {
 struct LightCounts {
   int candidates;   ///< 0: as many as splitting makes clusters
   int shadow_rays;  ///< 0: to all candidates
+};
+
+/// What is counted: numbers of candidates and shadow rays, at a path's first vertex and along its first segment.
+enum class Spent : std::size_t { vertex_candidates, vertex_rays, span_candidates, span_rays };
+inline constexpr std::size_t kSpents = 4;
+
+template <typename T>
+class PerSpent : public std::array<T, kSpents> {
+ public:
+  using std::array<T, kSpents>::operator[];
+  T& operator[](Spent s) { return (*this)[static_cast<std::size_t>(s)]; }
+  const T& operator[](Spent s) const { return (*this)[static_cast<std::size_t>(s)]; }
 };
 
 struct LightBudget {

@@ -38,7 +38,7 @@ SpanCounts chosen(const RenderSettings& settings, SpanCounts unless_set) {
 
 /// Not more candidates than there are lights, and a shadow ray for every other one: for one light along media a single pair is
 /// the most efficient (docs/measurements.md).
-LightCounts among(std::size_t lights, LightCounts counts) {
+LightCounts limited(LightCounts counts, std::size_t lights) {
   const int n = static_cast<int>(std::clamp<std::size_t>(lights, 1, 1000));
   return {std::min(counts.candidates, n), std::min(counts.shadow_rays, (n + 1) / 2)};
 }
@@ -65,34 +65,37 @@ LightCounts counts_along_bounce(const LightContext& context) {
   return context.bounce == 0 ? budget_of(context).span : context.bounce == 1 ? kSecondSpan : kLater;
 }
 
-}  // namespace
+/// Where the strategy sizes its cuts itself.
+constexpr LightCounts kNoLimits{0, 0};
 
-LightCounts limits_of_cut(const RenderSettings& settings) { return chosen(settings, LightCounts{0, 0}); }
+}  // namespace
 
 CutSettings cut_settings(const LightContext& context, int candidates) {
   const float unless_set = candidates == 0 || candidates >= kSplitFrom ? kSplitting : 0.0f;
   return {.candidates = candidates, .splitting = context.settings.splitting.value_or(unless_set)};
 }
 
-LightCounts counts_at_vertex(const LightContext& context, const PointQuery& query) {
+LightCounts counts_at_vertex(const LightContext& context, const LightSelector& among, const PointQuery& query) {
+  if (among.sizes_cut()) return chosen(context.settings, kNoLimits);
   const Lights& lights = context.world.lights;
   const bool volumes = seeks_volume_lights(context);
   if (is_single_scattering(context)) {
     // From one point a light without extent is always the same.
     LightCounts counts = kOnlyVertex;
-    if (lights.stats().points == lights.stats().lights) counts.candidates = among(lights.sought(volumes), counts).candidates;
+    if (lights.stats().points == lights.stats().lights) counts.candidates = limited(counts, lights.sought(volumes)).candidates;
     return chosen(context.settings, counts);
   }
-  return chosen(context.settings, among(lights.sought(volumes), counts_at_bounce(context, mostly_glossy(query))));
+  return chosen(context.settings, limited(counts_at_bounce(context, mostly_glossy(query)), lights.sought(volumes)));
 }
 
-SpanCounts counts_along_span(const LightContext& context, float scattered, float depth) {
+SpanCounts counts_along_span(const LightContext& context, const LightSelector& among, float scattered, float depth) {
+  if (among.sizes_cut()) return SpanCounts{chosen(context.settings, kNoLimits)};
   const bool thin = scattered < kThin;
   if (is_single_scattering(context)) {
     return chosen(context.settings, thin ? SpanCounts{kThinSpan} : depth > kDense ? kOnlyDenseSpan : kOnlySpan);
   }
   const std::size_t sought = context.world.lights.sought(seeks_volume_lights(context));
-  SpanCounts counts{thin ? kThinSpan : among(sought, counts_along_bounce(context))};
+  SpanCounts counts{thin ? kThinSpan : limited(counts_along_bounce(context), sought)};
   if (scattered < kFaint) counts.chance = std::max(scattered / kFaint, kLeastChance);
   return chosen(context.settings, counts);
 }

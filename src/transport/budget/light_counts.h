@@ -12,16 +12,14 @@ struct SpanCounts : LightCounts {
   float chance = 1;   ///< probability of drawing any
 };
 
-/// For a strategy that sizes its cuts itself (LightSelector::sizes_cut): the settings are limits, and unset ones none.
-LightCounts limits_of_cut(const RenderSettings& settings);
-
 /// How clusters are split for that many candidates.
 CutSettings cut_settings(const LightContext& context, int candidates);
 
-/// As the settings say; unset ones by what follows: in single scattering nothing else shares the path's cost, so more
-/// candidates pay.
-LightCounts counts_at_vertex(const LightContext& context, const PointQuery& query);
+/// Among the lights that `among` chooses from. As the settings say; unset ones by what follows: in single scattering nothing
+/// else shares the path's cost, so more candidates pay. Where `among` sizes its cuts itself (LightSelector::sizes_cut) the
+/// settings are limits, and unset ones none.
+LightCounts counts_at_vertex(const LightContext& context, const LightSelector& among, const PointQuery& query);
 /// `scattered`: the fraction of light that the span scatters, roughly; `depth`: its optical depth.
-SpanCounts counts_along_span(const LightContext& context, float scattered, float depth);
+SpanCounts counts_along_span(const LightContext& context, const LightSelector& among, float scattered, float depth);
 
 }  // namespace tyndall

@@ -6,6 +6,7 @@
 #include "light/equal_area.h"
 #include "math/frame.h"
 #include "math/warp.h"
+#include "transport/camera/lens_system.h"
 
 namespace tyndall {
 namespace {
@@ -25,7 +26,7 @@ std::array<float, 4> screen_window(const Camera& camera, const Film& film) {
   return {-1, 1, -1 / aspect, 1 / aspect};
 }
 
-/// Of a place on the frame, in [0,1]^2 or a little beyond; the mappings' z is the camera's y and the other way round (pbrt).
+/// Of a place on the frame, in [0,1]^2 or a little beyond; the mappings' z is the camera's y, their y its z (pbrt).
 Vec3 spherical_direction(Camera::Kind kind, Vec2 uv) {
   if (kind == Camera::Kind::spherical_equal_area) {
     const Vec3 w = equal_area_square_to_sphere(equal_area_wrapped(uv));

@@ -7,9 +7,11 @@
 
 #include "math/polygon.h"
 #include "surface/shape_root.h"
-#include "transport/camera/lens_system.h"
+#include "tyndall/scene.h"
 
 namespace tyndall {
+
+class LensSystem;
 
 /// The scene's camera with its projection worked out. Semantics of pbrt's PerspectiveCamera,
 /// OrthographicCamera, SphericalCamera and RealisticCamera.
@@ -23,7 +25,7 @@ class CameraRays {
     Ray ray;
     float weight;  ///< of the radiance along it
   };
-  /// The same for any camera; nothing where no light comes that way through a realistic camera's lenses.
+  /// The same for any camera; nothing where no light comes from there through a realistic camera's lenses.
   std::optional<Sample> sample(Vec2 p, Vec2 lens) const;
   /// World position all rays of a pinhole share; the middle of the lens or of the screen otherwise.
   Vec3 center() const { return to_world_.point({0, 0, 0}); }

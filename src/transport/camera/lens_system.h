@@ -30,7 +30,7 @@ class LensSystem {
 
   /// From the film into the scene, with what the stop lets pass.
   std::optional<Sample> to_scene(LensRay ray) const;
-  /// The other way, up to the last surface before the film; the stop is a circle.
+  /// In reverse, up to the last surface before the film; the stop is a circle.
   std::optional<LensRay> to_film(LensRay ray) const;
 
   double rear_z() const { return surfaces_.back().z; }

@@ -20,9 +20,9 @@ float size_of(Vec3 p) {
 
 /// Whether lines from `p` along `d` and -d leave just the groups of `state`. Not on a boundary, therefore.
 bool holds(const Geometry& geometry, Vec3 p, Vec3 d, const MediaState& state) {
-  for (const Vec3 way : {d, -d}) {
+  for (const Vec3 side : {d, -d}) {
     MediaState left = state;
-    for (const Crossing& c : geometry.trace_all({p, way}, kOn * size_of(p), kInfinity)) {
+    for (const Crossing& c : geometry.trace_all({p, side}, kOn * size_of(p), kInfinity)) {
       if (!left.cross(c.group, c.sign)) return false;
     }
     if (left.in_any_group()) return false;

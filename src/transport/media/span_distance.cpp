@@ -54,10 +54,10 @@ class Facing {
         flat_(light.flat() && (foot_ != 0 || slope_ != 0)),
         two_sided_(light.two_sided) {}
 
-  /// Mean of two places, measured from the ray's closest point to the light, as if both were at distance `way` of it.
-  Float8 cosine(Float8 begin, Float8 end, Float8 way) const {
+  /// Mean of two places, measured from the ray's closest point to the light, as if both were at distance `from_light` of it.
+  Float8 cosine(Float8 begin, Float8 end, Float8 from_light) const {
     if (!flat_) return 1;
-    return 0.5f * (height(begin) + height(end)) / way;
+    return 0.5f * (height(begin) + height(end)) / from_light;
   }
 
  private:
@@ -105,11 +105,12 @@ void DistanceSampler::weigh(Weights weights, const Ray& ray, const LightPlace& l
     const Bins8 bins{within(load8(&finite[i])), within(load8(&finite[i + 1])), load8(&profile_->scatterings()[i]),
                      load8(&profile_->sigmas()[i])};
     const Float8 middle = 0.5f * (bins.begin + bins.end);
-    const Float8 way = sqrt(middle * middle + distance_ * distance_);
+    const Float8 from_light = sqrt(middle * middle + distance_ * distance_);
     const Float8 angle = angles(bins, distance_);
     store8(&by_angle[i], angle);
-    store8(&by_profile[i], angle * bins.scattering * attenuation(min(bins.sigma * way, Float8(profile_->optical_depth()))) *
-                               phase(middle, distance_, weights.g) * facing.cosine(bins.begin, bins.end, way));
+    store8(&by_profile[i], angle * bins.scattering *
+                               attenuation(min(bins.sigma * from_light, Float8(profile_->optical_depth()))) *
+                               phase(middle, distance_, weights.g) * facing.cosine(bins.begin, bins.end, from_light));
   }
   mix(by_profile, by_angle);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "transport/media/span_distance.h"
 #include "transport/media/transmittance_walk.h"
 
 namespace tyndall {

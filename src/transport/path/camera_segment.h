@@ -5,11 +5,12 @@
 
 #include "surface/geometry.h"
 #include "transport/media/span.h"
-#include "transport/media/span_distance.h"
 #include "transport/media/span_profile.h"
 #include "volume/tracking.h"
 
 namespace tyndall {
+
+class DistanceSampler;
 
 /// Wherever the path goes by itself, it is one of those that might have collided anywhere along the ray, or passed. What that
 /// takes is looked up when somebody asks.

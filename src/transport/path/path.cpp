@@ -19,16 +19,9 @@ float hash_to_unit(Vec3 p, Vec3 w) {
   return static_cast<float>(h >> 40) * 0x1p-24f;
 }
 
-Rgb divided(Rgb a, Rgb b) {
-  for (int channel = 0; channel < 3; ++channel) a[channel] = b[channel] != 0 ? a[channel] / b[channel] : 0.0f;
-  return a;
-}
-
 /// Russian roulette is for paths of less throughput than this: a dark wall's path into bright smoke is too rare to be made
 /// rarer (docs/measurements.md).
 constexpr float kRouletteBelow = 1 / 3.0f;
-/// The step beyond all others whose numbers the offer takes.
-constexpr int kSharingStep = 1 << 30;
 /// What paths that were guided to be `ratio` times as likely count for in roulette, ratio^(3/4): they have small weights and
 /// large contributions; roulette by weight alone would undo the guiding (docs/measurements.md).
 float guided_life(float ratio) {
@@ -47,75 +40,6 @@ void Path::run() {
 }
 
 PathRecord Path::result() { return beyond_ ? Path(*this, *beyond_).run_beyond(beyond_->trace) : record_; }
-
-void Path::run_until_offer() {
-  ++context_.counters.paths;
-  sharing_ = Sharing::offering;
-  auto vertex = follow(next_vertex());
-  if (!offer_ || !vertex) return;
-  offer_->at.emplace(std::move(*vertex));
-  offer_->arrived = beta_;
-  offer_->flown = flown_;
-  context_.sampler.begin_step(kSharingStep);
-  offer_->rng = context_.sampler.stream();
-}
-
-void Path::complete_offer() {
-  const PathRecord before = std::exchange(record_, {});
-  GroupedLight* const groups = context_.groups;
-  const GroupedLight::Sums found_before = groups ? groups->begin_find() : GroupedLight::Sums();
-  before_ = max_component(beta_);
-  beta_ = Rgb(1.0f);
-  sharing_ = Sharing::completing;
-  follow(offer_->at);
-  sharing_ = Sharing::none;
-  const Rgb scattered = offer_->at->on_surface() ? Rgb(1.0f) : offer_->scattered;
-  offer_->radiance = divided(record_.radiance(), scattered);
-  record_ = before;
-  add(offer_->arrived * offer_->own, 2);
-  if (!groups) return;
-  groups->end_find(found_before);
-  for (Rgb& light : groups->find) light = divided(light, scattered);
-  GroupedLight::add(offer_->arrived, groups->own, groups->found);
-}
-
-/// Not where a path draws numbers for its vertex: others must not.
-PathOffer* Path::behind() {
-  if (behind_ || !segment_ || !segment_->end()) return behind_ ? &*behind_ : nullptr;
-  const SurfaceHit& hit = *segment_->end();
-  if (context_.world.materials.is_dispersive(context_.world.material_of(hit))) return nullptr;
-  const Span& span = segment_->span();
-  const Vertex vertex = surface_vertex(hit, -span.ray.d, span.end);
-  context_.bounce = 0;
-  return may_share(vertex) ? &behind_.emplace(context_, vertex, Rgb(1.0f)) : nullptr;
-}
-
-void Path::take(Rgb factor, const Path& finder, Received where) {
-  (where == Received::on_surface ? record_.surface_indirect : record_.volume_indirect) += factor * finder.offer_->radiance;
-  if (context_.groups) GroupedLight::add(factor, finder.context_.groups->find, context_.groups->found);
-}
-
-void Path::take_at(float t, Rgb factor, const Path& finder) {
-  take(factor, finder, Received::in_medium);
-  if (context_.deep) context_.deep->scattered(t, factor * finder.offer_->radiance);
-}
-
-bool Path::completes_collision() const { return sharing_ == Sharing::completing && !offer_->at->on_surface(); }
-
-bool Path::may_offer(const Vertex& first) const {
-  return sharing_ == Sharing::offering && depth_ == 1 && !channel_ && may_share(first);
-}
-
-/// Not where dispersion has left a single channel: others want them all. Nor where they could not tell how likely the path
-/// went where it did.
-bool Path::may_share(const Vertex& first) const { return limits_.max_depth > 1 && first.has_smooth() && first.has_exact_pdf(); }
-
-/// What the surface sends back must not depend on which of the paths looks at it. Of a collision's light only that of the
-/// next bounce and later is shared.
-bool Path::is_offered(const Vertex& second) const {
-  if (sharing_ != Sharing::offering || depth_ != 1 || !offer_ || !light_sampled_) return false;
-  return second.on_surface() ? second.surface()->bsdf.diffuse() : limits_.max_depth > 2;
-}
 
 Path::Path(const Path& camera, const Beyond& beyond)
     : context_(camera.context_),
@@ -171,7 +95,7 @@ bool Path::scatter(const Vertex& vertex) {
   // What is aimed at lights weighs against the directions of this path alone.
   const bool offered = depth_ == 2 && completes_collision();
   const auto joint = offered ? std::nullopt : joint_search(context_, vertex);
-  if (joint) add_estimate(beta_, joint_light(context_, vertex, *joint), depth_ + 1);
+  if (joint) add_estimate(beta_, joint_estimate(context_, vertex, *joint), depth_ + 1);
 
   begin(Step::scatter);
   const auto s = directions.sample(beta_, context_.sampler);
@@ -270,28 +194,28 @@ int Path::narrow_to_channel() {
   return *channel_;
 }
 
-/// Light that reached the camera after `events` bounces.
-void Path::add(Rgb contribution, int events) {
-  if (events == 2 && completes_collision()) {
+/// Light that reached the camera after `bounces` bounces.
+void Path::add(Rgb contribution, int bounces) {
+  if (bounces == 2 && completes_collision()) {
     offer_->own += contribution;
-  } else if (events == 0) {
+  } else if (bounces == 0) {
     record_.emission += contribution;
   } else if (first_bounce_in_medium_) {
-    (events == 1 ? record_.volume_direct : record_.volume_indirect) += contribution;
+    (bounces == 1 ? record_.volume_direct : record_.volume_indirect) += contribution;
   } else {
-    (events == 1 ? record_.surface_direct : record_.surface_indirect) += contribution;
+    (bounces == 1 ? record_.surface_direct : record_.surface_indirect) += contribution;
   }
 }
 
 /// The same by light groups: where that light goes.
-GroupedLight::Sums& Path::sums_by_group(int events) {
-  return events == 2 && completes_collision() ? context_.groups->own : context_.groups->found;
+GroupedLight::Sums& Path::sums_by_group(int bounces) {
+  return bounces == 2 && completes_collision() ? context_.groups->own : context_.groups->found;
 }
 
 /// Of several lights, times `factor`.
-void Path::add_estimate(Rgb factor, Rgb estimate, int events) {
-  add(factor * estimate, events);
-  if (context_.groups) context_.groups->settle(factor, sums_by_group(events));
+void Path::add_estimate(Rgb factor, Rgb estimate, int bounces) {
+  add(factor * estimate, bounces);
+  if (context_.groups) context_.groups->settle(factor, sums_by_group(bounces));
 }
 
 void Path::record_camera_ray(const Trace& trace) {

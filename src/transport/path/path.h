@@ -5,6 +5,7 @@
 #include "transport/path/path_offer.h"
 #include "transport/sample/grouped_light.h"
 #include "transport/sample/path_record.h"
+#include "transport/techniques/direct_light.h"
 #include "transport/techniques/joint.h"
 #include "transport/techniques/span_light.h"
 
@@ -90,7 +91,7 @@ class Path {
   bool lit_at_collisions(const Span& span) const;
   std::optional<Vertex> fly(const Span& span, const Trace& trace);
   void add_volume_emission(const Span& span);
-  int events_of_emission(bool weighed) const;
+  int bounces_of_emission(bool weighed) const;
   void dim(const Span& span);
   Rgb light_at(const Directions& directions, Rgb beta);
   float scattering_mis_weight(LightId id, float light_pdf) const;
@@ -99,10 +100,10 @@ class Path {
   int narrow_to_channel();
   void add_environment();
   void add_surface_emission(const SurfaceHit& hit);
-  void add(Rgb contribution, int events);
-  void add_estimate(Rgb factor, Rgb estimate, int events);
-  void add_light(LightId light, Rgb contribution, int events);
-  GroupedLight::Sums& sums_by_group(int events);
+  void add(Rgb contribution, int bounces);
+  void add_estimate(Rgb factor, Rgb estimate, int bounces);
+  void add_light(LightId light, Rgb contribution, int bounces);
+  GroupedLight::Sums& sums_by_group(int bounces);
   void record_camera_ray(const Trace& trace);
   void record_collision(float t);
   void record_transmittance(const Span& span);
@@ -125,10 +126,10 @@ class Path {
   bool first_bounce_in_medium_ = false;
 
   // The last bounce, for the MIS weight of emitters that its ray hits.
-  bool light_sampled_ = false;         ///< next-event estimation could have found what this ray finds
-  Vec3 from_;                          ///< its position
-  float pdf_ = 0;                      ///< of its direction, 1/sr
-  std::optional<CollisionRay> joint_;  ///< the ray from it, if it sampled lights jointly; context_ points to it
+  bool light_sampled_ = false;                 ///< next-event estimation could have found what this ray finds
+  Vec3 from_;                                  ///< its position
+  float pdf_ = 0;                              ///< of its direction, 1/sr
+  std::optional<CollisionJointWeight> joint_;  ///< the ray from it, if it sampled lights jointly; context_ points to it
   LightSearch search_;
   std::optional<SpanCollision> span_collision_;  ///< in place of search_ when its lights are chosen along its span
 

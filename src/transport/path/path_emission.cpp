@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "transport/path/path.h"
-#include "transport/pixel/visible_emitters.h"
+#include "transport/pixel/film_emitters.h"
 #include "transport/sample/deep_sample.h"
 #include "transport/sample/emission_by_group.h"
 
@@ -15,9 +15,9 @@ constexpr float kSeenDensity = 2;
 }  // namespace
 
 /// Of one light.
-void Path::add_light(LightId light, Rgb contribution, int events) {
-  add(contribution, events);
-  if (context_.groups) sums_by_group(events)[context_.groups->groups().of(light)] += contribution;
+void Path::add_light(LightId light, Rgb contribution, int bounces) {
+  add(contribution, bounces);
+  if (context_.groups) sums_by_group(bounces)[context_.groups->groups().of(light)] += contribution;
 }
 
 /// Light from emitters that is scattered at the vertex, by a path of throughput `beta`, without what the span's pairs estimate.
@@ -71,7 +71,7 @@ class Path::ScatteredEmission final : public EmissionGauge {
 
 /// What the ray of an offered collision passes comes to it from one direction, as later light does, and is shared like that.
 /// What next-event estimation weighs against, which is the path's own, is not.
-int Path::events_of_emission(bool weighed) const { return completes_collision() && !weighed ? depth_ + 1 : depth_; }
+int Path::bounces_of_emission(bool weighed) const { return completes_collision() && !weighed ? depth_ + 1 : depth_; }
 
 /// All of it that reaches the span's origin: how far the path goes does not matter.
 void Path::add_volume_emission(const Span& span) {
@@ -83,7 +83,7 @@ void Path::add_volume_emission(const Span& span) {
   const bool weighs = light_sampled_ && (span_collision_ ? span_collision_->search.volumes : search_.volumes);
   DeepSample* const deep = depth_ == 0 ? context_.deep : nullptr;
   const EmissionLook look{weighs ? &gauge : nullptr, depth_ == 0 ? kSeenDensity : 1.0f, deep};
-  const int events = events_of_emission(weighs);
+  const int bounces = bounces_of_emission(weighs);
   Rgb T = beta_;
   for (auto part = span.parts.begin(); part != last && !is_black(T); ++part) {
     TrackingStats& stats = context_.counters.tracking;
@@ -91,9 +91,9 @@ void Path::add_volume_emission(const Span& span) {
       const Rng before = rng;
       if (deep) deep->begin_emission(*part, T);
       const auto passed = emission_and_transmittance(part->view(), ray_, part->t0, part->t1, look, rng, stats);
-      add(T * passed.emitted, events);
+      add(T * passed.emitted, bounces);
       if (context_.groups)
-        add_by_medium({*part, ray_, look, before}, passed.emitted, T, context_.groups->groups(), sums_by_group(events));
+        add_by_medium({*part, ray_, look, before}, passed.emitted, T, context_.groups->groups(), sums_by_group(bounces));
       T *= passed.transmittance;
     } else {
       T *= transmittance(span_method(context_), part->view(), ray_, part->t0, part->t1, rng, stats);

@@ -5,6 +5,7 @@
 
 #include "transport/budget/collisions_suffice.h"
 #include "transport/media/collision_place.h"
+#include "transport/media/transmittance_walk.h"
 #include "transport/path/path.h"
 #include "transport/sample/camera_matte.h"
 #include "transport/sample/deep_sample.h"
@@ -17,15 +18,6 @@ namespace {
 constexpr float kSeenMore = 2;
 /// The step beyond all others whose numbers receiving takes.
 constexpr int kReceivingStep = (1 << 30) + 1;
-
-Rgb tracked_transmittance(const LightContext& context, const Span& span, Rng& rng) {
-  Rgb T(1.0f);
-  for (const SpanPart& part : span.parts) {
-    T *= transmittance(span_method(context), part.view(), span.ray, part.t0, part.t1, rng, context.counters.tracking);
-    if (is_black(T)) break;
-  }
-  return T;
-}
 
 }  // namespace
 
@@ -149,8 +141,8 @@ std::optional<Vertex> Path::fly(const Span& span, const Trace& trace) {
 
 void Path::dim(const Span& span) {
   begin(Step::fly);
-  Rng rng = context_.sampler.stream();
-  beta_ *= tracked_transmittance(context_, span, rng);
+  const Rng rng = context_.sampler.stream();
+  beta_ *= TransmittanceWalk(span_method(context_), span, rng, context_.counters.tracking).to(span.t_end);
 }
 
 void Path::record_camera_media(const Span& span) {
@@ -160,8 +152,8 @@ void Path::record_camera_media(const Span& span) {
 }
 
 void Path::record_transmittance(const Span& span) {
-  Rng rng = context_.sampler.side_stream();
-  record_.transmittance *= tracked_transmittance(context_, span, rng);
+  const Rng rng = context_.sampler.side_stream();
+  record_.transmittance *= TransmittanceWalk(span_method(context_), span, rng, context_.counters.tracking).to(span.t_end);
 }
 
 }  // namespace tyndall

@@ -4,12 +4,10 @@
 #include <cmath>
 
 #include "transport/media/scattering.h"
-#include "transport/pixel/gather_lights.h"
 #include "transport/sample/deep_sample.h"
 #include "transport/sample/grouped_light.h"
-#include "transport/techniques/direct_light.h"
+#include "transport/techniques/joint.h"
 #include "transport/techniques/point_aim.h"
-#include "transport/techniques/way.h"
 #include "volume/coarse.h"
 
 namespace tyndall {
@@ -69,6 +67,21 @@ std::optional<FilmPoint> film_point(const BuiltWorld& world, const std::vector<P
                    .g = Scattering::at(media, point).phase.mean_cosine()};
 }
 
+/// What `look` finds of lights 0 to `count` - 1, in their order; blocks of them by the pool's threads.
+template <typename Look>
+std::vector<FilmPoint> look_at_all(std::size_t count, const FilmSearch& search, const Look& look) {
+  constexpr std::size_t kBlock = 4096;
+  std::vector<std::vector<FilmPoint>> blocks((count + kBlock - 1) / kBlock);
+  search.pool.for_each(blocks.size(), 1, [&](std::size_t block) {
+    for (std::size_t i = block * kBlock; i < std::min(count, (block + 1) * kBlock); ++i) {
+      if (const auto found = look(static_cast<LightId>(i))) blocks[block].push_back(*found);
+    }
+  });
+  std::vector<FilmPoint> all;
+  for (const auto& block : blocks) all.insert(all.end(), block.begin(), block.end());
+  return all;
+}
+
 }  // namespace
 
 FilmPoints film_points(const FilmSearch& search) {
@@ -82,10 +95,10 @@ FilmPoints film_points(const FilmSearch& search) {
     const auto at = p ? world.camera.film_position(*p) : std::nullopt;
     return at && view.sees(*at) ? film_point(world, places, light, *at) : std::nullopt;
   };
-  return {view, gather_lights(count, search.pool, look)};
+  return {view, look_at_all(count, search, look)};
 }
 
-Rgb film_light(const LightContext& context, const PixelPoints& points, Vec2 center, Sampler sampler) {
+Rgb camera_joint_estimate(const LightContext& context, const PixelPoints& points, Vec2 center, Sampler sampler) {
   const float which = sampler.next_1d();
   const Vec2 around = sampler.next_2d();
   const float along = sampler.next_1d();
@@ -105,6 +118,8 @@ Rgb film_light(const LightContext& context, const PixelPoints& points, Vec2 cent
   return light;
 }
 
-float FilmRay::path_mis_weight(const LightContext&, LightId light) const { return mis_weight(pdf_, points_.pdf(light, x_)); }
+float CameraJointWeight::path_mis_weight(const LightContext&, LightId light) const {
+  return mis_weight(pdf_, points_.pdf(light, x_));
+}
 
 }  // namespace tyndall

@@ -7,7 +7,7 @@
 
 #include "transport/pixel/film_search.h"
 #include "transport/pixel/point_images.h"
-#include "transport/techniques/joint_ray.h"
+#include "transport/techniques/mis.h"
 
 namespace tyndall {
 
@@ -15,15 +15,15 @@ namespace tyndall {
 /// it out: only rays from a pinhole are drawn.
 FilmPoints film_points(const FilmSearch& search);
 
-/// Unbiased estimate, for the pixel at `center`, of the share of single scattering that FilmRay::path_mis_weight does not leave
-/// to the filter's samples. `points`, the pixel's, must not be empty.
-Rgb film_light(const LightContext& context, const PixelPoints& points, Vec2 center, Sampler sampler);
+/// Unbiased estimate, for the pixel at `center`, of the share of single scattering that CameraJointWeight::path_mis_weight does
+/// not leave to the filter's samples. `points`, the pixel's, must not be empty.
+Rgb camera_joint_estimate(const LightContext& context, const PixelPoints& points, Vec2 center, Sampler sampler);
 
 /// The camera's ray that a pixel's filter has drawn.
-class FilmRay final : public JointRay {
+class CameraJointWeight final : public JointWeight {
  public:
   /// Through film position `x`, drawn with density `pdf` in 1/pixels^2. `points` must outlive it.
-  FilmRay(const PixelPoints& points, Vec2 x, float pdf) : points_(points), x_(x), pdf_(pdf) {}
+  CameraJointWeight(const PixelPoints& points, Vec2 x, float pdf) : points_(points), x_(x), pdf_(pdf) {}
   float path_mis_weight(const LightContext& context, LightId light) const override;
 
  private:

@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "transport/camera/filter_cells.h"
-#include "transport/pixel/seen_light.h"
+#include "transport/pixel/directly_visible.h"
 
 namespace tyndall {
 namespace {
@@ -23,7 +22,7 @@ constexpr float kLeastContrast = 0.1f;
 /// Pixels. Where rays are off by more, images would be mostly margin.
 constexpr float kLargestRounding = 0.05f;
 
-/// Not where the film clamps samples: a mean over several would be clamped less.
+/// Not where the film limits samples: a mean over several would be limited less.
 bool is_wanted(const BuiltWorld& world, const RenderSettings& settings) {
   if (world.scene.film.max_component < kInfinity || !world.camera.is_sharp()) return false;
   if (!(world.camera.film_rounding() < kLargestRounding)) return false;
@@ -105,6 +104,8 @@ class Search {
     return row;
   }
 
+  const FilterCells& cells() const { return cells_; }
+
   struct Range {
     int begin, end;
   };
@@ -179,7 +180,7 @@ class Search {
                   across = 0.5f + 0.618034f * static_cast<float>(i);
       const auto place = cells_.sample(image, {along, across - std::floor(across)});
       const Ray ray = ray_through({center.x + place.at.x, center.y + place.at.y});
-      const auto seen = place.pdf > 0 ? seen_light(world_, ray) : std::nullopt;
+      const auto seen = place.pdf > 0 ? directly_visible(world_, ray) : std::nullopt;
       met += seen && seen->light == light && attenuated_roughly(world_, ray, *seen) > 0;
     }
     return static_cast<float>(met) / static_cast<float>(looks);
@@ -192,7 +193,7 @@ class Search {
     for (int i = 0; i < looks * looks; ++i) {
       const Vec2 offset = world_.filter.sample({place(i % looks), place(i / looks)}).p;
       const Ray ray = ray_through({center.x + offset.x, center.y + offset.y});
-      const auto seen = seen_light(world_, ray);
+      const auto seen = directly_visible(world_, ray);
       const float brightness = seen ? mean(seen->L) * attenuated_roughly(world_, ray, *seen) : 0.0f;
       least = std::min(least, brightness);
       most = std::max(most, brightness);
@@ -250,6 +251,7 @@ FilmEmitters::FilmEmitters(const FilmSearch& search) {
     rows[i] = in.row(search.pixels.y0 + static_cast<int>(i), all, seen[i]);
   });
   pixels_ = search.pixels;
+  cells_ = in.cells();
   begin_.push_back(0);
   for (const Row& row : rows) {
     emitters_.insert(emitters_.end(), row.emitters.begin(), row.emitters.end());
@@ -261,7 +263,7 @@ FilmEmitters::FilmEmitters(const FilmSearch& search) {
 PixelEmitters FilmEmitters::of(int x, int y) const {
   if (begin_.empty()) return {};
   const std::size_t pixel = pixels_.index(x, y);
-  return {std::span(emitters_).subspan(begin_[pixel], begin_[pixel + 1] - begin_[pixel]), positions_[pixel]};
+  return {std::span(emitters_).subspan(begin_[pixel], begin_[pixel + 1] - begin_[pixel]), positions_[pixel], &*cells_};
 }
 
 }  // namespace tyndall

@@ -12,6 +12,7 @@
 
 #include "math/polygon.h"
 #include "transport/pixel/film_search.h"
+#include "transport/pixel/filter_cells.h"
 #include "tyndall/image.h"
 
 namespace tyndall {
@@ -32,6 +33,7 @@ std::optional<ConvexPolygon> image_of(const BuiltWorld& world, std::uint32_t sha
 struct PixelEmitters {
   std::span<const FilmEmitter> emitters;  ///< shares add up to 1
   int positions = 0;                      ///< film positions a sample
+  const FilterCells* cells = nullptr;     ///< by which they are drawn; outlive this
 
   bool empty() const { return emitters.empty(); }
   bool hold(const BuiltWorld& world, LightId light) const;
@@ -56,6 +58,7 @@ class FilmEmitters {
   std::vector<std::uint32_t> begin_;     ///< of each pixel's emitters, and the end of the last's; empty without any
   std::vector<std::uint8_t> positions_;  ///< by pixel, likewise
   std::vector<FilmEmitter> emitters_;
+  std::optional<FilterCells> cells_;
 };
 
 }  // namespace tyndall

@@ -20,6 +20,15 @@ PixelBounds with_rim(const PixelBounds& pixels, Vec2 radius) {
   return {pixels.x0 - x, pixels.y0 - y, pixels.x1 + x, pixels.y1 + y};
 }
 
+/// Of equals the first.
+bool brighter(const FilmPoint& a, const FilmPoint& b) {
+  return a.brightness != b.brightness ? a.brightness > b.brightness : a.light < b.light;
+}
+
+/// Weight of a light at an offset from the pixel, in radii of its filter. Less at the rim, as the filter is there, but what
+/// reaches in from beyond has its share.
+float toward_rim(float dx, float dy) { return std::exp(-2.25f * std::min(dx * dx + dy * dy, 1.5f)); }
+
 }  // namespace
 
 FilmReach::FilmReach(Vec2 filter_radius, float finest)
@@ -36,15 +45,27 @@ float FilmReach::pdf(Vec2 at, Vec2 x) const {
   return 1 / (2 * kPi * distance * (most_ - least_));
 }
 
+PixelPoints::PixelPoints(const FilmReach& reach, List points) : reach_(reach), points_(std::move(points)) {
+  if (points_.size() > kMost) {
+    std::partial_sort(points_.begin(), points_.begin() + kMost, points_.end(), brighter);
+    points_.truncate(kMost);
+  }
+  double sum = 0;
+  for (const FilmPoint& point : points_) sum += point.brightness;
+  if (!(sum > 0)) points_.clear();
+  for (FilmPoint& point : points_) point.brightness = static_cast<float>(point.brightness / sum);
+}
+
 PixelPoints::Draw PixelPoints::draw(float which, Vec2 around) const {
-  const FilmPoint& point = points_.draw(which);
-  const Vec2 x = reach_.draw(point.at, around);
-  return {point.light, x, point.brightness * reach_.pdf(point.at, x), point.g};
+  const FilmPoint* chosen = points_.begin();
+  while (which >= chosen->brightness && chosen != &points_.back()) which -= (chosen++)->brightness;
+  const Vec2 x = reach_.draw(chosen->at, around);
+  return {chosen->light, x, pdf(*chosen, x), chosen->g};
 }
 
 float PixelPoints::pdf(LightId light, Vec2 x) const {
-  const FilmPoint* point = points_.find(light);
-  return point ? point->brightness * reach_.pdf(point->at, x) : 0.0f;
+  const auto* const at = std::find_if(points_.begin(), points_.end(), [&](const FilmPoint& p) { return p.light == light; });
+  return at == points_.end() ? 0.0f : pdf(*at, x);
 }
 
 bool FilmPoints::View::sees(Vec2 at) const {
@@ -71,7 +92,7 @@ FilmPoints::FilmPoints(const View& view, std::vector<FilmPoint> points)
   std::size_t kept = 0;
   for (const FilmPoint& point : points_) {
     std::uint32_t& count = begin_[cell_of(point) + 1];
-    if (count == PixelPoints::Lights::kMost) continue;
+    if (count == PixelPoints::kMost) continue;
     ++count;
     points_[kept++] = point;
   }
@@ -80,7 +101,7 @@ FilmPoints::FilmPoints(const View& view, std::vector<FilmPoint> points)
 }
 
 PixelPoints FilmPoints::of(int x, int y) const {
-  PixelPoints::Lights::List seen;
+  PixelPoints::List seen;
   if (begin_.empty()) return {reach_, {}};
   const Vec2 center{static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f};
   for (int row = pixel_of(center.y - radius_.y); row <= pixel_of(center.y + radius_.y); ++row) {

@@ -6,11 +6,10 @@
 #pragma once
 
 #include <cstdint>
-#include <utility>
 #include <vector>
 
-#include "light/lights.h"
-#include "transport/pixel/pixel_lights.h"
+#include "light/query.h"
+#include "math/small_vector.h"
 #include "tyndall/image.h"
 
 namespace tyndall {
@@ -35,13 +34,14 @@ class FilmReach {
   float least_ = 0, most_ = 0;  ///< pixels
 };
 
-/// The lights that may be drawn for one pixel, and positions around them.
+/// The brightest lights of one pixel, drawn in proportion to that, and positions around them.
 class PixelPoints {
  public:
-  using Lights = PixelLights<FilmPoint>;
+  static constexpr std::size_t kMost = 8;  ///< others are left to the filter's samples
+  using List = SmallVector<FilmPoint, kMost>;
 
   PixelPoints() = default;
-  PixelPoints(const FilmReach& reach, Lights::List points) : reach_(reach), points_(std::move(points)) {}
+  PixelPoints(const FilmReach& reach, List points);
   bool empty() const { return points_.empty(); }
 
   struct Draw {
@@ -50,12 +50,14 @@ class PixelPoints {
     float pdf;  ///< 1/pixels^2, of both; 0 where x rounds away
     float g;    ///< FilmPoint::g
   };
-  Draw draw(float which, Vec2 around) const;
-  float pdf(LightId light, Vec2 x) const;  ///< Draw::pdf
+  Draw draw(float which, Vec2 around) const;  ///< numbers in [0, 1); not when empty
+  float pdf(LightId light, Vec2 x) const;     ///< Draw::pdf
 
  private:
+  float pdf(const FilmPoint& point, Vec2 x) const { return point.brightness * reach_.pdf(point.at, x); }
+
   FilmReach reach_;
-  Lights points_;
+  List points_;  ///< their brightness is the probability
 };
 
 /// All lights, by the pixel of their image.

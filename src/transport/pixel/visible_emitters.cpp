@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "transport/pixel/seen_light.h"
+#include "transport/pixel/directly_visible.h"
 #include "transport/sample/deep_sample.h"
 #include "transport/sample/grouped_light.h"
 
@@ -38,12 +38,12 @@ Rgb found_at(const LightContext& context, const PixelEmitters& emitters, Vec2 ce
   const FilmEmitter& emitter = emitters.draw(u.x);
   const Point2 middle{center.x, center.y};
   const auto image = image_of(world, emitter.shape, emitter.primitive);
-  const auto place = world.filter_cells.sample(image->moved({-middle.x, -middle.y}), u);
+  const auto place = emitters.cells->sample(image->moved({-middle.x, -middle.y}), u);
   const auto filter = world.filter.at({static_cast<float>(place.at.x), static_cast<float>(place.at.y)});
   if (!(place.pdf > 0) || !(filter.pdf > 0)) return {};
   const Ray ray = world.camera.ray_through({middle.x + place.at.x, middle.y + place.at.y});
   ++context.counters.rays;
-  const auto seen = seen_light(world, ray);
+  const auto seen = directly_visible(world, ray);
   if (!seen || seen->light != emitter.light(world)) return {};
   const auto pdf = static_cast<float>(place.pdf) * emitter.share;
   const Rgb light = seen->L * attenuated(context, ray, *seen, sampler) *

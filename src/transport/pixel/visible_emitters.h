@@ -1,7 +1,6 @@
 /// Directly visible emission of surfaces, where they end within a pixel: film positions are drawn on their images.
 #pragma once
 
-#include "transport/camera/filter_cells.h"
 #include "transport/pixel/film_emitters.h"
 #include "transport/sample/light_context.h"
 

@@ -1,7 +1,9 @@
-/// What one thread counts while it renders.
+/// What one thread counts while it renders, and what that costs.
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <tuple>
 #include <vector>
@@ -40,6 +42,23 @@ struct Counters {
     if (!other.bad_samples.empty()) trim_bad_samples();
     return *this;
   }
+};
+
+/// Costs by counts: choices made by clocks would not give the same picture twice. ns of one core, about
+/// (docs/measurements.md); of a light drawn for a vertex or along a segment, down a tree of so many.
+class Prices {
+ public:
+  explicit Prices(std::size_t lights) : levels_(std::log2(static_cast<double>(lights) + 1)) {}
+
+  double of(const Counters& c) const {
+    constexpr double kRay = 1850, kShadowRay = 500, kLookup = 25, kCandidate = 30, kPair = 160;
+    return kRay * static_cast<double>(c.rays) + kShadowRay * static_cast<double>(c.shadow_rays) +
+           kLookup * static_cast<double>(c.tracking.lookups) +
+           levels_ * (kCandidate * static_cast<double>(c.candidates) + kPair * static_cast<double>(c.pairs));
+  }
+
+ private:
+  double levels_;
 };
 
 }  // namespace tyndall

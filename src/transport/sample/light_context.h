@@ -7,7 +7,7 @@
 
 namespace tyndall {
 
-class JointRay;
+class JointWeight;
 struct PixelEmitters;
 class GroupedLight;
 class CameraMatte;
@@ -26,8 +26,8 @@ struct LightContext {
   float guided_weight = 1;  ///< of the path there, from being guided
   /// Among all lights, where media that emit are sought at all.
   const LightSelector* selector_with_volumes = nullptr;
-  /// The ray to it, where lights were also sampled jointly (joint_ray.h).
-  const JointRay* joint = nullptr;
+  /// The ray to it, where lights were also sampled jointly (techniques/mis.h).
+  const JointWeight* joint = nullptr;
   /// Emitters whose directly visible emission is found otherwise (visible_emitters.h).
   const PixelEmitters* emitters = nullptr;
   /// Where the scene has light groups (grouped_light.h).

@@ -2,15 +2,13 @@
 
 #include <cmath>
 
-#include "transport/media/span_walk.h"
+#include "transport/techniques/shadow_ray.h"
 #include "volume/coarse.h"
 #include "volume/homogeneous.h"
 
 namespace tyndall {
 namespace {
 
-/// Shadow rays end this fraction short of the surface, so that they do not meet it.
-constexpr float kShadowEnd = 1 - 1e-4f;
 /// Steps of marching: as for shadow rays, and half of it for inverses, whose noise has a longer tail.
 constexpr float kSpacing = 0.5f, kInverseSpacing = 0.25f;
 /// Reads of a grid for the chance of passing it.

@@ -1,4 +1,4 @@
-/// From where light is received to a find (path_offer.h): how much of it comes there, and how likely the way was to be taken.
+/// From where light is received to a find (path_offer.h): how much of it comes there, and how likely a path was to go there.
 #pragma once
 
 #include <optional>

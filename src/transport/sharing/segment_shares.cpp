@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "transport/media/scattering.h"
+#include "transport/media/span_distance.h"
 #include "transport/media/transmittance_walk.h"
 
 namespace tyndall {

@@ -25,8 +25,8 @@ class SegmentShares {
   /// paths. Else finds are received where paths collide (VertexShares).
   static bool pay(std::span<Path* const> paths);
   /// Whether light goes about as far between collisions as the rays are apart: else paths that collide hardly see what the
-  /// others meet. Connections through homogeneous media have no noise of their own, and always count as near. Deterministic in
-  /// the same way.
+  /// others meet. Connections through homogeneous media have no noise of their own, and always count as near. Deterministic
+  /// likewise.
   static bool near_each_other(std::span<Path* const> paths);
 
   /// About how many have part in a find: fewer where its own path is much more likely than others to make it.

@@ -1,92 +1,10 @@
 #include "transport/techniques/direct_light.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "transport/budget/light_counts.h"
-#include "transport/techniques/joint_ray.h"
+#include "transport/techniques/mis.h"
 #include "transport/techniques/next_event.h"
-#include "volume/coarse.h"
 
 namespace tyndall {
-namespace {
-
-/// Shadow rays end this fraction short of the light, so that they do not meet the emitter itself.
-constexpr float kShadowEnd = 1 - 1e-4f;
-
-/// Of light that comes through less of the media around a vertex than this, rays are traced with a lower probability: it hardly
-/// shows, and what is dark is dear to march through (docs/measurements.md).
-constexpr float kFaint = 0.1f;
-/// Media are known coarsely: what gets through more than expected must still be found, with a bounded weight.
-constexpr float kLeastChance = 1 / 16.0f;
-constexpr float kDeepest = 8;  ///< beyond the optical depth at which that is reached, 7.1
-
-/// (1 + depth/8)^-8: with a longer tail than e^-depth, as the depth is a guess.
-float guessed_transmittance(float depth) {
-  const float step = 1 + depth / 8, squared = step * step, fourth = squared * squared;
-  return 1 / (fourth * fourth);
-}
-
-/// By the media that hold the ray's origin, as far as they reach. Not for single scattering, whose noise nothing else hides.
-float chance_of_tracing(const LightContext& context, const MediaState& media, const Ray& ray, float distance) {
-  if (is_single_scattering(context)) return 1;
-  const auto& groups = context.world.geometry.groups();
-  const ActiveMedia around = media.active(groups, context.world.media);
-  if (around.empty()) return 1;
-  const float end = std::min(distance, exit_distance(media.bounds(groups), ray));
-  const MediaView there{around.data(), around.size()};
-  const float clearest = clearest_channel(there);
-  if (!(clearest > 0)) return 1;
-  const float depth = clearest * nearby_optical_depth(there, ray, end, kDeepest / clearest);
-  return std::min(1.0f, std::max(kLeastChance, guessed_transmittance(depth) / kFaint));
-}
-
-/// How many of the groups that hold a point bring the medium whose emission the light is.
-float times_present(const BuiltWorld& world, LightId light, const MediaState& there) {
-  const ActiveMedia media = there.active(world.geometry.groups(), world.media);
-  return static_cast<float>(std::count(media.begin(), media.end(), &world.volume_lights.medium(light)));
-}
-
-}  // namespace
-
-Rgb transmittance_along(const LightContext& context, SpanWalk& walk, const Ray& ray, Rng& rng) {
-  Rgb T(1.0f);
-  while (const auto i = walk.next()) {
-    T *= transmittance(shadow_method(context), i->view(), ray, i->t0, i->t1, rng, context.counters.tracking);
-    if (is_black(T)) break;
-  }
-  return T;
-}
-
-std::optional<LightSample> sample_light(const LightContext& context, LightId light, Vec3 p, Vec2 u) {
-  const BuiltWorld& world = context.world;
-  if (!world.volume_lights.holds(light)) return world.lights.sample(light, p, u, true);
-  // A ray that is scattered here would pass emission after the last bounce, where none counts.
-  return is_last_bounce(context) ? std::nullopt : world.volume_lights.sample(light, p, u);
-}
-
-Rgb arriving(const LightContext& context, const MediaState& media, Vec3 origin, const LightSample& light, Sampler& sampler) {
-  const BuiltWorld& world = context.world;
-  const Ray ray{origin, light.wi};
-  const float end = light.volume ? light.distance : light.distance * kShadowEnd;
-  if (!world.has_media()) {
-    ++context.counters.shadow_rays;
-    return world.geometry.occluded(ray, 0, end) ? Rgb() : Rgb(1.0f);
-  }
-  Rng rng = sampler.stream();
-  const float chance = chance_of_tracing(context, media, ray, light.distance);
-  if (chance < 1 && rng.uniform() >= chance) return {};
-  ++context.counters.shadow_rays;
-  const auto crossings = world.geometry.trace_shadow(ray, 0, end);
-  if (!crossings) return {};
-
-  // Through media the whole distance counts: at optical depth 4 the last 1e-4 of it is 4e-4 of the light.
-  SpanWalk walk(world.media_context(), media, *crossings, light.distance);
-  Rgb T = transmittance_along(context, walk, ray, rng);
-  context.counters.parity_errors += walk.parity_errors();
-  if (light.volume && !is_black(T)) T *= times_present(world, *light.volume, walk.state());
-  return T * (1 / chance);
-}
 
 LightSearch light_search(const LightContext& context, const Vertex& vertex) {
   LightSearch search;
@@ -95,8 +13,7 @@ LightSearch light_search(const LightContext& context, const Vertex& vertex) {
   search.among = &selector(context, search.volumes);
   search.query = vertex.light_query();
   if (!vertex.has_smooth() || search.among->exhaustive()) return search;
-  const auto [candidates, shadow_rays] =
-      search.among->sizes_cut() ? limits_of_cut(context.settings) : counts_at_vertex(context, search.query);
+  const auto [candidates, shadow_rays] = counts_at_vertex(context, *search.among, search.query);
   search.cut = search.among->cut(search.query, cut_settings(context, candidates));
   search.shadow_rays = shadow_rays;
   return search;
@@ -112,7 +29,7 @@ Rgb direct_light(const LightContext& context, const Directions& directions, cons
     return mis_weight(density, directions.pdf(light.wi, beta));
   };
   return tried(context, {Spent::vertex_candidates, Spent::vertex_rays}, beta, [&](const LightContext& c, LightTrial* trial) {
-    return VertexLight(c, vertex, search, beta, share).estimate(sampler, trial);
+    return NextEvent(c, vertex, search, beta, share).estimate(sampler, trial);
   });
 }
 

@@ -1,9 +1,9 @@
 #include "transport/techniques/joint.h"
 
+#include "transport/media/scattering.h"
 #include "transport/sample/grouped_light.h"
-#include "transport/techniques/direct_light.h"
 #include "transport/techniques/point_aim.h"
-#include "transport/techniques/way.h"
+#include "transport/techniques/shadow_ray.h"
 #include "volume/coarse.h"
 
 namespace tyndall {
@@ -26,8 +26,8 @@ bool in_reach(const JointSearch& search, Vec3 point) {
 }
 
 /// By one light that was chosen.
-Rgb by_way_of(const LightContext& context, const Vertex& vertex, const JointSearch& search, LightCandidate candidate,
-              Sampler& sampler) {
+Rgb by_light(const LightContext& context, const Vertex& vertex, const JointSearch& search, LightCandidate candidate,
+             Sampler& sampler) {
   const Vec2 around = sampler.next_2d();
   const float along = sampler.next_1d();
   const auto point = context.world.lights.point(candidate.light);
@@ -37,11 +37,37 @@ Rgb by_way_of(const LightContext& context, const Vertex& vertex, const JointSear
   const Rgb f = vertex.eval(aim->w);
   if (is_black(f)) return {};
   const float share = mis_weight(candidate.n_pmf * aim->pdf, vertex.pdf(aim->w, Rgb(1.0f)));
-  const Way way{vertex.media(), {vertex.origin(context.world.geometry, aim->w), aim->w}, aim->t};
-  return f * in_scattered(context, way, candidate.light, sampler) * (aim->spread * share / candidate.n_pmf);
+  const PathSegment segment{vertex.media(), {vertex.origin(context.world.geometry, aim->w), aim->w}, aim->t};
+  return f * in_scattered(context, segment, candidate.light, sampler) * (aim->spread * share / candidate.n_pmf);
 }
 
 }  // namespace
+
+Rgb in_scattered(const LightContext& context, const PathSegment& segment, LightId point, Sampler& sampler) {
+  const BuiltWorld& world = context.world;
+  const Vec3 p = segment.ray.at(segment.t), wo = -segment.ray.d;
+  const auto light = world.lights.sample(point, p, {}, true);
+  if (!light || is_black(light->L)) return {};
+  ++context.counters.shadow_rays;
+  const auto crossings = world.geometry.trace_shadow(segment.ray, 0, segment.t);
+  if (!crossings) return {};
+
+  SpanWalk to_end(world.media_context(), segment.start, *crossings, segment.t);
+  while (to_end.next()) {
+  }
+  context.counters.parity_errors += to_end.parity_errors();
+  const MediaState there = to_end.state();
+  const Scattering scattering = Scattering::at(there.active(world.geometry.groups(), world.media), p);
+  if (is_black(scattering.sigma_s)) return {};
+
+  Rng rng = sampler.stream();
+  SpanWalk walk(world.media_context(), segment.start, *crossings, segment.t);
+  const Rgb T = transmittance_along(context, walk, segment.ray, rng);
+  if (is_black(T)) return {};
+  const Rgb intensity = light->L * light->distance * light->distance;
+  return scattering.sigma_s * scattering.phase.eval(wo, light->wi) * intensity * T *
+         arriving(context, there, p, *light, sampler);
+}
 
 std::optional<JointSearch> joint_search(const LightContext& context, const Vertex& vertex) {
   if (context.settings.joint == JointStrategy::off || vertex.on_surface() || is_last_bounce(context)) return std::nullopt;
@@ -54,18 +80,18 @@ std::optional<JointSearch> joint_search(const LightContext& context, const Verte
   return search;
 }
 
-Rgb joint_light(const LightContext& context, const Vertex& vertex, const JointSearch& search) {
+Rgb joint_estimate(const LightContext& context, const Vertex& vertex, const JointSearch& search) {
   Sampler sampler = context.sampler.fork();
   Rgb sum;
   for (const LightCandidate& candidate : context.selector.draw(search.cut, search.query, sampler.next_wide())) {
-    const Rgb light = by_way_of(context, vertex, search, candidate, sampler);
+    const Rgb light = by_light(context, vertex, search, candidate, sampler);
     if (context.groups) context.groups->estimate(candidate.light, light);
     sum += light;
   }
   return sum;
 }
 
-float CollisionRay::path_mis_weight(const LightContext& context, LightId light) const {
+float CollisionJointWeight::path_mis_weight(const LightContext& context, LightId light) const {
   const auto point = context.world.lights.point(light);
   if (!point) return 1;
   const float aimed = aim_pdf(search_.query.p, *point, w_);

@@ -8,12 +8,22 @@
 
 #include <optional>
 
-#include "transport/techniques/joint_ray.h"
+#include "transport/techniques/mis.h"
 #include "transport/vertex/vertex.h"
 
 namespace tyndall {
 
-/// How a collision samples lights for the next one: joint_light uses it, and MIS must know it along the path's own ray.
+/// A path's segment from a vertex or the camera to where it scatters next.
+struct PathSegment {
+  const MediaState& start;  ///< media at its origin; must outlive it
+  Ray ray;
+  float t;  ///< > 0, length
+};
+/// Unbiased estimate of what media at the segment's end scatter back along it of a point or spot light: radiance per length,
+/// times the square of the distance between that end and the light, since neither factor stays bounded near it.
+Rgb in_scattered(const LightContext& context, const PathSegment& segment, LightId point, Sampler& sampler);
+
+/// How a collision samples lights for the next one: joint_estimate uses it, and MIS must know it along the path's own ray.
 struct JointSearch {
   PointQuery query;
   LightCut cut;
@@ -25,12 +35,12 @@ std::optional<JointSearch> joint_search(const LightContext& context, const Verte
 
 /// Unbiased estimate of the light of point and spot lights that is scattered once more before `vertex` scatters it: the share
 /// of it that path_mis_weight() does not leave to the path's own ray. Multiply by the throughput.
-Rgb joint_light(const LightContext& context, const Vertex& vertex, const JointSearch& search);
+Rgb joint_estimate(const LightContext& context, const Vertex& vertex, const JointSearch& search);
 
 /// The ray that a path went on by from a collision that was sampled jointly.
-class CollisionRay final : public JointRay {
+class CollisionJointWeight final : public JointWeight {
  public:
-  CollisionRay(const JointSearch& search, Vec3 w, float pdf) : search_(search), w_(w), pdf_(pdf) {}
+  CollisionJointWeight(const JointSearch& search, Vec3 w, float pdf) : search_(search), w_(w), pdf_(pdf) {}
   float path_mis_weight(const LightContext& context, LightId light) const override;
 
  private:

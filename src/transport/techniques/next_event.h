@@ -4,19 +4,20 @@
 #include <optional>
 
 #include "math/small_vector.h"
-#include "transport/budget/choice_trial.h"
+#include "transport/budget/light_trial.h"
 #include "transport/sample/grouped_light.h"
-#include "transport/techniques/direct_light.h"
 #include "transport/techniques/resampling.h"
+#include "transport/techniques/shadow_ray.h"
+#include "transport/vertex/vertex.h"
 
 namespace tyndall {
 
-/// A vertex whose light is sampled. `Search` has a selector, whether volumes are among its lights, a query, the cut made for it
+/// At a vertex. `Search` has a selector, whether volumes are among its lights, a query, the cut made for it
 /// and shadow_rays; `Share` is a function of a LightSample and the density of the candidates: its MIS weight.
 template <typename Search, typename Share>
-class VertexLight {
+class NextEvent {
  public:
-  VertexLight(const LightContext& context, const Vertex& vertex, const Search& search, Rgb beta, const Share& share)
+  NextEvent(const LightContext& context, const Vertex& vertex, const Search& search, Rgb beta, const Share& share)
       : context_(context), vertex_(vertex), search_(search), beta_(beta), share_(share) {}
 
   /// Of all lights, or of the candidates that survive resampling.

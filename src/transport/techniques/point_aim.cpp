@@ -16,7 +16,7 @@ const float kLeastCosine = std::cos(kWidest);
 constexpr float kSharpen = 1.2f;
 constexpr float kSharpest = 0.98f;
 
-float lobe_stretch(float g) {
+float lobe_elongation(float g) {
   g = std::clamp(g, -kSharpest, kSharpest);
   return std::pow((1 + g) / (1 - g), kSharpen);
 }
@@ -24,15 +24,15 @@ float lobe_stretch(float g) {
 }  // namespace
 
 // Henyey and Greenstein's (1 + g^2 - 2 g cos theta)^-1.5 has no inverse over theta. With exponent -1 and a g of its own, which
-// `stretch` stands for, it is within 1.5 of it up to |g| = 0.95 and is drawn by tan(theta / 2).
+// `elongation` stands for, it is within 1.5 of it up to |g| = 0.95 and is drawn by tan(theta / 2).
 PassingPlace pass_point(float closest, float passing, float g, float u) {
-  const float stretch = lobe_stretch(g);
+  const float elongation = lobe_elongation(g);
   const float slope = closest / passing, root = std::sqrt(1 + slope * slope);
   const float begin = slope > 0 ? 1 / (slope + root) : root - slope;  // tan(theta / 2) at the ray's origin
-  const float first = std::atan(stretch * begin), range = kPi / 2 - first;
-  const float half = std::tan(first + u * range) / stretch, inverse = 1 / half;
+  const float first = std::atan(elongation * begin), range = kPi / 2 - first;
+  const float half = std::tan(first + u * range) / elongation, inverse = 1 / half;
   const float cosine2 = 1 / (1 + half * half), sine2 = 1 / (1 + inverse * inverse);  // of theta / 2
-  const float range_by_density = 2 * range * (cosine2 / stretch + stretch * sine2);
+  const float range_by_density = 2 * range * (cosine2 / elongation + elongation * sine2);
   return {closest + passing * (half - inverse) / 2, range_by_density / passing};
 }
 

@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "math/small_vector.h"
-#include "transport/budget/choice_trial.h"
 #include "transport/budget/light_counts.h"
 #include "transport/media/scattering.h"
+#include "transport/media/span_distance.h"
 #include "transport/media/transmittance_walk.h"
 #include "transport/sample/deep_sample.h"
-#include "transport/sample/grouped_light.h"
-#include "transport/techniques/joint_ray.h"
-#include "transport/techniques/resampling.h"
+#include "transport/techniques/mis.h"
+#include "transport/techniques/next_event.h"
 #include "volume/coarse.h"
 
 namespace tyndall {
@@ -194,9 +192,7 @@ std::optional<SpanSearch> span_search(const LightContext& context, const Span& s
   search.query = query_of(settings, span, *profile, search.g);
   search.tracked = tracks(context);
   if (!search.among->exhaustive()) {
-    const SpanCounts counts = search.among->sizes_cut()
-                                  ? SpanCounts{limits_of_cut(context.settings)}
-                                  : counts_along_span(context, profile->scattered(), profile->optical_depth());
+    const SpanCounts counts = counts_along_span(context, *search.among, profile->scattered(), profile->optical_depth());
     search.cut = search.among->cut(search.query, cut_settings(context, counts.candidates));
     search.shadow_rays = counts.shadow_rays;
     search.distances = counts.distances;
@@ -229,6 +225,17 @@ SpanDensities span_densities(const LightContext& context, const SpanCollision& c
                       ? n_pmf * pairs * distances_to(context, collision.search, id).pdf(collision.t)
                       : 0.0f,
           .tracked = collision.search.tracked ? n_pmf * collision.density : 0.0f};
+}
+
+Rgb collision_light(const LightContext& context, const Vertex& vertex, const SpanCollision& collision, Rgb beta) {
+  Sampler sampler = context.sampler.fork();
+  const auto share = [&](const LightSample& light, LightId id, float density) {
+    const SpanDensities others = span_densities(context, collision, id);
+    const float phase = light.delta ? 0.0f : vertex.pdf(light.wi, Rgb(1.0f));
+    const float own = light.delta ? path_mis_weight(context, id) : 1.0f;
+    return own * mis_weight(collision.density * density, others.pair * light.pdf, collision.density * phase);
+  };
+  return NextEvent(context, vertex, collision.search, beta, share).estimate(sampler);
 }
 
 }  // namespace tyndall

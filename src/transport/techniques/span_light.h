@@ -3,9 +3,9 @@
 
 #include <optional>
 
-#include "transport/media/span_distance.h"
 #include "transport/media/span_profile.h"
-#include "transport/techniques/direct_light.h"
+#include "transport/sample/light_context.h"
+#include "transport/vertex/vertex.h"
 
 namespace tyndall {
 

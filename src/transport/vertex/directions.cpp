@@ -1,6 +1,9 @@
 #include "transport/vertex/directions.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "volume/coarse.h"
 
 namespace tyndall {
 namespace {
@@ -21,14 +24,49 @@ bool guides(const LightContext& context, const Vertex& vertex) {
 
 /// What goes on from the last bounce finds lights alone, which is what next-event estimation is for.
 bool follows_suns(const LightContext& context, const Vertex& vertex) {
-  return context.settings.guiding != GuidingStrategy::off && !context.world.aureoles.empty() && !vertex.on_surface() &&
+  return context.settings.guiding != GuidingStrategy::off && !context.world.suns.empty() && !vertex.on_surface() &&
          !is_last_bounce(context);
+}
+
+/// Of a direction e^-4 is left after this many turns of the mean cosine each: behind more, all light is even.
+constexpr float kTurns = 4;
+/// Of a path, from being guided, beyond which it is guided less and less: it was sent where its light is not, and such weights
+/// multiply.
+constexpr float kMostWeight = 10;
+
+/// Mean albedo of single scattering.
+float albedo_of(const ActiveMedia& media) {
+  float sum = 0, count = 0;
+  for (const ParticipatingMedium* medium : media) {
+    if (!medium->scatters()) continue;
+    sum += medium->albedo(), count += 1;
+  }
+  return count > 0 ? sum / count : 0.0f;
+}
+
+/// At a collision, from what is deterministic there; nothing where there is nothing to guide by.
+std::optional<Aureole> aureole_at(const LightContext& context, const Vertex& vertex) {
+  const BuiltWorld& world = context.world;
+  const auto& groups = world.geometry.groups();
+  const ActiveMedia media = vertex.media().active(groups, world.media);
+  const Bounds3 box = vertex.media().bounds(groups);
+  const Vec3 p = vertex.p();
+  const float g = vertex.medium()->phase.mean_cosine(), deepest = kTurns / std::max(1 - g, 0.05f);
+  const int orders = context.settings.max_depth - context.bounce - 1;
+  Aureole aureole({g, albedo_of(media), orders}, world.suns.others_at(p), std::max(context.guided_weight / kMostWeight, 1.0f));
+  for (const FarCone& sun : world.suns.brightest()) {
+    const Ray ray{p, sun.directions.axis};
+    if (world.geometry.occluded(ray, 0, kInfinity)) continue;
+    const float depth = nearby_optical_depth({media.data(), media.size()}, ray, exit_distance(box, ray), deepest);
+    aureole.add({ray.d, sun.fluence, std::min(length(sun.mean), 1.0f), depth});
+  }
+  return aureole.shows() ? std::optional(aureole) : std::nullopt;
 }
 
 }  // namespace
 
 Directions::Directions(const LightContext& context, const Vertex& vertex) : vertex_(vertex) {
-  if (follows_suns(context, vertex)) aureole_ = context.world.aureoles.at(context, vertex);
+  if (follows_suns(context, vertex)) aureole_ = aureole_at(context, vertex);
   if (!guides(context, vertex)) return;
   toward_media_.emplace(context.world.bright_media, vertex.light_query(), seeks_volume_lights(context));
   if (toward_media_->share() == 0) toward_media_.reset();

@@ -120,8 +120,7 @@ BuiltWorld::BuiltWorld(Scene unit_scene, const BuildSettings& settings, std::siz
       volume_lights(settings.volume_lights ? VolumeLights(media, geometry, scene.camera.medium) : VolumeLights()),
       has_volume_lights(settings.volume_lights),
       camera(scene.camera, scene.film),
-      filter(scene.filter),
-      filter_cells(filter) {
+      filter(scene.filter) {
   const auto all_opaque = [](const std::vector<Shape>& shapes) {
     return std::none_of(shapes.begin(), shapes.end(), [](const Shape& s) { return s.alpha.has_value(); });
   };
@@ -141,7 +140,7 @@ BuiltWorld::BuiltWorld(Scene unit_scene, const BuildSettings& settings, std::siz
   light_distances = tyndall::light_distances(media, geometry.groups(), scene.camera.medium, lights, volume_lights);
   bright_media =
       BrightMedia(media, {geometry.groups(), scene.camera.medium, lights, volume_lights, scene_bounds(geometry, media)});
-  if (!media.empty()) aureoles = Aureoles(lights);
+  if (!media.empty()) suns = Suns(lights);
   for (std::string& note : volume_lights.notes(scene.media)) summary.notes.push_back(std::move(note));
   light_groups = light_groups_of(*this, emitters.shapes);
   first_light.assign(geometry.placed().size(), kNone);

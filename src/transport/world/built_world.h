@@ -8,14 +8,13 @@
 #include "surface/material.h"
 #include "texture/textures.h"
 #include "transport/camera/camera_ray.h"
-#include "transport/camera/filter_cells.h"
 #include "transport/camera/pixel_filter.h"
 #include "transport/media/media_state.h"
-#include "transport/media/span_walk.h"
-#include "transport/world/aureoles.h"
+#include "transport/media/span.h"
 #include "transport/world/bright_media.h"
 #include "transport/world/light_distances.h"
 #include "transport/world/light_groups.h"
+#include "transport/world/suns.h"
 #include "transport/world/volume_lights.h"
 #include "tyndall/render.h"
 #include "volume/medium.h"
@@ -42,12 +41,11 @@ struct BuiltWorld {
   Lights lights;
   LightDistances light_distances;    ///< empty where all media are unbounded, or all lights are far
   BrightMedia bright_media;          ///< empty where all media are homogeneous
-  Aureoles aureoles;                 ///< empty where the scene has no sun
+  Suns suns;                         ///< empty where the scene has no sun
   LightGroups light_groups;          ///< empty where the scene names none
   std::vector<LightId> first_light;  ///< by placed shape; kNone where it does not emit
   CameraRays camera;
   FilterSampler filter;
-  FilterCells filter_cells;
   MediaState camera_media;  ///< what holds the camera's center
 
   SpanWalk::Context media_context() const { return {geometry.groups(), media}; }

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "math/hash.h"
-#include "transport/media/span_walk.h"
+#include "transport/media/span.h"
 
 namespace tyndall {
 namespace {

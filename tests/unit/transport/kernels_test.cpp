@@ -2,7 +2,7 @@
 #include <span>
 
 #include "support/adversarial.h"
-#include "transport/techniques/direct_light.h"
+#include "transport/techniques/mis.h"
 #include "transport/techniques/resampling.h"
 
 using namespace tyndall;

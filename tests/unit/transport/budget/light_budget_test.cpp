@@ -1,4 +1,4 @@
-#include "transport/budget/light_budget.h"
+#include "transport/budget/light_trial.h"
 
 #include <doctest/doctest.h>
 

@@ -12,16 +12,19 @@ namespace {
 /// Counts in a world with as many point lights, and an area light or none.
 class Counted {
  public:
-  Counted(int points, bool area_light) : world_(test::world_of(scene(points, area_light), {})) {}
+  Counted(int points, bool area_light)
+      : world_(test::world_of(scene(points, area_light), {.lights = {LightStrategy::tree, LightStrategy::lightcuts}})) {}
 
   /// `lobe`: its share of what is scattered.
   LightCounts vertex(const RenderSettings& settings, int bounce, float lobe = 0) {
     PointQuery query{.p = {0, 0, 0}, .n = {0, 0, -1}, .diffuse = 1 - lobe};
     query.lobe_count = lobe > 0 ? 1 : 0;
-    return counts_at_vertex(context(settings, bounce), query);
+    const LightContext here = context(settings, bounce);
+    return counts_at_vertex(here, here.selector, query);
   }
   SpanCounts span(const RenderSettings& settings, int bounce, float scattered, float depth = 1) {
-    return counts_along_span(context(settings, bounce), scattered, depth);
+    const LightContext here = context(settings, bounce);
+    return counts_along_span(here, here.selector, scattered, depth);
   }
 
   const LightBudget* measured = nullptr;
@@ -122,6 +125,20 @@ TEST_CASE("what was measured holds at the first vertex and along the first segme
   check(three.vertex(deep, 0), 3, 2);
   check(three.span(deep, 0, 0.5f), 3, 2);
   check(many.vertex(set, 0), 3, 7);
+}
+
+TEST_CASE("a strategy that sizes its cuts itself is limited by what is set alone") {
+  Counted many(20, true);
+  RenderSettings cuts, set;
+  cuts.lights = set.lights = LightStrategy::lightcuts;
+  set.candidates = 3;
+  set.shadow_rays = 1;
+  check(many.vertex(cuts, 0), 0, 0);
+  check(many.vertex(set, 0), 3, 1);
+  const SpanCounts faint = many.span(cuts, 0, 1e-5f);
+  check(faint, 0, 0);
+  CHECK(faint.chance == 1);
+  check(many.span(set, 0, 0.5f), 3, 1);
 }
 
 TEST_CASE("paths that share have more candidates and shadow rays at their first vertex") {

@@ -1,4 +1,4 @@
-#include "transport/media/span_walk.h"
+#include "transport/media/span.h"
 
 #include <doctest/doctest.h>
 

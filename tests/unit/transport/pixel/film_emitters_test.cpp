@@ -10,7 +10,7 @@
 #include "math/rng.h"
 #include "session/world_parts.h"
 #include "support/sphere_scene.h"
-#include "transport/pixel/seen_light.h"
+#include "transport/pixel/directly_visible.h"
 
 namespace tyndall {
 namespace {
@@ -53,7 +53,7 @@ TEST_CASE("what a ray meets of an emitter is in its image, and most of the image
     std::array<double, 7> met{}, in_image{}, least{0.95, 0.4, 0.93, 0.75, 0.5, 0.98, 0};
     for (int i = 0; i < 40'000; ++i) {
       const Point2 film{24.0 * rng.uniform(), 18.0 * rng.uniform()};
-      const auto seen = seen_light(built, built.camera.ray_through(film));
+      const auto seen = directly_visible(built, built.camera.ray_through(film));
       for (std::uint32_t shape = 0; shape < built.first_light.size(); ++shape) {
         for (std::uint32_t k = 0; k < primitives_of(*built.geometry.placed()[shape].shape); ++k) {
           const auto image = image_of(built, shape, k);
@@ -110,6 +110,7 @@ TEST_CASE("pixels draw the emitters that end in them, in crops too; none where o
       "9\n";
   const World world = test::world_of(scene(kPerspective) + wall, {});
   const BuiltWorld& built = world.parts().built;
+  const FilterCells cells(built.filter);
   const PixelBounds whole{0, 0, 24, 18}, part{5, 3, 12, 18};
   const FilmEmitters all = search(world, with_points(), whole), some = search(world, with_points(), part);
   std::size_t drawing = 0;
@@ -122,7 +123,7 @@ TEST_CASE("pixels draw the emitters that end in them, in crops too; none where o
       for (std::uint32_t shape = 0; shape < 6; ++shape) {
         for (std::uint32_t k = 0; k < primitives_of(*built.geometry.placed()[shape].shape); ++k) {
           const auto image = image_of(built, shape, k);
-          others |= image && built.filter_cells.mass(image->moved({-x - 0.5, -y - 0.5})) > 0;
+          others |= image && cells.mass(image->moved({-x - 0.5, -y - 0.5})) > 0;
         }
       }
       if (!others) REQUIRE(emitters.empty());

@@ -55,7 +55,7 @@ TEST_CASE("a pixel has the point lights that its filter sees, in crops and at th
             found += drawn;
             if (drawn) CHECK(std::count(expected.begin(), expected.end(), point.light) == 1);
           }
-          CHECK(found == std::min(expected.size(), PixelPoints::Lights::kMost));
+          CHECK(found == std::min(expected.size(), PixelPoints::kMost));
         }
       }
     }
@@ -66,7 +66,7 @@ TEST_CASE("of many point lights in a pixel the brightest are drawn") {
   std::vector<FilmPoint> points;
   for (LightId i = 0; i < 100; ++i) points.push_back({i, {2.5f, 2.5f}, static_cast<float>(1 + i)});
   const PixelPoints brightest = FilmPoints({{0, 0, 4, 4}, {1.5f, 1.5f}, kFinest}, points).of(2, 2);
-  for (LightId i = 0; i < 100; ++i) CHECK((brightest.pdf(i, {2.6f, 2.5f}) > 0) == (i >= 100 - PixelPoints::Lights::kMost));
+  for (LightId i = 0; i < 100; ++i) CHECK((brightest.pdf(i, {2.6f, 2.5f}) > 0) == (i >= 100 - PixelPoints::kMost));
 }
 
 TEST_CASE("filters of any width are taken, those of many pixels without point lights") {

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "transport/techniques/direct_light.h"
+#include "transport/techniques/mis.h"
 
 using namespace tyndall;
 

@@ -6,7 +6,7 @@
 
 #include "session/world_parts.h"
 #include "support/sphere_scene.h"
-#include "transport/techniques/direct_light.h"
+#include "transport/techniques/shadow_ray.h"
 
 namespace tyndall {
 namespace {

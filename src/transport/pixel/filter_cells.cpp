@@ -1,4 +1,4 @@
-#include "transport/camera/filter_cells.h"
+#include "transport/pixel/filter_cells.h"
 
 #include <algorithm>
 #include <cmath>

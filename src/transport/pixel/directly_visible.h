@@ -8,17 +8,17 @@
 namespace tyndall {
 
 /// The surface that it hits first, if that is emissive.
-struct SeenLight {
+struct DirectlyVisible {
   LightId light;
   EmitterHit hit;
   Rgb L;        ///< toward the camera, before media attenuate it
   Trace trace;  ///< of the ray, up to the surface
 };
-std::optional<SeenLight> seen_light(const BuiltWorld& world, const Ray& ray);
+std::optional<DirectlyVisible> directly_visible(const BuiltWorld& world, const Ray& ray);
 
 /// Unbiased estimate of the transmittance of the media before it.
-Rgb attenuated(const LightContext& context, const Ray& ray, const SeenLight& seen, Sampler& sampler);
+Rgb attenuated(const LightContext& context, const Ray& ray, const DirectlyVisible& seen, Sampler& sampler);
 /// The same, roughly, for choices: mean of the channels, and nothing where less than a hundredth gets through.
-float attenuated_roughly(const BuiltWorld& world, const Ray& ray, const SeenLight& seen);
+float attenuated_roughly(const BuiltWorld& world, const Ray& ray, const DirectlyVisible& seen);
 
 }  // namespace tyndall

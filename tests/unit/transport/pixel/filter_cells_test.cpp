@@ -1,5 +1,5 @@
 /// Film positions in a polygon by the filter: whether their density is what it says, and follows the filter.
-#include "transport/camera/filter_cells.h"
+#include "transport/pixel/filter_cells.h"
 
 #include <doctest/doctest.h>
 

@@ -1,9 +1,8 @@
-#include "transport/pixel/seen_light.h"
+#include "transport/pixel/directly_visible.h"
 
 #include <cmath>
 
-#include "transport/media/span_walk.h"
-#include "transport/techniques/direct_light.h"
+#include "transport/techniques/shadow_ray.h"
 #include "volume/coarse.h"
 
 namespace tyndall {
@@ -19,7 +18,7 @@ SpanWalk walk_to(const BuiltWorld& world, const Ray& ray, const Trace& trace) {
 
 }  // namespace
 
-std::optional<SeenLight> seen_light(const BuiltWorld& world, const Ray& ray) {
+std::optional<DirectlyVisible> directly_visible(const BuiltWorld& world, const Ray& ray) {
   // Traced as the path's own ray is, not as a shadow ray, which ends before the light: the glass of a distant bulb, as close to
   // it as that, hides it.
   Trace trace = world.geometry.trace(ray, 0, kInfinity);
@@ -28,10 +27,10 @@ std::optional<SeenLight> seen_light(const BuiltWorld& world, const Ray& ray) {
   const EmitterHit hit{.p = trace.hit->p, .ng = trace.hit->ng, .uv = trace.hit->uv, .distance = trace.hit->t};
   const Rgb L = world.lights.emitted(*id, hit, -ray.d);
   if (is_black(L)) return std::nullopt;
-  return SeenLight{*id, hit, L, std::move(trace)};
+  return DirectlyVisible{*id, hit, L, std::move(trace)};
 }
 
-Rgb attenuated(const LightContext& context, const Ray& ray, const SeenLight& seen, Sampler& sampler) {
+Rgb attenuated(const LightContext& context, const Ray& ray, const DirectlyVisible& seen, Sampler& sampler) {
   if (!context.world.has_media()) return Rgb(1.0f);
   Rng rng = sampler.stream();
   SpanWalk walk = walk_to(context.world, ray, seen.trace);
@@ -40,7 +39,7 @@ Rgb attenuated(const LightContext& context, const Ray& ray, const SeenLight& see
   return T;
 }
 
-float attenuated_roughly(const BuiltWorld& world, const Ray& ray, const SeenLight& seen) {
+float attenuated_roughly(const BuiltWorld& world, const Ray& ray, const DirectlyVisible& seen) {
   if (!world.has_media()) return 1;
   float depth = 0;
   SpanWalk walk = walk_to(world, ray, seen.trace);

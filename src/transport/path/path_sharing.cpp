@@ -1,0 +1,89 @@
+/// What a path offers to those of neighbouring pixels, and takes from them.
+#include <utility>
+
+#include "transport/path/path.h"
+#include "transport/sample/deep_sample.h"
+
+namespace tyndall {
+namespace {
+
+Rgb divided(Rgb a, Rgb b) {
+  for (int channel = 0; channel < 3; ++channel) a[channel] = b[channel] != 0 ? a[channel] / b[channel] : 0.0f;
+  return a;
+}
+
+/// The step beyond all others whose numbers the offer takes.
+constexpr int kSharingStep = 1 << 30;
+
+}  // namespace
+
+void Path::run_until_offer() {
+  ++context_.counters.paths;
+  sharing_ = Sharing::offering;
+  auto vertex = follow(next_vertex());
+  if (!offer_ || !vertex) return;
+  offer_->at.emplace(std::move(*vertex));
+  offer_->arrived = beta_;
+  offer_->flown = flown_;
+  context_.sampler.begin_step(kSharingStep);
+  offer_->rng = context_.sampler.stream();
+}
+
+void Path::complete_offer() {
+  const PathRecord before = std::exchange(record_, {});
+  GroupedLight* const groups = context_.groups;
+  const GroupedLight::Sums found_before = groups ? groups->begin_find() : GroupedLight::Sums();
+  before_ = max_component(beta_);
+  beta_ = Rgb(1.0f);
+  sharing_ = Sharing::completing;
+  follow(offer_->at);
+  sharing_ = Sharing::none;
+  const Rgb scattered = offer_->at->on_surface() ? Rgb(1.0f) : offer_->scattered;
+  offer_->radiance = divided(record_.radiance(), scattered);
+  record_ = before;
+  add(offer_->arrived * offer_->own, 2);
+  if (!groups) return;
+  groups->end_find(found_before);
+  for (Rgb& light : groups->find) light = divided(light, scattered);
+  GroupedLight::add(offer_->arrived, groups->own, groups->found);
+}
+
+/// Not where a path draws numbers for its vertex: others must not.
+PathOffer* Path::behind() {
+  if (behind_ || !segment_ || !segment_->end()) return behind_ ? &*behind_ : nullptr;
+  const SurfaceHit& hit = *segment_->end();
+  if (context_.world.materials.is_dispersive(context_.world.material_of(hit))) return nullptr;
+  const Span& span = segment_->span();
+  const Vertex vertex = surface_vertex(hit, -span.ray.d, span.end);
+  context_.bounce = 0;
+  return may_share(vertex) ? &behind_.emplace(context_, vertex, Rgb(1.0f)) : nullptr;
+}
+
+void Path::take(Rgb factor, const Path& finder, Received where) {
+  (where == Received::on_surface ? record_.surface_indirect : record_.volume_indirect) += factor * finder.offer_->radiance;
+  if (context_.groups) GroupedLight::add(factor, finder.context_.groups->find, context_.groups->found);
+}
+
+void Path::take_at(float t, Rgb factor, const Path& finder) {
+  take(factor, finder, Received::in_medium);
+  if (context_.deep) context_.deep->scattered(t, factor * finder.offer_->radiance);
+}
+
+bool Path::completes_collision() const { return sharing_ == Sharing::completing && !offer_->at->on_surface(); }
+
+bool Path::may_offer(const Vertex& first) const {
+  return sharing_ == Sharing::offering && depth_ == 1 && !channel_ && may_share(first);
+}
+
+/// Not where dispersion has left a single channel: others want them all. Nor where they could not tell how likely the path
+/// went where it did.
+bool Path::may_share(const Vertex& first) const { return limits_.max_depth > 1 && first.has_smooth() && first.has_exact_pdf(); }
+
+/// What the surface sends back must not depend on which of the paths looks at it. Of a collision's light only that of the
+/// next bounce and later is shared.
+bool Path::is_offered(const Vertex& second) const {
+  if (sharing_ != Sharing::offering || depth_ != 1 || !offer_ || !light_sampled_) return false;
+  return second.on_surface() ? second.surface()->bsdf.diffuse() : limits_.max_depth > 2;
+}
+
+}  // namespace tyndall
