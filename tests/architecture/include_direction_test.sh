@@ -13,9 +13,14 @@ BEGIN {
   allow("surface", "texture math")
   allow("light", "texture math")
   allow("io", "math")  # and no grid, surface or light: a reader fills the public Scene
-  allow("transport/media", "volume surface light math")  # knows no path and no estimator
-  allow("transport", "transport/media volume surface light texture math")
-  allow("session", "transport transport/media math")
+  # Of the folders of transport each may include those before it; what stands beside them, all.
+  count = split("media camera world sample vertex budget techniques pixel path sharing", folder_of_transport, " ")
+  for (i = 1; i <= count; i++) {
+    allow("transport/" folder_of_transport[i], transport " volume surface light texture math")
+    transport = transport " transport/" folder_of_transport[i]
+  }
+  allow("transport", transport " volume surface light texture math")
+  allow("session", "transport " transport " math")
   allow("denoise", "math")
   allow("report", "")  # io and session through include/tyndall
   allow("farm", "report")  # how words are quoted for a shell
