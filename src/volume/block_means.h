@@ -24,8 +24,7 @@ class BlockMeans {
   void add(const float* voxels);
 
   /// Number of the block that holds a cell of a brick, each coordinate in [0, 8).
-  template <typename Whole>
-  static Whole block_of(Whole x, Whole y, Whole z) {
+  static std::size_t block_of(unsigned x, unsigned y, unsigned z) {
     return (z / kCells * kSide + y / kCells) * kSide + x / kCells;
   }
   /// By the number of a BrickStore::Plane, of a brick that has a slot of its own; between the extremes of its voxels.

@@ -33,7 +33,6 @@ class BrickDirectory {
   bool empty() const { return entries_.empty(); }
   std::uint32_t size(std::size_t axis) const { return size_[axis]; }
   const Entry& at(std::uint32_t x, std::uint32_t y, std::uint32_t z) const { return entries_[index(x, y, z)]; }
-  const Entry* entries() const { return entries_.data(); }  ///< x fastest
   void set(std::uint32_t x, std::uint32_t y, std::uint32_t z, const Entry& entry) { entries_[index(x, y, z)] = entry; }
   std::size_t memory_bytes() const { return entries_.capacity() * sizeof(Entry); }
 

@@ -44,28 +44,6 @@ float BrickGrid::block_mean_by_tree(const Line& line, double t) const {
   return out[0];
 }
 
-Float8 BrickGrid::block_means(const Line& line, double t, Float8 beyond) const {
-  std::array<float, 8> means{};
-  if (directory_.empty()) {
-    for (std::size_t k = 0; k < 8; ++k) means[k] = block_mean_by_tree(line, t + double{beyond[k]});
-    return load8(means.data());
-  }
-  Mask8 inside(true);
-  const auto cell_along = [&](std::size_t i) {
-    const Float8 p = static_cast<float>(line.o[i] + t * line.d[i]) + static_cast<float>(line.d[i]) * beyond;
-    inside = inside && p >= static_cast<float>(bounds_.lo[i]) && p <= static_cast<float>(bounds_.hi[i]);
-    return min(Int8(bounds_.last[i]), max(Int8(0), std::experimental::static_simd_cast<Int8>(p)));
-  };
-  const Int8 x = cell_along(0), y = cell_along(1), z = cell_along(2);
-  const auto rows = static_cast<int>(directory_.size(1)), columns = static_cast<int>(directory_.size(0));
-  const Int8 entry = ((z >> kBrickLog2) * rows + (y >> kBrickLog2)) * columns + (x >> kBrickLog2);
-  const Int8 block = BlockMeans::block_of(x & 7, y & 7, z & 7);
-  for (std::size_t k = 0; k < 8; ++k) {
-    means[k] = mean_of(directory_.entries()[entry[k]].plane, static_cast<std::size_t>(block[k]));
-  }
-  return choose(inside, load8(means.data()), 0.0f);
-}
-
 void BrickGrid::block_mean(const GridVec& p, float* out) const {
   std::fill_n(out, channels(), 0.0f);
   if (empty() || !support_.contains(p)) return;

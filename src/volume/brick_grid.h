@@ -90,8 +90,6 @@ class BrickGrid {
       return mean_of(plane, BlockMeans::block_of(cell[0] & 7u, cell[1] & 7u, cell[2] & 7u));
     });
   }
-  /// Of eight places that are `beyond` farther, in single precision.
-  Float8 block_means(const Line& line, double t, Float8 beyond) const;
 
  private:
   friend class BrickGridBuilder;

@@ -1,9 +1,7 @@
 #include "volume/coarse.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 
 #include "volume/grid_ray.h"
 #include "volume/medium_data.h"
@@ -56,46 +54,18 @@ double depth_of(const MediumData& medium, const Ray& ray, double t0, double t1, 
   return sum * step;
 }
 
-/// Steps that grow, eight of them, in units of the first: where they begin and how long they are; then how far all reach.
-struct GrowingSteps {
-  static constexpr double kGrowth = 1.25;
-  std::array<float, 8> begin, length;
-  double all = 0, next = 1;
-  constexpr GrowingSteps() : begin(), length() {
-    for (std::size_t k = 0; k < 8; ++k, next *= kGrowth) {
-      begin[k] = static_cast<float>(all);
-      length[k] = static_cast<float>(next);
-      all += next;
-    }
-  }
-};
-constexpr GrowingSteps kSteps;
-
-/// Of eight places that are `beyond` farther than t, as optics_around().
-Float8 sigma_t_around(const MediumData& medium, const CoarseOptics& dense, const Line& line, double t, Float8 beyond) {
-  if (medium.density.grid.channels() == 1) return dense.sigma_t * medium.density.grid.block_means(line, t, beyond);
-  std::array<float, 8> sigma_t;
-  for (std::size_t k = 0; k < 8; ++k) {
-    const double at = t + double{beyond[k]};
-    sigma_t[k] = medium.clip.contains(line.at(at)) ? optics_around(medium, dense, line, at).sigma_t : 0.0f;
-  }
-  return load8(sigma_t.data());
-}
-
-/// The first step is a block.
+/// Steps grow as the ray goes on; the first is a block.
 double nearby_depth_of(const MediumData& medium, const Ray& ray, double t1, double most) {
+  constexpr double kGrowth = 1.25;
   if (medium.kind != MediumData::Kind::grid) return depth_of(medium, ray, 0, t1, 1);
   const GridRay local(medium.density.to_local, ray);
   const auto [begin, end] = local.clip(medium.clip, 0, t1);
   const CoarseOptics dense = means_of(medium.optics);
   const Line line = local.line();
   double sum = 0, step = BlockMeans::kCells / std::max(local.speed(), 1e-300);
-  for (double t = begin; t < end && sum < most; t += step * kSteps.all, step *= kSteps.next) {
-    const auto first = static_cast<float>(step);
-    const Float8 from = first * load8(kSteps.begin.data()), left = static_cast<float>(end - t) - from;
-    const Float8 length = max(min(first * load8(kSteps.length.data()), left), Float8(0.0f));
-    const Float8 depth = sigma_t_around(medium, dense, line, t, from + 0.5f * length) * length;
-    for (std::size_t k = 0; k < 8 && sum < most; ++k) sum += double{depth[k]};
+  for (double t = begin; t < end && sum < most; t += step, step *= kGrowth) {
+    const double length = std::min(step, end - t);
+    sum += double{optics_around(medium, dense, line, t + 0.5 * length).sigma_t} * length;
   }
   return sum;
 }
