@@ -26,12 +26,10 @@ constexpr float kKeptDistanceLater = 0.125f, kDeepShareLater = 0.5f;
 constexpr float kClear = 0.01f, kOpaque = 2;
 constexpr int kLooks = 8;  ///< reads in one part of it
 
-float distance(Vec3 p, const Bounds3& box) { return length(max(max(box.min - p, p - box.max), Vec3{0, 0, 0})); }
-
 bool far_from(const Bounds3& lights, const Ray& ray, float t0, float t1) {
   if (lights.empty()) return true;
   const float half = 0.5f * (t1 - t0);
-  return half < kInfinity && distance(ray.at(t0 + half), lights) > kFarAway * half;
+  return half < kInfinity && distance_outside(lights, ray.at(t0 + half)) > kFarAway * half;
 }
 
 /// Whether the optical depth before `end` is more than that.

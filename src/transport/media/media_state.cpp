@@ -15,6 +15,8 @@ Bounds3 reach_of(MediumId medium, const std::vector<BoundaryGroup>& groups, std:
 
 Bounds3 overlap(const Bounds3& a, const Bounds3& b) { return {max(a.min, b.min), min(a.max, b.max)}; }
 
+float distance_outside(const Bounds3& box, Vec3 p) { return length(max(max(box.min - p, p - box.max), Vec3{0, 0, 0})); }
+
 float exit_distance(const Bounds3& box, const Ray& ray) {
   float t = kInfinity;
   for (int axis = 0; axis < 3; ++axis) {

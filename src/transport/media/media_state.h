@@ -20,6 +20,9 @@ Bounds3 reach_of(MediumId medium, const std::vector<BoundaryGroup>& groups, std:
 /// What both boxes hold.
 Bounds3 overlap(const Bounds3& a, const Bounds3& b);
 
+/// How far `p` is outside of `box`.
+float distance_outside(const Bounds3& box, Vec3 p);
+
 /// How far `ray` goes until it has left `box` for good: infinite where the box is.
 float exit_distance(const Bounds3& box, const Ray& ray);
 

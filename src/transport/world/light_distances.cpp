@@ -91,8 +91,7 @@ LightDistances::LightDistances(const Bounds3& box, const std::vector<Near>& near
 }
 
 float LightDistances::distance(Vec3 p) const {
-  const float outside = length(max(max(box_.min - p, p - box_.max), Vec3{0, 0, 0}));
-  return std::max(distances_[cubes_->index(p)] - outside, 0.0f);
+  return std::max(distances_[cubes_->index(p)] - distance_outside(box_, p), 0.0f);
 }
 
 LightDistances light_distances(const std::vector<ParticipatingMedium>& media, const std::vector<BoundaryGroup>& groups,
