@@ -45,7 +45,7 @@ while read -r file; do
   for name in Bug Seen Test; do
     [ -n "$(field "$name" "$file")" ] || fail "$file has no line $name:"
   done
-  patch_tree "$source_dir" "$file" --dry-run >apply.log 2>&1 || fail "$file does not apply: $(head -n 3 apply.log)"
+  why=$(patch_tree "$source_dir" "$file" --dry-run 2>&1) || fail "$file does not apply: $(head -n 3 <<<"$why")"
   while read -r test; do
     exists "$test" || fail "$file: no test is $test"
   done < <(field Test "$file")
