@@ -42,7 +42,7 @@ endfunction()
 # *_test.cpp under <folder> as one doctest program `name`, each test working in a scratch folder of its own.
 #   EACH_FILE    one ctest entry "<name>.<file>" for each source, instead of one for the program
 #   NIGHTLY      each entry once more as "nightly.<entry>", with TYNDALL_NIGHTLY=1 and the label nightly
-#   PROCESSORS   how many cores ctest is to reserve for an entry
+#   PROCESSORS   how many cores ctest is to reserve for a nightly entry
 function(tyndall_test_program name folder)
   cmake_parse_arguments(arg "EACH_FILE;NIGHTLY" "PROCESSORS" "LINK" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${folder}/*_test.cpp)
@@ -60,13 +60,13 @@ function(tyndall_test_program name folder)
     foreach(source IN LISTS sources)
       get_filename_component(file ${source} NAME)
       string(REGEX REPLACE "_test\\.cpp$" "" entry ${name}.${file})
-      tyndall_add_test(${entry} COMMAND ${name} --source-file=*/${file} ${processors})
+      tyndall_add_test(${entry} COMMAND ${name} --source-file=*/${file})
       if(arg_NIGHTLY)
         tyndall_add_test(nightly.${entry} NIGHTLY COMMAND ${name} --source-file=*/${file} ${processors})
       endif()
     endforeach()
   else()
-    tyndall_add_test(${name} COMMAND ${name} ${processors})
+    tyndall_add_test(${name} COMMAND ${name})
   endif()
   if(arg_NIGHTLY)
     set_property(GLOBAL APPEND PROPERTY TYNDALL_NIGHTLY_PROGRAMS ${name})
