@@ -166,13 +166,15 @@ void check_same(const std::string& name, const std::vector<Contender>& contender
 void check_all_agree(const std::string& name, const std::vector<Contender>& contenders, const Agreement& how) {
   const double d = how.d.value_or(required_precision());
   PooledRenders renders(contenders, base_seed() * 10'000'000'000 + std::uint64_t(stream_of(name)) * 10'000);
-  const auto known = [&](const MeanImage& difference) {
+  const auto too_much = [&](const MeanImage& difference) {
+    double worst = 0;
     for (int k = 0; k < 3; ++k) {
-      if (excess(image_mean(difference, k), kCoarser * d / kResolution * renders.pooled_mean(k)) > 1) return false;
+      const double wanted_error = kCoarser * d / kResolution * renders.pooled_mean(k);
+      worst = std::max(worst, excess(image_mean(difference, k), wanted_error));
     }
-    return true;
+    return worst;
   };
-  while (renders.next_round(known, budget(how))) {
+  while (renders.next_round(too_much, budget(how))) {
   }
   for (std::size_t i = 0; i < contenders.size(); ++i) {
     const std::string title = name + ": " + contenders[i].name;

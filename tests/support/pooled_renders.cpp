@@ -1,5 +1,6 @@
 #include "support/pooled_renders.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "support/sanitized.h"
@@ -7,10 +8,12 @@
 namespace tyndall::test {
 namespace {
 
-constexpr int kSpp = kSanitized ? 1 : 8, kFewest = 8;
-constexpr std::size_t kStay = 2;
+constexpr int kFewest = 8;  // rounds that an error may rest on
+/// Samples of one picture: fewer and setting up a render is felt, more and kFewest of them tell more than was asked for.
+constexpr int kSamples = kSanitized ? 1024 : 4096;
+constexpr int kMostSpp = 16 * 1024;
 
-int most_rounds() { return nightly() ? 16 * 2048 : 2048; }
+int most_spp() { return nightly() ? 16 * kMostSpp : kMostSpp; }
 
 /// a + factor b, pixel by pixel.
 Image combined(Image a, float factor, const Image& b) {
@@ -24,16 +27,20 @@ Image combined(Image a, float factor, const Image& b) {
 
 PooledRenders::PooledRenders(const std::vector<Contender>& contenders, std::uint64_t first_seed) : seed_(first_seed) {
   for (const Contender& c : contenders) members_.push_back({Subject(c.scene, c.variant)});
+  const Scene& scene = members_.front().subject.scene();
+  spp_ = std::clamp(kSamples / (scene.film.width * scene.film.height), 1, 64);
 }
 
-bool PooledRenders::next_round(const std::function<bool(const MeanImage& difference)>& known, double seconds) {
-  bool any = rounds_ < kFewest;
-  for (std::size_t i = 0; i < members_.size(); ++i) {
-    Member& m = members_[i];
-    m.known = rounds_ >= kFewest && known(difference(i));
-    any = any || (!m.known && m.seconds < seconds);
+bool PooledRenders::next_round(const Excess& excess, double seconds) {
+  bool wanted = rounds_ < kFewest;
+  for (Member& m : members_) {
+    if (m.renders && rounds_ >= kFewest) m.excess = excess(m.difference.result());
+    m.renders = m.excess > 1;
+    wanted = wanted || (m.renders && m.seconds < seconds);
   }
-  if (!any || rounds_ >= most_rounds()) return false;
+  if (!wanted || rounds_ * spp_ >= most_spp()) return false;
+  const auto known = std::find_if(members_.begin(), members_.end(), [](const Member& m) { return !m.renders; });
+  if (known != members_.end()) known->renders = true;
   render_round();
   return true;
 }
@@ -43,18 +50,17 @@ double PooledRenders::pooled_mean(int channel) const { return image_mean(pool_.r
 Measured PooledRenders::effort(std::size_t i) const {
   Measured m;
   m.renders = members_[i].difference.count();
-  m.spp = double(m.renders) * kSpp;
+  m.spp = double(m.renders) * spp_;
   m.seconds = members_[i].seconds;
   return m;
 }
 
 void PooledRenders::render_round() {
   std::vector<std::pair<Member*, Image>> images;
-  for (std::size_t i = 0; i < members_.size(); ++i) {
-    Member& m = members_[i];
-    if (m.known && i >= kStay) continue;
+  for (Member& m : members_) {
+    if (!m.renders) continue;
     const double start = processor_seconds();
-    images.emplace_back(&m, m.subject.render(kSpp, seed_));
+    images.emplace_back(&m, m.subject.render(spp_, seed_));
     m.seconds += processor_seconds() - start;
   }
   ++seed_;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -15,13 +16,17 @@ struct Contender {
 };
 
 /// Contenders rendered round by round, each held against the mean of the others in its rounds. One that is known well enough
-/// drops out; the first two stay to the end, so that there is always something to be held against.
+/// drops out, but for the first of these, so that there is always something to be held against: name first what is cheap and
+/// has little noise.
 class PooledRenders {
  public:
+  /// The factor by which the variance of a difference is still too large; at most 1: it is known.
+  using Excess = std::function<double(const MeanImage& difference)>;
+
   PooledRenders(const std::vector<Contender>& contenders, std::uint64_t first_seed);
 
-  /// False: all differences are `known`, or have had their `seconds` of processor time, or there have been enough rounds.
-  bool next_round(const std::function<bool(const MeanImage& difference)>& known, double seconds);
+  /// False: all differences are known, or have had their `seconds` of processor time, or there have been enough samples.
+  bool next_round(const Excess& excess, double seconds);
 
   const Subject& subject(std::size_t i) const { return members_[i].subject; }
   /// From the mean of the others.
@@ -33,7 +38,8 @@ class PooledRenders {
   struct Member {
     Subject subject;
     MeanImageBuilder difference{};
-    bool known = false;
+    double excess = std::numeric_limits<double>::infinity();
+    bool renders = true;  ///< in the next round
     double seconds = 0;
   };
   void render_round();
@@ -41,7 +47,7 @@ class PooledRenders {
   std::vector<Member> members_;
   MeanImageBuilder pool_;
   std::uint64_t seed_;
-  int rounds_ = 0;
+  int spp_ = 1, rounds_ = 0;
 };
 
 }  // namespace tyndall::test
