@@ -18,7 +18,7 @@ function(tyndall_add_test name)
   if(TARGET tyndall_cli)
     list(APPEND environment TYNDALL_BIN=$<TARGET_FILE:tyndall_cli>)
   endif()
-  set(timeout 600)
+  set(timeout 1200)  # against what hangs: entries share cores, with each other and with whatever else the machine does
   if(TYNDALL_SANITIZE)
     set(timeout 6000)  # all is ten times as slow
   endif()
