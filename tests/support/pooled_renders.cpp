@@ -26,7 +26,7 @@ Image combined(Image a, float factor, const Image& b) {
 }  // namespace
 
 PooledRenders::PooledRenders(const std::vector<Contender>& contenders, std::uint64_t first_seed) : seed_(first_seed) {
-  for (const Contender& c : contenders) members_.push_back({Subject(c.scene, c.variant)});
+  for (const Contender& c : contenders) members_.push_back({Subject(c.scene, c.variant), c.times});
   const Scene& scene = members_.front().subject.scene();
   spp_ = std::clamp(kSamples / (scene.film.width * scene.film.height), 1, 64);
 }
@@ -50,7 +50,7 @@ double PooledRenders::pooled_mean(int channel) const { return image_mean(pool_.r
 Measured PooledRenders::effort(std::size_t i) const {
   Measured m;
   m.renders = members_[i].difference.count();
-  m.spp = double(m.renders) * spp_;
+  m.spp = double(m.renders) * spp_ * members_[i].times;
   m.seconds = members_[i].seconds;
   return m;
 }
@@ -60,7 +60,7 @@ void PooledRenders::render_round() {
   for (Member& m : members_) {
     if (!m.renders) continue;
     const double start = processor_seconds();
-    images.emplace_back(&m, m.subject.render(spp_, seed_));
+    images.emplace_back(&m, m.subject.render(spp_ * m.times, seed_));
     m.seconds += processor_seconds() - start;
   }
   ++seed_;

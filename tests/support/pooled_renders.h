@@ -13,6 +13,7 @@ namespace tyndall::test {
 struct Contender {
   std::string name, scene;
   Variant variant = {};
+  int times = 1;  ///< as many samples as the others: for what is noisy and cheap, as they are neither
 };
 
 /// Contenders rendered round by round, each held against the mean of the others in its rounds. One that is known well enough
@@ -37,6 +38,7 @@ class PooledRenders {
  private:
   struct Member {
     Subject subject;
+    int times;
     MeanImageBuilder difference{};
     double excess = std::numeric_limits<double>::infinity();
     bool renders = true;  ///< in the next round
