@@ -129,9 +129,8 @@ class RenderJob {
   /// leaves the pixels it finished, the others black (report().unrendered, and 0 in channel SampleCount).
   enum class GivenUp { spoilt, undone };
 
-  /// `samples` > 0 more for every pixel; with RenderSettings::adaptive their work, and on to the end of a step of 8, where it
-  /// has
-  /// 8. False: given up.
+  /// `samples` > 0 more for every pixel; with RenderSettings::adaptive their work, on to the end of a step of 8 where it has 8,
+  /// and no further than `spp` allows. False: given up.
   bool advance(int samples, const PassWatch& watch = {}, GivenUp given_up = GivenUp::spoilt);
 
   /// The state at this pass end, at least 1 sample, as bytes for restore(). Ends in a checksum.

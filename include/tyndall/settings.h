@@ -64,9 +64,10 @@ struct RenderSettings {
   /// The same of the worst part of the picture, a block of 8 x 8 pixels pooled with those around it
   /// (RenderReport::worst_relmse); beside `error`, both must hold. If `adaptive`, samples go where it takes them.
   std::optional<double> error_max{};
-  /// More samples where the error is, after 8 everywhere; `spp` is then the most that a pixel gets, and numbers of samples stand
-  /// for the work of as many everywhere. Ends at `error` and `error_max`, looked at when they are 32, 40, 48, 56, 64, 72, 80 ...,
-  /// at `time`, or at the last multiple of 8 that `spp` holds. Not of slices. Unset: in render() with `error` or `error_max`.
+  /// More samples where the error is, after 8 everywhere; `spp` is then the most that a pixel gets, and numbers of samples
+  /// stand for the work of as many everywhere. Ends at `error` and `error_max`, looked at when they are 32, 40, 48, 56, 64, 72,
+  /// 80 ..., at `time`, or at the last multiple of 8 that `spp` holds. Not of slices. Unset: in render() with `error` or
+  /// `error_max`.
   std::optional<bool> adaptive{};
   int max_depth = 5;  ///< bounces a path, counted as pbrt's volpath; >= 0
   std::uint64_t seed = 0;

@@ -82,7 +82,7 @@ class RenderJob::Impl {
 
   bool advance(int count, const PassWatch& watch, GivenUp if_given_up) {
     if (!plan_) return run_pass(count, watch, if_given_up);
-    for (int done = 0; done < count;) {
+    for (int done = 0; done < count && !plan_->is_over(samples_);) {
       if (plan_->is_open(samples_)) plan_->decide(samples_, block_noise());
       const int part = plan_->pass_end(samples_, count - done) - samples_;
       PassWatch on_the_whole;

@@ -34,6 +34,8 @@ class SamplePlan {
   int pass_end(int n, int count) const;
   /// Whether the round that begins at `n` has still to be decided.
   bool is_open(int n) const { return n >= kStep && n == end_ && n < last_; }
+  /// Whether no samples come any more.
+  bool is_over(int n) const { return n >= last_; }
   /// Begin it. `noise`: of grid().
   void decide(int n, const std::vector<BlockNoise>& noise);
 

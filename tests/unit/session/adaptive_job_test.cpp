@@ -116,6 +116,18 @@ TEST_CASE("an error goal ends an adaptive render near the error; no pixel has mo
   CHECK_THROWS_AS(RenderJob(w, s), Error);
 }
 
+TEST_CASE("an adaptive job that has all samples it may have stays as it is") {
+  const World w = world();
+  for (const auto& [most, end] : {std::pair{70, 64}, {5, 5}}) {
+    RenderJob job(w, settings_of(most));
+    job.advance(end);
+    const Image image = job.image();
+    job.advance(20);
+    CHECK(job.samples() == end);
+    CHECK(same(job.image(), image));
+  }
+}
+
 TEST_CASE("an error goal of the worst part ends a render where that is as good, beside one of the mean where both are") {
   const World w = world();
   RenderSettings s = settings_of();
