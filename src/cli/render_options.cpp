@@ -190,11 +190,10 @@ void declare_task(CLI::App& command, RenderOptions& o) {
 void declare(CLI::App& command, RenderOptions& o) {
   declare_task(command, o);
   command
-      .add_option(
-          "--error", o.error,
-          "stop when the estimated relMSE, mean of variance / (mean^2 + 0.01), is below this; looked at when "
-          "there is the work of 32, 40, 48, 56, 64, 72 ... samples a pixel, with --no-adaptive of 64, 128, 256 ... "
-          "[none]; --error 0.001")
+      .add_option("--error", o.error,
+                  "stop when the estimated relMSE, mean of variance / (mean^2 + 0.01), is below this; looked at when "
+                  "there is the work of 32, 40, 48, 56, 64, 72 ... samples a pixel, with --no-adaptive of 64, 128, 256 ... "
+                  "[none]; --error 0.001")
       ->check(positive());
   command
       .add_option("--error-max", o.error_max,
