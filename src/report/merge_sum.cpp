@@ -52,27 +52,22 @@ const MergeSum::Plane* MergeSum::find(const std::string& name) const {
   return found == planes_.end() ? nullptr : &*found;
 }
 
-MergeSum::Weights MergeSum::weights_in(const Image& slice, int samples) {
-  const auto values = [&](const std::string& name, const std::vector<float>& otherwise) {
+void MergeSum::add(const Image& slice, int samples) {
+  const auto values_or = [&](const char* name, const float* otherwise) {
     const Channel* channel = slice.find(name);
-    return channel ? channel->values : otherwise;
+    return channel ? channel->values.data() : otherwise;
   };
   const auto pixels = static_cast<std::size_t>(slice.width()) * static_cast<std::size_t>(slice.height());
-  Weights weights{
-      .counts = values("SampleCount", std::vector<float>(pixels, static_cast<float>(samples))), .all = {}, .even = {}};
-  weights.all = values("SampleWeight", weights.counts);
-  weights.even = values("Replicate.SampleWeight", values("Replicate.SampleCount", {}));
-  return weights;
-}
-
-void MergeSum::add(const Image& slice, int samples) {
-  const Weights weights = weights_in(slice, samples);
+  std::vector<float> everywhere;
+  if (!slice.find("SampleCount")) everywhere.assign(pixels, static_cast<float>(samples));
+  const float* const counts = values_or("SampleCount", everywhere.data());
+  const Weights weights{counts, values_or("SampleWeight", counts),
+                        values_or("Replicate.SampleWeight", values_or("Replicate.SampleCount", nullptr))};
   weighted_ = weighted_ || slice.find("SampleWeight");
   for (Plane& plane : planes_) add_channel(plane, slice, weights);
   for (MatteSum& sum : mattes_) {
     const MatteReader mattes(slice, sum.layer());
-    for (std::size_t i = 0; i < weights.all.size(); ++i)
-      sum.add(place_in_box(slice, i), mattes.at(i), static_cast<double>(weights.all[i]));
+    for (std::size_t i = 0; i < pixels; ++i) sum.add(place_in_box(slice, i), mattes.at(i), static_cast<double>(weights.all[i]));
   }
 }
 
@@ -90,8 +85,8 @@ void MergeSum::add_channel(Plane& plane, const Image& slice, const Weights& weig
   const float* values = values_of(plane.name);
   const float* surface = values_of(prefix + "SurfaceCount");
   const float* volume = values_of(prefix + "VolumeCount");
-  const float* weight = prefix.empty() ? weights.all.data() : weights.even.data();
-  const float* count = prefix.empty() ? weights.counts.data() : values;
+  const float* weight = prefix.empty() ? weights.all : weights.even;
+  const float* count = prefix.empty() ? weights.counts : values;
   const auto term = [&](std::size_t i) -> double {
     const double n = weight[i];
     switch (plane.rule) {
@@ -114,7 +109,8 @@ void MergeSum::add_channel(Plane& plane, const Image& slice, const Weights& weig
     }
     return 0;
   };
-  for (std::size_t i = 0; i < weights.counts.size(); ++i) {
+  const auto pixels = static_cast<std::size_t>(slice.width()) * static_cast<std::size_t>(slice.height());
+  for (std::size_t i = 0; i < pixels; ++i) {
     if (weights.counts[i] > 0) plane.sums[place_in_box(slice, i)] += term(i);  // else left black by an earlier merge
   }
 }

@@ -45,9 +45,8 @@ class MergeSum {
   void add_plane(const std::string& name);
   /// Of a slice.
   struct Weights {
-    std::vector<float> counts, all, even;  ///< samples; what means over all and over the even ones weigh
+    const float *counts, *all, *even;  ///< samples; what means over all weigh, and over the even ones, null without these
   };
-  static Weights weights_in(const Image& slice, int samples);
   void add_channel(Plane& plane, const Image& slice, const Weights& weights) const;
   const std::vector<double>* weights_of(const Plane& plane) const;
   const Plane* find(const std::string& name) const;

@@ -11,7 +11,7 @@ constexpr int kSteps = 100;  ///< halvings of an interval of numbers up to 2^kRa
 constexpr double kRange = 80;
 
 int samples_at(const BlockShare& block, double scale) {
-  const double wanted = std::clamp(scale * block.amount, double(block.least), double(block.most));
+  const double wanted = std::min(std::max(scale * block.amount, double(block.least)), double(block.most));
   return 2 * static_cast<int>(std::lround(wanted / 2));
 }
 

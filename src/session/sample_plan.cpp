@@ -113,7 +113,7 @@ std::vector<BlockShare> SamplePlan::shares(const Known& known) const {
     for_worst.push_back(share);
     const auto pixels = static_cast<double>(grid_.pixels(b).size());
     share.amount = std::sqrt(relative(known.variance[b], largest) * pixels / share.work);
-    share.least = std::clamp(needed_for_worst(known.variance[b], spread_[b]), share.least, share.most);
+    share.least = std::min(std::max(needed_for_worst(known.variance[b], spread_[b]), share.least), share.most);
     for_mean.push_back(share);
     work += share.work * kStep;
     needed += share.work * share.least;
@@ -127,8 +127,8 @@ BlockShare SamplePlan::bounds_of(std::size_t block, double expected_end) const {
   const double room = most_ - had - kFewest * ((last_ - end_) / double{kStep});  // the fewest fit into every step to come
   const double most = std::min({double{kMostTimes * kStep}, room / steps, (kMostGrowth - 1) * had / steps});
   BlockShare share{.most = std::max(even_below(most), kFewest)};
-  share.least = std::clamp(even_above(kStep * (kLeast - had) / std::max(expected_end - begin_, double{kStep})), kFewest, kStep);
-  share.least = std::min(share.least, share.most);
+  const int for_least = even_above(kStep * (kLeast - had) / std::max(expected_end - begin_, double{kStep}));
+  share.least = std::min({std::max(for_least, kFewest), kStep, share.most});
   const auto pixels = static_cast<double>(grid_.pixels(block).size());
   share.work = work_[block] > 0 ? static_cast<double>(work_[block]) / had : pixels;
   return share;
@@ -137,7 +137,7 @@ BlockShare SamplePlan::bounds_of(std::size_t block, double expected_end) const {
 /// As errors fall like 1 / n; the last where there is no goal.
 double SamplePlan::expected_end(double mean, double worst) const {
   const double excess = std::max(mean / goal_.mean, worst / goal_.worst), last = last_;
-  return excess > 0 ? std::clamp(begin_ * excess, std::min(double{kLeast}, last), last) : last;
+  return excess > 0 ? std::min(std::max(begin_ * excess, double{kLeast}), last) : last;
 }
 
 /// Samples in each step for a block's error to be that of the goal as the round ends, where a sample has that variance:

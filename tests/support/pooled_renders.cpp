@@ -28,7 +28,7 @@ Image combined(Image a, float factor, const Image& b) {
 PooledRenders::PooledRenders(const std::vector<Contender>& contenders, std::uint64_t first_seed) : seed_(first_seed) {
   for (const Contender& c : contenders) members_.push_back({Subject(c.scene, c.variant), c.times});
   const Scene& scene = members_.front().subject.scene();
-  spp_ = std::clamp(kSamples / (scene.film.width * scene.film.height), 1, 64);
+  spp_ = std::min(std::max(kSamples / (scene.film.width * scene.film.height), 1), 64);
 }
 
 bool PooledRenders::next_round(const Excess& excess, double seconds) {

@@ -21,8 +21,8 @@ std::vector<BlockNoise> noise_of(const BlockGrid& grid, std::size_t noisy, doubl
 
 constexpr int kNoEnd = 1 << 20;
 
-SamplePlan decided(int most = kNoEnd, const ErrorGoal& goal = {}) {
-  SamplePlan plan(kCrop, most, goal);
+SamplePlan decided() {
+  SamplePlan plan(kCrop, kNoEnd);
   plan.decide(8, noise_of(plan.grid(), 8));
   return plan;
 }
