@@ -15,8 +15,9 @@ namespace tyndall {
 /// How one light is chosen for next-event estimation. Methods: docs/methods.md.
 enum class LightStrategy { uniform, power, exhaustive, tree, tree_binary, cycles_rule, lightcuts, cells };
 /// What stands for a segment of a ray in media when its light is chosen: a tracked collision, the point of the ray closest to
-/// the lights, the integral of 1/r^2 along it, or that times transmittance, scattering and phase function.
-enum class MediaStrategy { vertex, closest, integral, product };
+/// the lights, the integral of 1/r^2 along it, or that times transmittance, scattering and phase function. `automatic`:
+/// product, or vertex where BudgetStrategy::measured finds that this pays.
+enum class MediaStrategy { automatic, vertex, closest, integral, product };
 /// How the distance at which a ray's light is gathered is sampled: at tracked collisions, equi-angular toward the light [Kulla
 /// and Fajardo 2012], both with MIS, or equi-angular times a coarse profile of the medium. `automatic`: profile, on the
 /// camera's segment with tracked collisions as well; with MediaStrategy::vertex, which knows no other, tracking.
@@ -46,8 +47,9 @@ enum class JointStrategy { automatic, off, points };
 enum class ReuseStrategy { automatic, off, pixels };
 /// How many lights are asked at a path's first vertex and along its first segment, where `candidates` and `shadow_rays` are not
 /// set: fixed numbers, or those that make variance x cost least as measured in a few blocks of the picture before it is
-/// rendered; which also tells whether paths that share do so beyond collisions in grids. `automatic`: measured with
-/// MediaStrategy::product, fixed with what stands for other programs' methods. Single scattering has fixed ones.
+/// rendered. Of MediaStrategy, ReuseStrategy and GuidingStrategy what is `automatic` is then measured too, and whether paths
+/// that share do so beyond collisions in grids. `automatic`: measured with MediaStrategy::product, fixed with what stands for
+/// other programs' methods. Single scattering has fixed numbers.
 enum class BudgetStrategy { automatic, fixed, measured };
 /// Estimator of transmittance along shadow rays.
 enum class TransmittanceStrategy { residual, ratio, delta, raymarch };
@@ -85,7 +87,7 @@ struct RenderSettings {
   /// to 15 clusters are made, or as many as there are candidates if those are more; with 0 candidates there is no limit. Not
   /// used by strategies without a wide tree. Unset: 0.5 where there are 8 candidates or more, or no limit; 0 elsewhere.
   std::optional<float> splitting{};
-  MediaStrategy media = MediaStrategy::product;
+  MediaStrategy media = MediaStrategy::automatic;
   DistanceStrategy distance = DistanceStrategy::automatic;
   EmissionStrategy emission = EmissionStrategy::automatic;
   GuidingStrategy guiding = GuidingStrategy::automatic;

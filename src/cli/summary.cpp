@@ -42,21 +42,29 @@ std::string measured_budget(const RenderReport& r) {
         fmt::format("{} lights and {} shadow rays at first vertices, {} and {} along first segments", r.at_vertices->candidates,
                     r.at_vertices->shadow_rays, r.along_segments->candidates, r.along_segments->shadow_rays);
   }
-  if (r.collisions_shared) {
-    text += fmt::format("{}collisions {}shared", text.empty() ? "" : "; ", *r.collisions_shared ? "" : "not ");
-  }
+  const auto tell = [&](const std::optional<bool>& is, const char* yes, const char* no) {
+    if (is) text += (text.empty() ? "" : "; ") + std::string(*is ? yes : no);
+  };
+  tell(r.sharing, "pixels share", "pixels share nothing");
+  tell(r.collisions_shared, "collisions shared", "collisions not shared");
+  tell(r.pairs, "lights along segments", "lights at collisions");
+  tell(r.guiding, "guided", "not guided");
   return text.empty() ? text : "  budget  " + text + "\n";
 }
 
 nlohmann::ordered_json budget_json(const RenderReport& r) {
-  const auto asked = [](const std::optional<AskedLights>& a) -> nlohmann::ordered_json {
-    if (!a) return nullptr;
-    return {{"candidates", a->candidates}, {"shadow_rays", a->shadow_rays}};
+  const auto asked = [](const AskedLights& a) -> nlohmann::ordered_json {
+    return {{"candidates", a.candidates}, {"shadow_rays", a.shadow_rays}};
   };
   nlohmann::ordered_json j;
-  j["at_vertices"] = asked(r.at_vertices);
-  j["along_segments"] = asked(r.along_segments);
-  if (r.collisions_shared) j["collisions_shared"] = *r.collisions_shared;
+  if (r.at_vertices) j = {{"at_vertices", asked(*r.at_vertices)}, {"along_segments", asked(*r.along_segments)}};
+  const auto tell = [&](const char* name, const std::optional<bool>& is) {
+    if (is) j[name] = *is;
+  };
+  tell("sharing", r.sharing);
+  tell("collisions_shared", r.collisions_shared);
+  tell("pairs", r.pairs);
+  tell("guiding", r.guiding);
   return j;
 }
 
@@ -124,7 +132,7 @@ std::string as_json(const Summary& s) {
   j["rays"] = r.rays;
   j["shadow_rays"] = r.shadow_rays;
   j["density_lookups"] = r.density_lookups;
-  if (r.at_vertices || r.collisions_shared) j["budget"] = budget_json(r);
+  if (auto budget = budget_json(r); !budget.empty()) j["budget"] = std::move(budget);
   j["memory"] = {{"peak", peak_memory()},
                  {"geometry", s.build.geometry_bytes},
                  {"volumes", s.build.volume_bytes},

@@ -21,7 +21,8 @@ constexpr Table<LightStrategy, 8> kLights{{
     {"lightcuts", LightStrategy::lightcuts},
     {"cells", LightStrategy::cells},
 }};
-constexpr Table<MediaStrategy, 4> kMedia{{
+constexpr Table<MediaStrategy, 5> kMedia{{
+    {"auto", MediaStrategy::automatic},
     {"vertex", MediaStrategy::vertex},
     {"closest", MediaStrategy::closest},
     {"integral", MediaStrategy::integral},
@@ -128,8 +129,8 @@ const std::vector<StrategyAxis>& strategy_axes() {
                                             "whether neighbouring pixels share what paths find beyond the first bounce"),
       axis<kBudgets, &RenderSettings::budget>(
           "budget",
-          "how many lights are asked at a path's first vertex and along its first segment, and whether "
-          "collisions in grids are worth sharing"),
+          "how many lights are asked at a path's first vertex and along its first segment, and what pays of "
+          "--media, --guiding and --reuse where they are auto"),
       axis<kTransmittances, &RenderSettings::transmittance>("transmittance", "estimator along shadow rays"),
   };
   return axes;

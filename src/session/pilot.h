@@ -1,16 +1,14 @@
-/// A look at a few blocks of the picture before it is rendered, for what is decided by measurement.
+/// What a render decides by measurement before it begins.
 #pragma once
 
-#include <optional>
-
-#include "math/parallel.h"
-#include "session/pixel_sample.h"
-#include "transport/budget/light_budget.h"
+#include "session/look.h"
+#include "session/resolved_settings.h"
 
 namespace tyndall {
 
-/// What is best asked of lights in this picture: a function of the scene, the frame and the settings, whatever part of the
-/// picture is rendered, and by whom; and of no random number that its samples use. Nothing where there is nothing to decide.
-std::optional<LightBudget> measured_budget(const SampleContext& context, ThreadPool& pool);
+/// The settings of `context`, with that of what is open which makes variance x cost least in this picture, and how many lights
+/// are best asked. A function of the scene, the frame and the settings, whatever part of the picture is rendered, and by whom;
+/// and of no random number that its samples use.
+Decision decide(const SampleContext& context, const OpenChoices& open, ThreadPool& pool);
 
 }  // namespace tyndall

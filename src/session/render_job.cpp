@@ -56,6 +56,8 @@ class RenderJob::Impl {
   Impl(const World::Parts& world, const RenderSettings& settings)
       : world_(world),
         settings_(resolved(settings, world)),
+        decided_(settings_),
+        open_(open_choices(settings, settings_, world)),
         selector_(world.built.lights.selector(settings.lights, false)),
         selector_with_volumes_(settings_.emission == EmissionStrategy::paths || world.built.volume_lights.empty()
                                    ? nullptr
@@ -68,7 +70,7 @@ class RenderJob::Impl {
         sample_context_{world,
                         selector_,
                         selector_with_volumes_,
-                        settings_,
+                        decided_,
                         {.max_depth = settings_.max_depth,
                          .want_transmittance = film_.wants(Aov::transmittance),
                          .want_albedo = film_.wants(Aov::albedo)},
@@ -199,12 +201,19 @@ class RenderJob::Impl {
     if (plan_) std::tie(r.least_samples, r.most_samples) = plan_->range(samples_);
     r.seconds = seconds_;
     if (budget_) r.collisions_shared = budget_->collisions_shared;
+    if (searched_) report_choices(r);
     if (budget_ && budget_->counts_measured) {
       r.at_vertices = {budget_->vertex.candidates, budget_->vertex.shadow_rays};
       r.along_segments = {budget_->span.candidates, budget_->span.shadow_rays};
     }
     for (const PixelBounds& tile : unrendered_) r.unrendered += static_cast<std::uint64_t>(tile.width()) * tile.height();
     return r;
+  }
+
+  void report_choices(RenderReport& r) const {
+    if (open_.sharing) r.sharing = decided_.reuse == ReuseStrategy::pixels;
+    if (open_.pairs) r.pairs = decided_.media != MediaStrategy::vertex;
+    if (open_.guiding) r.guiding = decided_.guiding == GuidingStrategy::media;
   }
 
   /// What depends on no sample.
@@ -218,7 +227,9 @@ class RenderJob::Impl {
     alive();
     film_points_ = film_points(search);
     film_emitters_ = FilmEmitters(search);
-    budget_ = measured_budget(sample_context_, pool_);
+    const Decision decision = decide(sample_context_, open_, pool_);
+    decided_ = decision.settings;
+    budget_ = decision.budget;
     if (budget_) sample_context_.budget = &*budget_;
     searched_ = true;
     preparing_seconds_ = search_timer.seconds();
@@ -285,6 +296,8 @@ class RenderJob::Impl {
 
   const World::Parts& world_;
   RenderSettings settings_;
+  RenderSettings decided_;  ///< before search_film() as settings_
+  OpenChoices open_;
   const LightSelector& selector_;
   const LightSelector* selector_with_volumes_;
   int first_sample_;

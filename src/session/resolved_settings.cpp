@@ -41,6 +41,7 @@ RenderSettings resolved(RenderSettings settings, const World::Parts& world) {
     throw Error(Failure::usage, "the world was not built for emission as lights; set BuildSettings::volume_lights");
   // Settings that stand for other programs' methods have neither guiding nor joint sampling, seek no volume emission, measure
   // no budget and share nothing.
+  if (settings.media == MediaStrategy::automatic) settings.media = MediaStrategy::product;
   const bool ours = settings.media == MediaStrategy::product;
   if (settings.guiding == GuidingStrategy::automatic) settings.guiding = ours ? GuidingStrategy::media : GuidingStrategy::off;
   if (settings.emission == EmissionStrategy::automatic && !(ours && world.built.has_volume_lights))
@@ -54,6 +55,16 @@ RenderSettings resolved(RenderSettings settings, const World::Parts& world) {
   if (settings.budget == BudgetStrategy::automatic) settings.budget = ours ? BudgetStrategy::measured : BudgetStrategy::fixed;
   if (settings.media == MediaStrategy::vertex) settings.distance = DistanceStrategy::tracking;
   return settings;
+}
+
+OpenChoices open_choices(const RenderSettings& given, const RenderSettings& resolved, const World::Parts& world) {
+  if (resolved.budget != BudgetStrategy::measured) return {};
+  const BuiltWorld& built = world.built;
+  const bool lit = built.has_media() && built.lights.size() > 0;
+  return {.sharing = resolved.reuse == ReuseStrategy::pixels && given.reuse == ReuseStrategy::automatic,
+          .pairs = lit && given.media == MediaStrategy::automatic && given.distance == DistanceStrategy::automatic,
+          .guiding = lit && resolved.max_depth > 1 && resolved.guiding == GuidingStrategy::media &&
+                     given.guiding == GuidingStrategy::automatic && !(built.bright_media.empty() && built.suns.empty())};
 }
 
 }  // namespace tyndall

@@ -20,7 +20,7 @@ using namespace tyndall::test;
 
 namespace {
 
-constexpr int kResolution = 64, kBlock = 8;
+constexpr int kResolution = 64, kLooked = 192, kLeastDecided = 112, kBlock = 8;
 constexpr Bounds3 kRoom{{-3, -3, -3}, {3, 3, 3}};
 
 /// A floor under so many lights above a grille, whose bars hide others from every place.
@@ -48,9 +48,32 @@ std::string fog() {
          medium_box("m", "", kRoom);
 }
 
+/// Smoke in a grid before a wall: in a picture just large enough for techniques to be decided.
+std::string smoky(float sigma_s, const std::string& lights, int max_depth) {
+  Grid grid{kRoom, 4, 4, 4, {}};
+  for (int i = 0; i < 64; ++i) grid.density.push_back(0.7f + 0.15f * float(i % 5));
+  return view({.eye = {0, 0, -2.6f},
+               .look = {0, 0.2f, 0},
+               .fov_degrees = 45,
+               .resolution = kLeastDecided,
+               .max_depth = max_depth}) +
+         diffuse_plane(1.5f, 4, 0.6f) + lights + uniform_grid("m", {.sigma_s = Rgb(sigma_s)}, grid) +
+         medium_box("m", "", kRoom);
+}
+std::string sun() { return distant_light({0.3f, 0.2f, 1}, 3); }
+/// All over the smoke.
+std::string points(int count) {
+  std::string text;
+  for (int i = 0; i < count; ++i) {
+    const auto at = [i](float step) { return 2 * std::fmod(0.5f + step * float(i), 1.0f) - 1; };
+    text += point_light({1.5f * at(0.8191725f), 1.2f * at(0.6710436f), 1.4f * at(0.5497005f)}, 30 / float(count));
+  }
+  return text;
+}
+
 /// Means over blocks, whose pixels' noise is correlated.
 MeanImage blocks_of(const std::string& text, BudgetStrategy budget, std::uint64_t seed) {
-  Subject subject(text, {.reuse = ReuseStrategy::pixels, .budget = budget});
+  Subject subject(text, {.reuse = ReuseStrategy::automatic, .budget = budget});
   MeanImageBuilder blocks;
   for (int i = 0; i < fewer(40); ++i) {
     blocks.add(block_image(subject.render(4, seed + static_cast<std::uint64_t>(i)), kBlock));
@@ -72,19 +95,31 @@ void check_agree(const char* name, const std::string& text) {
   CHECK(mean.p > kLevel);
 }
 
-LightBudget budget_of(const std::string& text, std::uint64_t seed = 1, PixelBounds crop = {0, 0, kResolution, kResolution}) {
+/// What a render of it decides, of these open choices: of 12 blocks.
+Decision decision_of(const std::string& text, const OpenChoices& open, RenderSettings settings = {},
+                     PixelBounds crop = {0, 0, kLooked, kLooked}) {
   Scene scene = read_scene_text(text, "test.pbrt").scene;
+  scene.film.width = scene.film.height = kLooked;
   scene.film.crop = crop;
+  settings.max_depth = scene.settings.max_depth;
   const World world = build(std::move(scene), {});
-  RenderSettings settings;
-  settings.max_depth = 4;
-  settings.seed = seed;
   settings.reuse = ReuseStrategy::pixels;
+  settings.media = MediaStrategy::product;
+  settings.guiding = GuidingStrategy::media;
   settings.budget = BudgetStrategy::measured;
   ThreadPool pool(2);
-  const SampleContext context{
-      world.parts(), world.parts().built.lights.selector(settings.lights), nullptr, settings, {.max_depth = 4}};
-  const auto budget = measured_budget(context, pool);
+  const SampleContext context{world.parts(),
+                              world.parts().built.lights.selector(settings.lights),
+                              nullptr,
+                              settings,
+                              {.max_depth = settings.max_depth}};
+  return decide(context, open, pool);
+}
+
+LightBudget budget_of(const std::string& text, std::uint64_t seed = 1, PixelBounds crop = {0, 0, kLooked, kLooked}) {
+  RenderSettings settings;
+  settings.seed = seed;
+  const auto budget = decision_of(text, {}, settings, crop).budget;
   REQUIRE(budget);
   return *budget;
 }
@@ -94,6 +129,8 @@ LightBudget budget_of(const std::string& text, std::uint64_t seed = 1, PixelBoun
 TEST_CASE("a measured budget changes the noise alone") {
   check_agree("a hall", hall(200, true));
   check_agree("a hall in fog", hall(200, true, fog()));
+  check_agree("smoke under a sun", smoky(0.1f, sun(), 1));
+  check_agree("smoke among lights", smoky(0.3f, points(40), 3));
 }
 
 TEST_CASE("a crop, and any number of threads, have the bits of the whole picture with a measured budget") {
@@ -121,7 +158,7 @@ TEST_CASE("a crop has the budget of the whole picture") {
 }
 
 // Bars leave it to chance whether a light arrives: rays are what is missing. Four lights without them leave nothing to chance
-// that is worth more than the path itself. Of two blocks each, so that half a unit or so is chance.
+// that is worth more than the path itself. By four seeds.
 TEST_CASE("budgets follow what lights leave to chance") {
   double hidden = 0, open = 0;
   for (std::uint64_t seed = 1; seed <= 4; ++seed) {
@@ -132,16 +169,45 @@ TEST_CASE("budgets follow what lights leave to chance") {
   CHECK(hidden > 1.5 * open);
 }
 
-// Thin smoke among lights is seen alike by neighbours. A cloud so dense that each meets its own is not worth the connections.
+// Thin smoke is seen alike by neighbours. Of lumps that are hundreds of mean free paths wide each meets its own, and finds of
+// others are not worth the connections.
 TEST_CASE("collisions are shared where that pays") {
-  const auto cloud = [](float density) {
-    Grid grid{{{-1.5f, -1.45f, -1.5f}, {1.5f, 0.5f, 1.5f}}, 4, 4, 4, {}};
-    for (int i = 0; i < 64; ++i) grid.density.push_back(density * (1 + 0.1f * float(i % 11)));
-    return uniform_grid("m", {.sigma_a = Rgb(0.001f), .sigma_s = Rgb(1), .g = 0.85f}, grid) + medium_box("m", "", grid.bounds);
+  const auto shared = [](float density) {
+    Grid grid{{{-1.5f, -1.45f, -1.5f}, {1.5f, 0.5f, 1.5f}}, 16, 16, 16, {}};
+    for (std::uint32_t i = 0; i < 4096; ++i) grid.density.push_back(density * ((i * 2654435761u >> 20) % 5 == 0 ? 4.0f : 0.1f));
+    const std::string text =
+        view({.eye = {0, 0.5f, -2.9f}, .look = {0, -0.4f, 0}, .fov_degrees = 45, .resolution = kLooked, .max_depth = 20}) +
+        sun() + uniform_grid("m", {.sigma_a = Rgb(0.001f), .sigma_s = Rgb(1)}, grid) + medium_box("m", "", grid.bounds);
+    int count = 0;
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) count += budget_of(text, seed).collisions_shared == true;
+    return count;
   };
-  CHECK(budget_of(hall(20, false, cloud(1))).collisions_shared == true);
-  CHECK(budget_of(hall(1, false, cloud(300))).collisions_shared == false);
+  CHECK(shared(1) == 4);
+  CHECK(shared(400) == 0);
   CHECK_FALSE(budget_of(hall(20, false, fog())).collisions_shared);
+}
+
+// In single scattering under a sun a segment's pairs cost as much as all else, and the noise is on the wall. Among lights in
+// smoke they are what keeps it low. What paths find behind a grille is spread by sharing, what a sun leaves in smoke found by
+// guiding. By four seeds each.
+TEST_CASE("what does not pay is left out, and what pays stays") {
+  const auto with = [](const std::string& text, const OpenChoices& open, const auto& is) {
+    int count = 0;
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+      RenderSettings settings;
+      settings.seed = seed;
+      count += is(decision_of(text, open, settings).settings);
+    }
+    return count;
+  };
+  const auto pairs = [](const RenderSettings& s) { return s.media == MediaStrategy::product; };
+  const auto shares = [](const RenderSettings& s) { return s.reuse == ReuseStrategy::pixels; };
+  const auto guided = [](const RenderSettings& s) { return s.guiding == GuidingStrategy::media; };
+  CHECK(with(smoky(0.1f, sun(), 1), {.pairs = true}, pairs) == 0);
+  CHECK(with(smoky(2, points(100), 1), {.pairs = true}, pairs) == 4);
+  CHECK(with(smoky(2, points(100), 4), {.pairs = true}, pairs) == 4);
+  CHECK(with(hall(20, true), {.sharing = true}, shares) == 4);
+  CHECK(with(smoky(2, sun(), 6), {.guiding = true}, guided) == 4);
 }
 
 TEST_CASE("nothing is measured where there is nothing to decide") {
@@ -150,8 +216,8 @@ TEST_CASE("nothing is measured where there is nothing to decide") {
   settings.budget = BudgetStrategy::measured;
   ThreadPool pool(1);
   const auto decides = [&](const World& w, const RenderSettings& s) {
-    return measured_budget({w.parts(), w.parts().built.lights.selector(s.lights), nullptr, s, {.max_depth = s.max_depth}}, pool)
-        .has_value();
+    return decide({w.parts(), w.parts().built.lights.selector(s.lights), nullptr, s, {.max_depth = s.max_depth}}, {}, pool)
+        .budget.has_value();
   };
   CHECK_FALSE(decides(world, settings));
   const World many = world_of(hall(5, false), {});

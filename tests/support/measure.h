@@ -26,7 +26,8 @@ struct Variant {
   JointStrategy joint = RenderSettings{}.joint;
   /// Off: the statistics of most tests take pixels to be independent. reuse_test.cpp holds those that share to these.
   ReuseStrategy reuse = ReuseStrategy::off;
-  BudgetStrategy budget = RenderSettings{}.budget;
+  /// Fixed: what is tested must not be decided away. pilot_test.cpp holds what is measured to this.
+  BudgetStrategy budget = BudgetStrategy::fixed;
 };
 
 /// Builds a world and renders it as often as asked.

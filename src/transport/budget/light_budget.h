@@ -45,8 +45,6 @@ struct Trials {
   PerSpent<double> variance{}, cost{};  ///< of the choices
   double all_variance = 0, all_cost = 0;
   double trust = 1;  ///< from 0, they may be wrong, to 1, they know: how far the budget follows them
-
-  double product() const { return all_variance * all_cost; }  ///< what is to be least
 };
 
 /// The numbers n_i that make variance x cost least. With B_i and c_i of one more of each, and A and C of all else, that is

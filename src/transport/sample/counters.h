@@ -17,6 +17,7 @@ inline constexpr std::size_t kBadSamplesKept = 16;
 
 struct Counters {
   std::uint64_t candidates = 0, pairs = 0;  ///< lights drawn for vertices, and along segments
+  std::uint64_t guided = 0;                 ///< vertices that directions are guided at
   std::uint64_t paths = 0, rays = 0, shadow_rays = 0, non_finite = 0, parity_errors = 0;
   TrackingStats tracking;
   std::vector<BadSample> bad_samples;
@@ -32,6 +33,7 @@ struct Counters {
   Counters& operator+=(const Counters& other) {
     candidates += other.candidates;
     pairs += other.pairs;
+    guided += other.guided;
     paths += other.paths;
     rays += other.rays;
     shadow_rays += other.shadow_rays;
@@ -51,9 +53,9 @@ class Prices {
   explicit Prices(std::size_t lights) : levels_(std::log2(static_cast<double>(lights) + 1)) {}
 
   double of(const Counters& c) const {
-    constexpr double kRay = 1850, kShadowRay = 500, kLookup = 25, kCandidate = 30, kPair = 160;
+    constexpr double kRay = 1700, kShadowRay = 550, kLookup = 28, kGuided = 600, kCandidate = 30, kPair = 160;
     return kRay * static_cast<double>(c.rays) + kShadowRay * static_cast<double>(c.shadow_rays) +
-           kLookup * static_cast<double>(c.tracking.lookups) +
+           kLookup * static_cast<double>(c.tracking.lookups) + kGuided * static_cast<double>(c.guided) +
            levels_ * (kCandidate * static_cast<double>(c.candidates) + kPair * static_cast<double>(c.pairs));
   }
 

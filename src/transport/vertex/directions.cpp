@@ -66,8 +66,10 @@ std::optional<Aureole> aureole_at(const LightContext& context, const Vertex& ver
 }  // namespace
 
 Directions::Directions(const LightContext& context, const Vertex& vertex) : vertex_(vertex) {
-  if (follows_suns(context, vertex)) aureole_ = aureole_at(context, vertex);
-  if (!guides(context, vertex)) return;
+  const bool toward_suns = follows_suns(context, vertex), toward_media = guides(context, vertex);
+  if (toward_suns || toward_media) ++context.counters.guided;
+  if (toward_suns) aureole_ = aureole_at(context, vertex);
+  if (!toward_media) return;
   toward_media_.emplace(context.world.bright_media, vertex.light_query(), seeks_volume_lights(context));
   if (toward_media_->share() == 0) toward_media_.reset();
 }
