@@ -73,7 +73,7 @@ std::string points(int count) {
 
 /// Means over blocks, whose pixels' noise is correlated.
 MeanImage blocks_of(const std::string& text, BudgetStrategy budget, std::uint64_t seed) {
-  Subject subject(text, {.reuse = ReuseStrategy::automatic, .budget = budget});
+  Subject subject(text, {.media = MediaStrategy::automatic, .reuse = ReuseStrategy::automatic, .budget = budget});
   MeanImageBuilder blocks;
   for (int i = 0; i < fewer(40); ++i) {
     blocks.add(block_image(subject.render(4, seed + static_cast<std::uint64_t>(i)), kBlock));

@@ -19,15 +19,15 @@ struct Variant {
   std::optional<int> candidates = RenderSettings{}.candidates;
   std::optional<int> shadow_rays = RenderSettings{}.shadow_rays;
   std::optional<float> splitting = RenderSettings{}.splitting;
-  MediaStrategy media = RenderSettings{}.media;
+  /// Not left open: what is tested must not be decided away.
+  MediaStrategy media = MediaStrategy::product;
   DistanceStrategy distance = RenderSettings{}.distance;
   EmissionStrategy emission = RenderSettings{}.emission;
   GuidingStrategy guiding = RenderSettings{}.guiding;
   JointStrategy joint = RenderSettings{}.joint;
   /// Off: the statistics of most tests take pixels to be independent. reuse_test.cpp holds those that share to these.
   ReuseStrategy reuse = ReuseStrategy::off;
-  /// Fixed: what is tested must not be decided away. pilot_test.cpp holds what is measured to this.
-  BudgetStrategy budget = BudgetStrategy::fixed;
+  BudgetStrategy budget = RenderSettings{}.budget;
 };
 
 /// Builds a world and renders it as often as asked.

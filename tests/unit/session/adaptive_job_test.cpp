@@ -102,7 +102,7 @@ TEST_CASE("an error goal ends an adaptive render near the error; no pixel has mo
   const RenderReport report = render(w, s).report;
   CHECK(report.most_samples > report.least_samples);
   CHECK(report.estimated_relmse < *s.error);
-  CHECK(report.estimated_relmse > 0.7 * *s.error);
+  CHECK(report.estimated_relmse > 0.6 * *s.error);  // the last step adds up to half of the samples there are: 2/3, and noise
   CHECK(report.worst_relmse > report.estimated_relmse);
   CHECK(report.least_samples >= 32);
   s.error = 1e-12;

@@ -10,6 +10,13 @@
 namespace tyndall {
 namespace {
 
+/// As resolved.
+RenderSettings by_default() {
+  RenderSettings settings;
+  settings.media = MediaStrategy::product;
+  return settings;
+}
+
 /// A world with the lights of `text`, asked about segments of homogeneous media on the z axis from -1 on.
 /// All in the units of the scene.
 class Asked {
@@ -17,14 +24,14 @@ class Asked {
   explicit Asked(const std::string& text) : world_(test::world_of("Camera \"perspective\"\nWorldBegin\n" + text, {})) {}
 
   /// A segment of `length` from there on, in two parts.
-  bool suffice(float sigma_s, float length = 2, const RenderSettings& settings = {}, int bounce = 1) {
+  bool suffice(float sigma_s, float length = 2, const RenderSettings& settings = by_default(), int bounce = 1) {
     return suffice_in(fog(sigma_s * world_.parts().unit), length, settings, bounce);
   }
   /// In a grid that is hardly anything in places.
   bool suffice_in_grid(float sigma_s, int bounce) {
     const auto half_empty = [](int i) { return i % 8 < 4 ? 1.0f : 1e-3f; };
     const float unit = world_.parts().unit;
-    return suffice_in(test::grid({8, -9, 9}, {{}, Rgb(sigma_s * unit), 0}, half_empty), 2, {}, bounce);
+    return suffice_in(test::grid({8, -9, 9}, {{}, Rgb(sigma_s * unit), 0}, half_empty), 2, by_default(), bounce);
   }
 
   bool suffice_in(const ParticipatingMedium& medium, float length, const RenderSettings& settings, int bounce) {
@@ -47,7 +54,7 @@ class Asked {
     const ParticipatingMedium medium = fog(sigma_s * unit);
     Interval inside{0, length / unit, {}};
     inside.media.push_back(&medium);
-    const RenderSettings settings;
+    const RenderSettings settings = by_default();
     return collisions_suffice(context(settings, 1), {world_.parts().to_user.inverse().point({0, 0, -1}), {0, 0, 1}}, inside);
   }
 
@@ -98,7 +105,7 @@ TEST_CASE("a segment without end is near every light but those at infinity") {
 TEST_CASE("collisions suffice after the first bounce in media that are all but opaque among the lights") {
   const std::string point = "LightSource \"point\" \"point3 from\" ";
   Asked pair(point + "[0.5 0 -1]\n" + point + "[0.5 0 9]\n");
-  const RenderSettings settings;
+  const RenderSettings settings = by_default();
   CHECK(pair.suffice(1, 9, settings, 1));
   CHECK_FALSE(pair.suffice(1, 9, settings, 0));
   CHECK_FALSE(pair.suffice(1, 7, settings, 1));      // a surface stands there
@@ -116,15 +123,15 @@ TEST_CASE("collisions suffice in dense segments that no light comes close to bef
   const auto point = [](const std::string& at) { return "LightSource \"point\" \"point3 from\" [" + at + "]\n"; };
   const std::string beside = point("0.5 0 -1") + point("-0.5 0 1");
   Asked aside(place + beside);
-  CHECK(aside.suffice(5, 2, {}, 0));
-  CHECK_FALSE(aside.suffice(0.9f, 2, {}, 0));       // few collide
-  CHECK_FALSE(aside.suffice(1.2f, 2, {}, 0));       // within what is not opaque, a light is close
-  CHECK_FALSE(aside.suffice(0.45f, 2, {}, 1));      // later, fewer are enough,
-  CHECK(aside.suffice(0.6f, 2, {}, 1));             // and lights may be closer
-  CHECK_FALSE(aside.suffice(5, kInfinity, {}, 0));  // places to ask at would be infinitely far apart
-  CHECK_FALSE(Asked(place + beside + point("0 0.05 -0.8")).suffice(5, 2, {}, 0));
-  CHECK(Asked(place + beside + point("0 0.05 0.8")).suffice(5, 2, {}, 0));  // behind what is opaque
-  CHECK_FALSE(Asked(beside).suffice(5, 2, {}, 0));                          // no medium of the world has bounds
+  CHECK(aside.suffice(5, 2, by_default(), 0));
+  CHECK_FALSE(aside.suffice(0.9f, 2, by_default(), 0));   // few collide
+  CHECK_FALSE(aside.suffice(1.2f, 2, by_default(), 0));   // within what is not opaque, a light is close
+  CHECK_FALSE(aside.suffice(0.45f, 2, by_default(), 1));  // later, fewer are enough,
+  CHECK(aside.suffice(0.6f, 2, by_default(), 1));         // and lights may be closer
+  CHECK_FALSE(aside.suffice(5, kInfinity, {}, 0));        // places to ask at would be infinitely far apart
+  CHECK_FALSE(Asked(place + beside + point("0 0.05 -0.8")).suffice(5, 2, by_default(), 0));
+  CHECK(Asked(place + beside + point("0 0.05 0.8")).suffice(5, 2, by_default(), 0));  // behind what is opaque
+  CHECK_FALSE(Asked(beside).suffice(5, 2, by_default(), 0));                          // no medium of the world has bounds
 }
 
 TEST_CASE("of a ray in media, its segment to the end of their boxes counts") {
@@ -146,7 +153,7 @@ TEST_CASE("methods that are asked for are not replaced, nor the many pairs of si
   CHECK_FALSE(sun.suffice(2, 2, profile));
   CHECK_FALSE(sun.suffice(2, 2, closest));
   CHECK_FALSE(sun.suffice(2, 2, direct, 0));
-  CHECK(sun.suffice(2, 2, {}, 0));
+  CHECK(sun.suffice(2, 2, by_default(), 0));
 }
 
 }  // namespace
