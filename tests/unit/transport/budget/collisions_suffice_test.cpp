@@ -124,11 +124,11 @@ TEST_CASE("collisions suffice in dense segments that no light comes close to bef
   const std::string beside = point("0.5 0 -1") + point("-0.5 0 1");
   Asked aside(place + beside);
   CHECK(aside.suffice(5, 2, by_default(), 0));
-  CHECK_FALSE(aside.suffice(0.9f, 2, by_default(), 0));   // few collide
-  CHECK_FALSE(aside.suffice(1.2f, 2, by_default(), 0));   // within what is not opaque, a light is close
-  CHECK_FALSE(aside.suffice(0.45f, 2, by_default(), 1));  // later, fewer are enough,
-  CHECK(aside.suffice(0.6f, 2, by_default(), 1));         // and lights may be closer
-  CHECK_FALSE(aside.suffice(5, kInfinity, {}, 0));        // places to ask at would be infinitely far apart
+  CHECK_FALSE(aside.suffice(0.9f, 2, by_default(), 0));       // few collide
+  CHECK_FALSE(aside.suffice(1.2f, 2, by_default(), 0));       // within what is not opaque, a light is close
+  CHECK_FALSE(aside.suffice(0.45f, 2, by_default(), 1));      // later, fewer are enough,
+  CHECK(aside.suffice(0.6f, 2, by_default(), 1));             // and lights may be closer
+  CHECK_FALSE(aside.suffice(5, kInfinity, by_default(), 0));  // places to ask at would be infinitely far apart
   CHECK_FALSE(Asked(place + beside + point("0 0.05 -0.8")).suffice(5, 2, by_default(), 0));
   CHECK(Asked(place + beside + point("0 0.05 0.8")).suffice(5, 2, by_default(), 0));  // behind what is opaque
   CHECK_FALSE(Asked(beside).suffice(5, 2, by_default(), 0));                          // no medium of the world has bounds
@@ -146,7 +146,7 @@ TEST_CASE("of a ray in media, its segment to the end of their boxes counts") {
 
 TEST_CASE("methods that are asked for are not replaced, nor the many pairs of single scattering") {
   Asked sun(kSun);
-  RenderSettings profile, closest, direct;
+  RenderSettings profile = by_default(), closest = by_default(), direct = by_default();
   profile.distance = DistanceStrategy::profile;
   closest.media = MediaStrategy::closest;
   direct.max_depth = 1;
