@@ -39,9 +39,9 @@ RenderSettings resolved(RenderSettings settings, const World::Parts& world) {
   world.built.lights.selector(settings.lights);  // throws when it was not built
   if (settings.emission == EmissionStrategy::lights && !world.built.has_volume_lights)
     throw Error(Failure::usage, "the world was not built for emission as lights; set BuildSettings::volume_lights");
+  if (settings.media == MediaStrategy::automatic) settings.media = MediaStrategy::product;
   // Settings that stand for other programs' methods have neither guiding nor joint sampling, seek no volume emission, measure
   // no budget and share nothing.
-  if (settings.media == MediaStrategy::automatic) settings.media = MediaStrategy::product;
   const bool ours = settings.media == MediaStrategy::product;
   if (settings.guiding == GuidingStrategy::automatic) settings.guiding = ours ? GuidingStrategy::media : GuidingStrategy::off;
   if (settings.emission == EmissionStrategy::automatic && !(ours && world.built.has_volume_lights))

@@ -15,17 +15,10 @@ import tempfile
 
 import numpy as np
 
+from pfm import read_pfm
+
 EPSILON = 0.01  # of relMSE, as everywhere
 BLOCK = 8  # pixels
-
-
-def read_pfm(path):
-    with open(path, "rb") as file:
-        channels = {b"PF": 3, b"Pf": 1}[file.readline().strip()]
-        width, height = map(int, file.readline().split())
-        little = float(file.readline()) < 0
-        values = np.frombuffer(file.read(), "<f4" if little else ">f4")
-    return values.reshape(height, width, channels).astype(np.float64)
 
 
 def render(tyndall, scene, seed, options):

@@ -2,11 +2,11 @@
 """Whether the defaults hold in scenes that nobody has looked at: random ones, error x time against other options.
 
 Usage: random_scenes.py TYNDALL SEEDS [-- OPTIONS OF RENDER FOR ALL, such as --spp 24 --resolution 192x128]
-SEEDS: of the scenes, as 1-40 or 3,17. TYNDALL may be several programs separated by commas, the first of which is compared.
+SEEDS: of the scenes, as 1-40 or 3,17. TYNDALL: a program, or several separated by commas, to which the first is held.
 
-A row a scene: what is in it; processor time of the defaults; by how much error x time of each other program, and of plain path
-tracing with lights chosen at collisions (the default's first program), is larger: relMSE, and without the worst 0.2 % of pixels; by
-how many standard errors of renders plain means are off. The geometric means of the gains follow.
+A row a scene: processor time of the first program; error x time of each other program, and last of the first one's plain path
+tracing with lights chosen at collisions, over that of the first: relMSE, and without the worst 0.2 % of pixels; by how many standard
+errors the means of the first and of the plain renders differ; what is in the scene. The geometric means of the gains follow.
 """
 import math
 import os
@@ -17,6 +17,8 @@ import sys
 import tempfile
 
 import numpy as np
+
+from pfm import read_pfm
 
 RENDERS = 3
 EPSILON = 0.01  # of relMSE, as everywhere
@@ -58,7 +60,7 @@ class Scene:
             self.tags.append("fog")
             text += medium("fog", "homogeneous", self.coefficients(self.log_uniform(0.01, 0.3), self.uniform(0.6, 0.99)),
                            self.uniform(-0.3, 0.9)) + 'MediumInterface "" "fog"\n'
-        return text + "WorldBegin\n" + (f'MediumInterface "fog" "fog"\n' if self.outside else "")
+        return text + "WorldBegin\n" + ('MediumInterface "fog" "fog"\n' if self.outside else "")
 
     def coefficients(self, sigma_t, albedo):
         tint = (1, self.uniform(0.5, 1), self.uniform(0.5, 1)) if self.chance(0.3) else (1, 1, 1)
@@ -181,15 +183,6 @@ def box(low, high):
 def medium(name, kind, coefficients, g, more=""):
     (s, a) = (" ".join(f"{v:g}" for v in c) for c in coefficients)
     return f'MakeNamedMedium "{name}" "string type" "{kind}" "rgb sigma_s" [{s}] "rgb sigma_a" [{a}] "float g" {g:g} {more}\n'
-
-
-def read_pfm(path):
-    with open(path, "rb") as file:
-        channels = {b"PF": 3, b"Pf": 1}[file.readline().strip()]
-        width, height = map(int, file.readline().split())
-        little = float(file.readline()) < 0
-        values = np.frombuffer(file.read(), "<f4" if little else ">f4")
-    return values.reshape(height, width, channels).astype(np.float64)
 
 
 def renders(program, scene, first_seed, options):
