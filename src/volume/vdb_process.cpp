@@ -13,6 +13,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <ctime>
 
 #include "math/process_memory.h"
 #include "tyndall/error.h"
@@ -136,6 +137,20 @@ WorkerProcess::~WorkerProcess() {
 bool WorkerProcess::has_ended() const {
   if (!ended_) ended_ = waitpid(child_, &status_, WNOHANG) == child_;
   return ended_;
+}
+
+bool WorkerProcess::is_stuck(double seconds) const {
+  timespec before{};
+  for (int idle = 0; idle * kPollMilliseconds < seconds * 1000; ++idle) {
+    pollfd watched{descriptor_, POLLIN, 0};
+    if (poll(&watched, 1, kPollMilliseconds) > 0 || has_ended()) return false;
+    clockid_t clock{};
+    timespec computed{};
+    if (clock_getcpuclockid(child_, &clock) != 0 || clock_gettime(clock, &computed) != 0) return false;
+    if (computed.tv_sec != before.tv_sec || computed.tv_nsec != before.tv_nsec) idle = 0;
+    before = computed;
+  }
+  return true;
 }
 
 /// Counts looks, not the time of a clock, which goes on while both processes are stopped (Ctrl-Z).

@@ -68,6 +68,10 @@ class WorkerProcess : public ProcessChannel {
   WorkerProcess(const ProcessLimits& limits, const std::function<void(ProcessChannel&)>& serve);
   ~WorkerProcess() override;  ///< ends the child
 
+  /// Waits for the first byte or the end; true when the child has neither computed nor sent for `seconds`. A fork copies the
+  /// locks of libraries but not the threads that hold them, so a child can wait for ever where the next one does not.
+  bool is_stuck(double seconds) const;
+
  private:
   void wait() override;
   [[noreturn]] void closed() const override;

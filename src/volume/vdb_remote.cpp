@@ -23,6 +23,9 @@ constexpr std::size_t kBatch = 128;
 constexpr std::size_t kUnfolding = 100, kBaseMemory = std::size_t{256} << 20;
 // Unpacking and building the tree takes a fraction of this (docs/measurements.md).
 constexpr double kBaseSeconds = 4, kBytesPerSecond = 1e7;
+// A reader is replaced that does nothing from the start; one that waits for a slow disk is, too, but the last is waited for.
+constexpr int kMostRestarts = 3;
+constexpr double kIdleSeconds = 1;
 
 ProcessLimits limits_for(const std::string& path, std::size_t most_memory) {
   std::error_code code;
@@ -279,7 +282,11 @@ class RemoteVolumeFile : public VolumeFile {
 std::unique_ptr<VolumeFile> open_remotely(const std::string& path, std::size_t most_memory,
                                           std::unique_ptr<VolumeFile> (*open)(const std::string& path)) {
   const ProcessLimits limits = limits_for(path, most_memory);
-  auto worker = std::make_unique<WorkerProcess>(limits, [&](ProcessChannel& channel) { serve(channel, path, open); });
+  const auto start = [&] {
+    return std::make_unique<WorkerProcess>(limits, [&](ProcessChannel& channel) { serve(channel, path, open); });
+  };
+  auto worker = start();
+  for (int again = 0; again < kMostRestarts && worker->is_stuck(kIdleSeconds); ++again) worker = start();
   return receive_volume(path, std::move(worker), limits.memory);
 }
 

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include <signal.h>
+#include <sys/mman.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -13,6 +14,7 @@
 
 #include "tyndall/error.h"
 #include "volume/vdb_process.h"
+#include "volume/vdb_remote.h"
 
 using namespace tyndall;
 
@@ -83,6 +85,34 @@ TEST_CASE("a child that sleeps for ever is not waited for") {
   WorkerProcess worker(kImpatient, [](ProcessChannel&) { pause(); });
   CHECK_THROWS_WITH_AS(worker.get<int>(), doctest::Contains("too long"), ProcessEnded);
   CHECK(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() < 5);
+}
+
+TEST_CASE("a child that computes before it answers is not stuck, one that only waits is") {
+  const auto work = [](ProcessChannel& channel) {
+    const auto end = std::chrono::steady_clock::now() + std::chrono::milliseconds(1500);
+    while (std::chrono::steady_clock::now() < end) continue;
+    channel.put(1);
+  };
+  CHECK_FALSE(WorkerProcess({.memory = kLimits.memory, .cpu_seconds = 4}, work).is_stuck(0.8));
+  CHECK_FALSE(WorkerProcess(kLimits, [](ProcessChannel&) {}).is_stuck(0.8));
+  CHECK(WorkerProcess(kLimits, [](ProcessChannel&) { pause(); }).is_stuck(0.8));
+}
+
+namespace {
+int* readers = nullptr;  ///< how many were started, seen by all of them
+std::unique_ptr<VolumeFile> open_at_the_second_start(const std::string&) {
+  if (++*readers == 1) pause();
+  throw Error(Failure::scene, "reader " + std::to_string(*readers));
+}
+}  // namespace
+
+// libtbb's lock, held by a thread of Embree's when the reader was forked, made one read in 5,000 wait for 24 seconds.
+TEST_CASE("a reader that waits for what nobody will give is replaced") {
+  void* shared = mmap(nullptr, sizeof(int), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+  REQUIRE(shared != MAP_FAILED);
+  readers = new (shared) int(0);
+  CHECK_THROWS_WITH_AS(open_remotely("none.vdb", std::size_t{64} << 20, open_at_the_second_start), "reader 2", Error);
+  munmap(shared, sizeof(int));
 }
 
 TEST_CASE("time for which the waiting process is stopped does not count") {
