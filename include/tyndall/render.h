@@ -101,9 +101,9 @@ struct RenderReport {
   /// With RenderSettings::budget as measured: at paths' first vertices, and along their first segments through media.
   std::optional<AskedLights> at_vertices, along_segments;
   /// Likewise, of what the settings leave open: whether neighbouring pixels share what they find (RenderSettings::reuse), and
-  /// beyond collisions in grids; whether lights are chosen along segments, instead of at collisions (RenderSettings::media);
-  /// and whether paths are guided.
-  std::optional<bool> sharing, collisions_shared, pairs, guiding;
+  /// beyond collisions in grids; whether media that emit are sought as lights (RenderSettings::emission); whether lights are
+  /// chosen along segments, instead of at collisions (RenderSettings::media); and whether paths are guided.
+  std::optional<bool> sharing, collisions_shared, emission_sought, pairs, guiding;
   std::uint64_t paths = 0, rays = 0, shadow_rays = 0, density_lookups = 0;
 
   std::uint64_t non_finite = 0, majorant_violations = 0, caps_hit = 0, parity_errors = 0;

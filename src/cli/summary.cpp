@@ -47,6 +47,7 @@ std::string measured_budget(const RenderReport& r) {
   };
   tell(r.sharing, "pixels share", "pixels share nothing");
   tell(r.collisions_shared, "collisions shared", "collisions not shared");
+  tell(r.emission_sought, "emission sought", "emission not sought");
   tell(r.pairs, "lights along segments", "lights at collisions");
   tell(r.guiding, "guided", "not guided");
   return text.empty() ? text : "  budget  " + text + "\n";
@@ -63,6 +64,7 @@ nlohmann::ordered_json budget_json(const RenderReport& r) {
   };
   tell("sharing", r.sharing);
   tell("collisions_shared", r.collisions_shared);
+  tell("emission_sought", r.emission_sought);
   tell("pairs", r.pairs);
   tell("guiding", r.guiding);
   return j;

@@ -130,7 +130,7 @@ const std::vector<StrategyAxis>& strategy_axes() {
       axis<kBudgets, &RenderSettings::budget>(
           "budget",
           "how many lights are asked at a path's first vertex and along its first segment, and what pays of "
-          "--media, --guiding and --reuse where they are auto"),
+          "--media, --emission, --guiding and --reuse where they are auto"),
       axis<kTransmittances, &RenderSettings::transmittance>("transmittance", "estimator along shadow rays"),
   };
   return axes;

@@ -22,9 +22,6 @@ constexpr std::size_t kBlocksEach = 48, kMostBlocks = 64;
 constexpr std::size_t kLeastToCompare = 4;
 /// Blocks that know as much as the numbers that stand without them.
 constexpr double kDoubt = 2;
-/// Of the pixels, those that Look::product() leaves out.
-constexpr double kWorst = 0.01;
-
 /// Relative variance of a sample, of which nothing is seen: where there is less, what costs less is better.
 constexpr double kUnseen = 1e-8;
 
@@ -43,21 +40,15 @@ std::size_t blocks_of(const PixelBounds& frame) {
   return std::min(std::max<std::size_t>(BlockGrid(frame).size() / kBlocksEach, 1), kMostBlocks);
 }
 
-/// Of the values all but the largest, a share of kWorst.
-double trimmed_sum(std::vector<double> values) {
-  const auto kept = values.begin() + static_cast<std::ptrdiff_t>(static_cast<double>(values.size()) * (1 - kWorst));
-  std::nth_element(values.begin(), kept, values.end());
-  return std::accumulate(values.begin(), kept, 0.0);
-}
-
 /// What a variance is relative to, as errors are seen: a squared mean; what is dark by a tenth of the mean of all.
 double unit_of(double mean, double of_all) { return mean * mean + 0.01 * of_all * of_all; }
 
 }  // namespace
 
 /// With all that was found: lights that are seldom chosen are seen twice as often.
-double Look::Pixel::mean() const { return (sum + 0.5 * light.difference) / kSamples; }
-double Look::Pixel::variance() const { return (squares - sum * sum / kSamples) * kSamples / (kSamples - 1); }
+double Look::Pixel::mean() const { return (even + odd + 0.5 * light.difference) / kSamples; }
+double Look::Pixel::variance() const { return (squares - (even + odd) * (even + odd) / kSamples) * kSamples / (kSamples - 1); }
+double Look::Pixel::error() const { return (even - odd) * (even - odd); }
 bool Look::Pixel::is_finite() const { return std::isfinite(squares); }
 
 double Look::Block::mean() const {
@@ -70,27 +61,26 @@ double Look::Block::mean() const {
 
 /// Without the emission that is seen: the film looks for emitters by itself.
 Look::Block Look::try_block(const SampleContext& context, const PixelBlock& block) {
-  Block tried{.pixels = std::vector<Pixel>(block.pixels().size())};
+  Block tried;
+  tried.pixels.resize(block.pixels().size());
   const auto group = std::make_unique<PixelGroup>();
-  Counters counters;
   const double exposure{context.world.built.scene.film.imaging_ratio};  // trials see light as it is found
   for (int s = 0; s < kSamples; ++s) {
     group->clear();
     for (std::size_t i = 0; i < tried.pixels.size(); ++i) {
       const auto [x, y] = block.pixels()[i];
-      group->add(context, {hash(context.settings.seed, kPilotSeed), x, y, s}, PixelFilm(), counters);
+      group->add(context, {hash(context.settings.seed, kPilotSeed), x, y, s}, PixelFilm(), tried.counters);
       if (Path* path = (*group)[i].path()) path->observe(tried.pixels[i].light);
     }
-    group->run(context, counters);
+    group->run(context, tried.counters);
     for (std::size_t i = 0; i < tried.pixels.size(); ++i) {
       const PathRecord record = (*group)[i].record();
       const auto L = double{mean(record.radiance() - record.emission)} / exposure;
-      tried.pixels[i].sum += L;
+      (s & 1 ? tried.pixels[i].odd : tried.pixels[i].even) += L;
       tried.pixels[i].squares += L * L;
     }
   }
-  tried.cost = Prices(context.world.built.lights.size()).of(counters);
-  for (const Pixel& pixel : tried.pixels) tried.cost -= pixel.light.repeated;
+  for (const Pixel& pixel : tried.pixels) tried.repeated += pixel.light.repeated;
   return tried;
 }
 
@@ -109,13 +99,14 @@ Look::Look(const SampleContext& context, const Decision& decision, ThreadPool& p
     const PixelPlace p = spread_place(i, frame);
     blocks_[i] = try_block(pilot, PixelBlock(p.x, p.y, frame));
   });
+  for (const Block& block : blocks_) {
+    counters_ += block.counters;
+    cost_ -= block.repeated;
+  }
+  cost_ += Prices(context.world.built.lights.size()).of(counters_);
 }
 
 bool Look::can_be_compared() const { return blocks_.size() >= kLeastToCompare; }
-
-double Look::cost() const {
-  return std::accumulate(blocks_.begin(), blocks_.end(), 0.0, [](double sum, const Block& b) { return sum + b.cost; });
-}
 
 double Look::mean_of_all() const {
   const double sum =
@@ -132,20 +123,24 @@ std::vector<double> Look::units(const Look& other) const {
   return units;
 }
 
-double Look::product(const Look& other) const {
-  const std::vector<double> unit = units(other);
-  std::vector<double> relative;
+double Look::error(const std::vector<double>& units) const {
+  double error = 0;
   for (std::size_t b = 0; b < blocks_.size(); ++b) {
     for (const Pixel& pixel : blocks_[b].pixels) {
-      if (pixel.is_finite()) relative.push_back((unit[b] > 0 ? pixel.variance() / unit[b] : 0.0) + kUnseen);
+      if (pixel.is_finite()) error += (units[b] > 0 ? pixel.error() / units[b] : 0.0) + kUnseen;
     }
   }
-  return trimmed_sum(std::move(relative)) * cost();
+  return error;
+}
+
+bool Look::beats(const Look& other, double share) const {
+  const std::vector<double> unit = units(other);
+  return error(unit) * cost_ < share * other.error(unit) * other.cost_;
 }
 
 Trials Look::trials() const {
   const double all = mean_of_all();
-  Trials trials{.all_cost = cost()};
+  Trials trials{.all_cost = cost_};
   for (const Block& block : blocks_) {
     for (const Pixel& pixel : block.pixels) {
       const double unit = unit_of(pixel.mean(), all);

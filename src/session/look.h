@@ -30,34 +30,38 @@ class Look {
   Trials trials() const;
   /// The frame is large enough to tell techniques apart, and for what that takes to be a small share of it.
   bool can_be_compared() const;
-  /// Variance x cost, in a unit that this look and `other` have in common, so that the two can be compared. Without the worst
-  /// pixels: a few samples can't tell how often such come.
-  double product(const Look& other) const;
+  /// Its variance x cost is less than `share` of that of `other`.
+  bool beats(const Look& other, double share) const;
+  const Counters& counters() const { return counters_; }
 
  private:
   /// One pixel.
   struct Pixel {
-    double sum = 0, squares = 0;  ///< of its samples' radiance
+    double even = 0, odd = 0, squares = 0;  ///< of its samples' radiance
     LightTrial light;
 
     double mean() const;
-    /// Of its samples together, as `light` is.
-    double variance() const;
+    // Of its samples together, as `light` is.
+    double variance() const;  ///< were they independent
+    double error() const;     ///< as they are: even and odd samples are two sequences
     bool is_finite() const;
   };
   struct Block {
     std::vector<Pixel> pixels;
-    double cost = 0;  ///< ns (Prices)
+    Counters counters;
+    double repeated = 0;  ///< ns (Prices) of what only LightTrial wants
 
     double mean() const;
   };
   static Block try_block(const SampleContext& context, const PixelBlock& block);
   std::vector<double> units(const Look& other) const;
+  double error(const std::vector<double>& units) const;
   double mean_of_all() const;
-  double cost() const;
 
   Decision decision_;
   std::vector<Block> blocks_;
+  Counters counters_;  ///< of all
+  double cost_ = 0;    ///< ns (Prices)
 };
 
 }  // namespace tyndall

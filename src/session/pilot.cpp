@@ -6,14 +6,14 @@
 namespace tyndall {
 namespace {
 
-/// To leave out what is there by default it has to be worse by more than looks and prices err.
-constexpr double kWins = 0.85;
+/// Of the product, what a change has to beat: by chance alone looks of a few blocks often differ by less.
+constexpr double kWins = 0.9;
 
 /// There are lights to choose among, and numbers that are not given. Single scattering has its own.
-bool decides_lights(const SampleContext& context) {
-  const RenderSettings& settings = context.settings;
-  return context.world.built.lights.sought(context.selector_with_volumes != nullptr) > 1 && settings.max_depth > 1 &&
-         !context.selector.exhaustive() && !context.selector.sizes_cut() && !(settings.candidates && settings.shadow_rays);
+bool decides_lights(const SampleContext& context, const RenderSettings& settings) {
+  const bool volumes = context.selector_with_volumes && settings.emission != EmissionStrategy::paths;
+  return context.world.built.lights.sought(volumes) > 1 && settings.max_depth > 1 && !context.selector.exhaustive() &&
+         !context.selector.sizes_cut() && !(settings.candidates && settings.shadow_rays);
 }
 
 /// Connections through homogeneous media have no noise of their own, and always pay.
@@ -27,28 +27,47 @@ bool decides_collisions(const SampleContext& context) {
 class Search {
  public:
   Search(const SampleContext& context, const Decision& first, ThreadPool& pool)
-      : context_(context), pool_(pool), best_(context, first, pool) {}
+      : context_(context), pool_(pool), unmeasured_(*first.budget), best_(context, first, pool), choices_(best_.trials()) {}
 
-  /// With less than `wins` of the product it stays changed.
+  /// Goes on with the numbers of lights that pay: noise of too few would hide what a change is worth.
+  void ask_lights() {
+    if (decides_lights(context_, best_.decision().settings)) best_ = Look(context_, result(), pool_);
+  }
+  /// Where variance x cost is less it stays changed. Nothing is looked at where what it changes is not `used`.
   template <typename Change>
-  void consider(const Change& change, double wins) {
+  void consider(std::uint64_t used, const Change& change) {
+    if (used == 0) return;
     Decision other = best_.decision();
     change(other);
     Look look(context_, other, pool_);
-    if (look.product(best_) < wins * best_.product(look)) best_ = std::move(look);
+    if (look.beats(best_, kWins)) best_ = std::move(look);
   }
   const Look& best() const { return best_; }
+  /// The best, with the numbers of lights that it makes pay.
+  Decision result() const {
+    Decision result = best_.decision();
+    if (!decides_lights(context_, result.settings)) return result;
+    const auto shared = result.budget->collisions_shared;
+    result.budget = best_budget(beside(choices_, best_.trials()), unmeasured_);
+    result.budget->collisions_shared = shared;
+    return result;
+  }
 
  private:
   const SampleContext& context_;
   ThreadPool& pool_;
+  LightBudget unmeasured_;
   Look best_;
+  Trials choices_;  ///< as unmeasured numbers show them
 };
 
+void collisions_not_shared(Decision& d) { d.budget->collisions_shared = false; }
 void without_sharing(Decision& d) {
   d.settings.reuse = ReuseStrategy::off;
   d.budget->collisions_shared.reset();
 }
+void emission_by_rays(Decision& d) { d.settings.emission = EmissionStrategy::paths; }
+void unguided(Decision& d) { d.settings.guiding = GuidingStrategy::off; }
 void lit_at_collisions(Decision& d) {
   d.settings.media = MediaStrategy::vertex;
   d.settings.distance = DistanceStrategy::tracking;
@@ -58,20 +77,24 @@ void lit_at_collisions(Decision& d) {
 
 Decision decide(const SampleContext& context, const OpenChoices& open, ThreadPool& pool) {
   Decision first{context.settings, std::nullopt};
-  const bool lights = decides_lights(context), collisions = decides_collisions(context);
-  if (context.settings.budget != BudgetStrategy::measured || !(lights || collisions || open.any())) return first;
+  const bool collisions = decides_collisions(context);
+  if (context.settings.budget != BudgetStrategy::measured ||
+      !(decides_lights(context, context.settings) || collisions || open.any()))
+    return first;
   first.budget = LightBudget::unmeasured(context.settings.reuse);
   if (collisions) first.budget->collisions_shared = true;
   Search search(context, first, pool);
-  if (collisions) search.consider([](Decision& d) { d.budget->collisions_shared = false; }, 1);
-  if (search.best().can_be_compared()) {
-    if (open.sharing) search.consider(without_sharing, kWins);
-    if (open.pairs) search.consider(lit_at_collisions, kWins);
-    if (open.guiding) search.consider([](Decision& d) { d.settings.guiding = GuidingStrategy::off; }, kWins);
+  const bool compares = open.any() && search.best().can_be_compared();
+  if (collisions || compares) search.ask_lights();
+  const auto used = [&]() -> const Counters& { return search.best().counters(); };
+  if (collisions) search.consider(used().connections, collisions_not_shared);
+  if (compares) {
+    if (open.sharing) search.consider(used().connections, without_sharing);
+    if (open.emission) search.consider(used().rays, emission_by_rays);
+    if (open.pairs) search.consider(used().segments, lit_at_collisions);
+    if (open.guiding) search.consider(used().guided, unguided);
   }
-  Decision best = search.best().decision();
-  if (lights) best.budget = best_budget(search.best().trials(), *best.budget);
-  return best;
+  return search.result();
 }
 
 }  // namespace tyndall

@@ -212,6 +212,7 @@ class RenderJob::Impl {
 
   void report_choices(RenderReport& r) const {
     if (open_.sharing) r.sharing = decided_.reuse == ReuseStrategy::pixels;
+    if (open_.emission) r.emission_sought = decided_.emission != EmissionStrategy::paths;
     if (open_.pairs) r.pairs = decided_.media != MediaStrategy::vertex;
     if (open_.guiding) r.guiding = decided_.guiding == GuidingStrategy::media;
   }

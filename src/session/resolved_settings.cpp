@@ -62,6 +62,7 @@ OpenChoices open_choices(const RenderSettings& given, const RenderSettings& reso
   const BuiltWorld& built = world.built;
   const bool lit = built.has_media() && built.lights.size() > 0;
   return {.sharing = resolved.reuse == ReuseStrategy::pixels && given.reuse == ReuseStrategy::automatic,
+          .emission = resolved.emission == EmissionStrategy::automatic && !built.volume_lights.empty(),
           .pairs = lit && given.media == MediaStrategy::automatic && given.distance == DistanceStrategy::automatic,
           .guiding = lit && resolved.max_depth > 1 && resolved.guiding == GuidingStrategy::media &&
                      given.guiding == GuidingStrategy::automatic && !(built.bright_media.empty() && built.suns.empty())};

@@ -10,10 +10,11 @@ RenderSettings resolved(RenderSettings settings, const World::Parts& world);
 
 /// What `given` leaves open that resolved() has found a method for, and that can make a difference in this world.
 struct OpenChoices {
-  bool sharing = false;  ///< RenderSettings::reuse
-  bool pairs = false;    ///< along segments, instead of RenderSettings::media as vertex
+  bool sharing = false;   ///< RenderSettings::reuse
+  bool emission = false;  ///< RenderSettings::emission: media that emit are lights, or found by rays alone
+  bool pairs = false;     ///< along segments, instead of RenderSettings::media as vertex
   bool guiding = false;
-  bool any() const { return sharing || pairs || guiding; }
+  bool any() const { return sharing || emission || pairs || guiding; }
 };
 OpenChoices open_choices(const RenderSettings& given, const RenderSettings& resolved, const World::Parts& world);
 

@@ -12,12 +12,22 @@ constexpr double kLeast = 2, kMost = 64;
 constexpr double kLeastRest = 0.05;
 
 double sum(const PerSpent<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
+double rest_of_variance(const Trials& trials) {
+  return std::max(trials.all_variance - sum(trials.variance), kLeastRest * trials.all_variance);
+}
+double rest_of_cost(const Trials& trials) { return trials.all_cost - sum(trials.cost); }
 
 }  // namespace
 
+Trials beside(const Trials& choices, const Trials& others) {
+  Trials trials = choices;
+  trials.all_variance = sum(trials.variance) + rest_of_variance(others);
+  trials.all_cost = sum(trials.cost) + rest_of_cost(others);
+  return trials;
+}
+
 LightBudget best_budget(const Trials& trials, const LightBudget& during) {
-  const double A = std::max(trials.all_variance - sum(trials.variance), kLeastRest * trials.all_variance);
-  const double C = trials.all_cost - sum(trials.cost);
+  const double A = rest_of_variance(trials), C = rest_of_cost(trials);
   // Variance and cost were those of n together: B = n variance, c = cost / n.
   const auto best = [&](Spent spent, int n) {
     const double ratio = std::max(trials.variance[spent], 0.0) * C / (A * trials.cost[spent]);

@@ -47,6 +47,9 @@ struct Trials {
   double trust = 1;  ///< from 0, they may be wrong, to 1, they know: how far the budget follows them
 };
 
+/// The choices of `choices` beside all else of `others`: numbers that make these pay hide what they leave to chance.
+Trials beside(const Trials& choices, const Trials& others);
+
 /// The numbers n_i that make variance x cost least. With B_i and c_i of one more of each, and A and C of all else, that is
 /// (A + sum B_i / n_i) (C + sum c_i n_i), least at n_i = sqrt(B_i C / (A c_i)). From 2 to 64; what trials can't tell stays as
 /// it was during them. No more rays than candidates.

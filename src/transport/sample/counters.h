@@ -17,6 +17,9 @@ inline constexpr std::size_t kBadSamplesKept = 16;
 
 struct Counters {
   std::uint64_t candidates = 0, pairs = 0;  ///< lights drawn for vertices, and along segments
+  std::uint64_t segments = 0;               ///< that lights are sought along
+  std::uint64_t places = 0;                 ///< along them, of a light each, that are evaluated
+  std::uint64_t connections = 0;            ///< of a path with what another has found that are asked for
   std::uint64_t guided = 0;                 ///< vertices that directions are guided at
   std::uint64_t paths = 0, rays = 0, shadow_rays = 0, non_finite = 0, parity_errors = 0;
   TrackingStats tracking;
@@ -33,6 +36,9 @@ struct Counters {
   Counters& operator+=(const Counters& other) {
     candidates += other.candidates;
     pairs += other.pairs;
+    segments += other.segments;
+    places += other.places;
+    connections += other.connections;
     guided += other.guided;
     paths += other.paths;
     rays += other.rays;
@@ -46,17 +52,19 @@ struct Counters {
   }
 };
 
-/// Costs by counts: choices made by clocks would not give the same picture twice. ns of one core, about
-/// (docs/measurements.md); of a light drawn for a vertex or along a segment, down a tree of so many.
+/// Costs by counts: choices made by clocks would not give the same picture twice. About ns of one core, and up to a factor that
+/// depends on the scene (docs/measurements.md); of a light drawn for a vertex or along a segment, down a tree of so many.
 class Prices {
  public:
   explicit Prices(std::size_t lights) : levels_(std::log2(static_cast<double>(lights) + 1)) {}
 
   double of(const Counters& c) const {
-    constexpr double kRay = 1700, kShadowRay = 550, kLookup = 28, kGuided = 600, kCandidate = 30, kPair = 160;
-    return kRay * static_cast<double>(c.rays) + kShadowRay * static_cast<double>(c.shadow_rays) +
-           kLookup * static_cast<double>(c.tracking.lookups) + kGuided * static_cast<double>(c.guided) +
-           levels_ * (kCandidate * static_cast<double>(c.candidates) + kPair * static_cast<double>(c.pairs));
+    constexpr double kRay = 1000, kShadowRay = 420, kLookup = 15, kGuided = 200, kSegment = 1700, kPlace = 330;
+    constexpr double kCandidate = 80, kPair = 170;
+    const auto cost = [](double price, std::uint64_t count) { return price * static_cast<double>(count); };
+    return cost(kRay, c.rays) + cost(kShadowRay, c.shadow_rays) + cost(kLookup, c.tracking.lookups) + cost(kGuided, c.guided) +
+           cost(kSegment, c.segments) + cost(kPlace, c.places) +
+           levels_ * (cost(kCandidate, c.candidates) + cost(kPair, c.pairs));
   }
 
  private:

@@ -50,8 +50,9 @@ inline bool is_single_scattering(const LightContext& context) { return context.b
 /// are then weighted by MIS. By default at the first of a path alone: the others' light is averaged over paths that share it,
 /// and found by rays that pass without one more (docs/measurements.md).
 inline bool seeks_volume_lights(const LightContext& context) {
-  if (!context.selector_with_volumes) return false;
-  return context.bounce == 0 || context.settings.emission == EmissionStrategy::lights;
+  const EmissionStrategy emission = context.settings.emission;
+  if (!context.selector_with_volumes || emission == EmissionStrategy::paths) return false;
+  return context.bounce == 0 || emission == EmissionStrategy::lights;
 }
 
 /// What chooses among the lights that are sought there.

@@ -114,6 +114,7 @@ SegmentShares::SegmentShares(const Between& between, std::span<Path* const> path
 
 SegmentShares::Find SegmentShares::consider(Path& finder) const {
   Find find{.path = &finder, .scale = 1, .flight = {}};
+  between_.counters.connections += makers_.size();
   for (const std::size_t k : makers_) {
     find.might[k] = connect(paths_[k]->offer(), finder.offer()).pdf;
     find.might_sum += double{find.might[k]};
@@ -161,6 +162,7 @@ void SegmentShares::hand_out() {
 
 void SegmentShares::receive(std::size_t k) {
   CameraSegment& segment = *paths_[k]->segment();
+  between_.counters.connections += finds_.size();
   std::vector<Candidate> candidates;
   float u = segment.u();
   for (const Find& find : finds_) {

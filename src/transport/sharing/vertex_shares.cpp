@@ -42,6 +42,7 @@ float VertexShares::sharers(Path& finder) const {
   const std::size_t n = receivers_.size(), step = (n + kProbes - 1) / kProbes;
   int probes = 0, might = 0;
   for (std::size_t i = step; i < n; i += step, ++probes) might += connect(*receivers_[(own + i) % n].offer, find).pdf >= least;
+  between_.counters.connections += static_cast<std::uint64_t>(probes);
   return might > 0 ? 1 + static_cast<float>(might) / static_cast<float>(probes) * static_cast<float>(n - 1) : 1;
 }
 
@@ -67,6 +68,7 @@ VertexShares::Linked VertexShares::link(const Receiver& receiver, const Connecti
 void VertexShares::share(Path& finder, float scale) {
   const auto where = Path::received_at(finder.offer().first);
   const std::size_t n = receivers_.size();
+  between_.counters.connections += n;
   std::array<Connection, kMostSharing> to;
   float largest = 0;
   for (std::size_t k = 0; k < n; ++k) {

@@ -48,6 +48,7 @@ class PairFinder {
   void look_along(LightCandidate candidate, Sampler& sampler, Pairs& pairs) const {
     const DistanceSampler distances = distances_to(context_, search_, candidate.light);
     const float u = sampler.next_1d(), stratum = 1 / static_cast<float>(search_.distances);
+    context_.counters.places += static_cast<std::uint64_t>(search_.distances);
     for (int i = 0; i < search_.distances; ++i) {
       const float along = std::min((static_cast<float>(i) + u) * stratum, 0x1.fffffep-1f);
       if (const auto pair = look_at(candidate, distances.sample(along), sampler.next_2d())) pairs.push_back(*pair);
@@ -182,6 +183,7 @@ std::optional<SpanSearch> span_search(const LightContext& context, const Span& s
   if (!seeks_along_spans(context) || span.empty()) return std::nullopt;
   const auto profile = SpanProfile::of(span, bins_of_profile(context));
   if (!profile) return std::nullopt;
+  ++context.counters.segments;
   const bool volumes = seeks_volume_lights(context);
   SpanSearch search{.among = &selector(context, volumes),
                     .volumes = volumes,

@@ -89,7 +89,8 @@ TEST_CASE("a picture weighs all rounds alike, and the header tells how many samp
     const double deviation = std::sqrt(image.find("Variance.G")->values[i] + expected.find("Variance.G")->values[i]);
     REQUIRE(std::abs(light - light_there) <= 0.1 * light_there + 6 * deviation);
   }
-  for (const float seen : image.find("SurfaceCount")->values) REQUIRE(seen <= 96);
+  const float most_seen = std::nextafter(96.0f, 97.0f);  // shares such as 8 / 11 are rounded
+  for (const float seen : image.find("SurfaceCount")->values) REQUIRE(seen <= most_seen);
 }
 
 TEST_CASE("an error goal ends an adaptive render near the error; no pixel has more samples than the most") {

@@ -17,9 +17,10 @@ World world(const std::string& things) {
   return build(read_scene_text(text, "test.pbrt").scene, {});
 }
 
-std::string cloud() {
+std::string cloud(float Le = 0) {
   const test::Grid grid{{{-1, -1, -1}, {1, 1, 0.5f}}, 1, 1, 1, {1}};
-  return test::uniform_grid("m", {.sigma_s = Rgb(1)}, grid) + test::medium_box("m", "", grid.bounds);
+  return test::uniform_grid("m", {.sigma_a = Rgb(1), .sigma_s = Rgb(1), .Le = Rgb(Le)}, grid) +
+         test::medium_box("m", "", grid.bounds);
 }
 
 OpenChoices open_in(const World& world, const RenderSettings& given) {
@@ -42,11 +43,15 @@ TEST_CASE("what options leave open and can make a difference is open") {
   CHECK_FALSE(single.sharing);
   CHECK(single.pairs);
   CHECK_FALSE(single.guiding);
+  CHECK_FALSE(all.emission);
+  CHECK(open_in(world(cloud(1)), {}).emission);
 }
 
 TEST_CASE("what options say is not open") {
   const World smoke = world(test::distant_light({0.2f, 0.1f, 1}, 3) + cloud());
-  RenderSettings sharing, pairs, distance, guiding, fixed, others;
+  const World burning = world(cloud(1));
+  RenderSettings sharing, emission, pairs, distance, guiding, fixed, others;
+  emission.emission = EmissionStrategy::lights;
   sharing.reuse = ReuseStrategy::pixels;
   pairs.media = MediaStrategy::product;
   distance.distance = DistanceStrategy::profile;
@@ -54,6 +59,7 @@ TEST_CASE("what options say is not open") {
   fixed.budget = BudgetStrategy::fixed;
   others.media = MediaStrategy::vertex;
   CHECK_FALSE(open_in(smoke, sharing).sharing);
+  CHECK_FALSE(open_in(burning, emission).emission);
   CHECK_FALSE(open_in(smoke, pairs).pairs);
   CHECK_FALSE(open_in(smoke, distance).pairs);
   CHECK_FALSE(open_in(smoke, guiding).guiding);

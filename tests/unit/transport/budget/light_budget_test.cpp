@@ -88,6 +88,20 @@ TEST_CASE("more variance asks for more, a higher price for less, and doubt for l
   CHECK(rays(doubtful) == kDuring.vertex.shadow_rays);
 }
 
+// A render whose choices are made with other numbers, as many rays as candidates, of which nothing is left to chance.
+TEST_CASE("choices keep what they leave to chance beside what else another look has found") {
+  const Truth truth{{{4, 4, 4, 4}}, {{0.1, 0.1, 0.1, 0.1}}, 2, 4};
+  Truth other = truth;
+  other.other_variance = 11, other.other_cost = 3;
+  Trials others{{{0.5, 0, 0.5, 0}}, {{1, 2, 1, 2}}, 11 + 1, 3 + 6, 0.7};
+  const Trials both = beside(truth.tried(), others), expected = other.tried();
+  CHECK(both.variance == expected.variance);
+  CHECK(both.cost == expected.cost);
+  CHECK(both.all_variance == doctest::Approx(expected.all_variance));
+  CHECK(both.all_cost == doctest::Approx(expected.all_cost));
+  CHECK(both.trust == truth.tried().trust);
+}
+
 TEST_CASE("whatever trials say, there are 2 to 64 of each, and no more rays than candidates") {
   const double bad[] = {
       0, -1, 1e-300, 1e300, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()};
