@@ -27,7 +27,8 @@ enum class DistanceStrategy { automatic, tracking, equiangular, both, profile };
 /// toward it (GuidingStrategy), or by next-event estimation toward it as well, with MIS: the cells of a medium that emit are
 /// then lights among the others, unless it is homogeneous and unbounded. `automatic`: they are sought from a path's first
 /// vertex and along the camera's segment, and left to rays after that; with MediaStrategy::product, in worlds built for it,
-/// else by paths. `lights` seeks them everywhere, which takes longer.
+/// else by paths, and also where BudgetStrategy::measured finds that seeking does not pay. `lights` seeks them everywhere,
+/// which takes longer.
 enum class EmissionStrategy { automatic, paths, lights };
 /// Where paths go from the first surface, and from later ones where media emit: as it scatters, or also toward grids and clouds
 /// that scatter or emit much light, with MIS; and from collisions toward what suns spread around them in media that scatter
@@ -47,9 +48,9 @@ enum class JointStrategy { automatic, off, points };
 enum class ReuseStrategy { automatic, off, pixels };
 /// How many lights are asked at a path's first vertex and along its first segment, where `candidates` and `shadow_rays` are not
 /// set: fixed numbers, or those that make variance x cost least as measured in a few blocks of the picture before it is
-/// rendered. Of MediaStrategy, ReuseStrategy and GuidingStrategy what is `automatic` is then measured too, and whether paths
-/// that share do so beyond collisions in grids. `automatic`: measured with MediaStrategy::product, fixed with what stands for
-/// other programs' methods. Single scattering has fixed numbers.
+/// rendered. Of MediaStrategy, EmissionStrategy, ReuseStrategy and GuidingStrategy what is `automatic` is then measured too,
+/// and whether paths that share do so beyond collisions in grids. `automatic`: measured with MediaStrategy::product, fixed with
+/// what stands for other programs' methods. Single scattering has fixed numbers.
 enum class BudgetStrategy { automatic, fixed, measured };
 /// Estimator of transmittance along shadow rays.
 enum class TransmittanceStrategy { residual, ratio, delta, raymarch };

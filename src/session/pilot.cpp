@@ -47,9 +47,9 @@ class Search {
   Decision result() const {
     Decision result = best_.decision();
     if (!decides_lights(context_, result.settings)) return result;
-    const auto shared = result.budget->collisions_shared;
-    result.budget = best_budget(beside(choices_, best_.trials()), unmeasured_);
-    result.budget->collisions_shared = shared;
+    LightBudget during = unmeasured_;
+    during.collisions_shared = result.budget->collisions_shared;
+    result.budget = best_budget(beside(choices_, best_.trials()), during);
     return result;
   }
 

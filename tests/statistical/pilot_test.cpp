@@ -224,10 +224,10 @@ TEST_CASE("collisions are shared where that pays") {
   CHECK_FALSE(budget_of(hall(20, false, fog())).collisions_shared);
 }
 
-// In single scattering under a sun a segment's pairs cost as much as all else, and the noise is on the wall. Among lights in
+// In single scattering under a sun a segment's pairs cost more than all else, and the noise is on the wall. Among lights in
 // smoke pairs are what keeps it low. A small flame is found by chance alone unless it is sought, one as faint as that beside a
-// sky is not worth its cost. What paths find behind a grille is spread by sharing, what a sun leaves in smoke found by guiding
-// where it scatters forward alone. By four seeds each.
+// sky is not worth its cost. What paths find behind a grille is spread by sharing, what a sun leaves in smoke that
+// scatters forward is found by guiding. By four seeds each.
 TEST_CASE("what does not pay is left out, and what pays stays") {
   const auto with = [](const std::string& text, const OpenChoices& open, const auto& is) {
     int count = 0;
