@@ -7,6 +7,9 @@ namespace tyndall {
 namespace {
 
 constexpr int kBins = 1024;
+/// Of the samples, where a filter is negative. Mitchell's and sinc's own shares are 0.06 and 0.2: this one adds 4 % to the
+/// variance, and is met exactly by any eight stratified samples.
+constexpr float kNegative = 1.0f / 8;
 
 float gaussian(float x, float sigma) { return std::exp(-x * x / (2 * sigma * sigma)); }
 
@@ -52,41 +55,68 @@ float filter_value(const PixelFilter& filter, Vec2 offset) {
 }
 
 FilterSampler::Axis::Axis(const PixelFilter& filter, int axis) : radius(axis == 0 ? filter.radius.x : filter.radius.y) {
-  std::vector<float> magnitudes;
-  double plain = 0;
+  std::vector<float> values, magnitudes;
   for (int i = 0; i < kBins; ++i) {
-    const float f = filter_axis(filter, radius * (2 * (static_cast<float>(i) + 0.5f) / kBins - 1), radius);
-    magnitudes.push_back(std::abs(f));
-    weights.push_back(std::copysign(1.0f, f));
-    plain += f;
+    values.push_back(filter_axis(filter, radius * (2 * (static_cast<float>(i) + 0.5f) / kBins - 1), radius));
+    magnitudes.push_back(std::abs(values.back()));
+    negative.push_back(values.back() < 0);
   }
-  if (!(radius > 0) || !(plain > 0)) {
+  magnitude = PiecewiseConstant1D(magnitudes);
+  even = std::all_of(magnitudes.begin(), magnitudes.end(), [&](float m) { return m == magnitudes.front(); });
+  if (std::find(negative.begin(), negative.end(), true) != negative.end()) {
+    lobes[0] = PiecewiseConstant1D(values);  // what is negative counts as 0
+    for (float& v : values) v = -v;
+    lobes[1] = PiecewiseConstant1D(values);
+  }
+  if (!(radius > 0) || !(mass(false) > mass(true))) {
     throw Error(Failure::scene, "the pixel filter has no positive integral; give it a larger radius");
   }
-  distribution = PiecewiseConstant1D(magnitudes);
-  even = std::all_of(magnitudes.begin(), magnitudes.end(), [&](float m) { return m == magnitudes.front(); });
-  for (float& w : weights) w *= static_cast<float>(distribution.total() / plain);
 }
 
-FilterSampler::Axis::Place FilterSampler::Axis::sample(float u) const {
-  const auto s = distribution.sample(u);
-  return {radius * (2 * s.x - 1), weights[s.cell], s.pdf / (2 * radius)};
+double FilterSampler::Axis::mass(bool below) const {
+  if (lobes[0].size() == 0) return below ? 0 : magnitude.total();
+  return part(below).total();
+}
+
+FilterSampler::Axis::Place FilterSampler::Axis::sample(float u, bool below) const {
+  const float unit = part(below).sample(u).x;
+  return {radius * (2 * unit - 1), magnitude.pdf(unit) / (2 * radius), below};
 }
 
 FilterSampler::Axis::Place FilterSampler::Axis::at(float x) const {
   const float unit = 0.5f * (x / radius + 1);
-  if (!(unit >= 0 && unit < 1)) return {x, 0, 0};
-  return {x, weights[static_cast<std::size_t>(unit * kBins)], distribution.pdf(unit) / (2 * radius)};
+  if (!(unit >= 0 && unit < 1)) return {x, 0, false};
+  return {x, magnitude.pdf(unit) / (2 * radius), negative[static_cast<std::size_t>(unit * kBins)]};
 }
 
-FilterSampler::FilterSampler(const PixelFilter& filter) : x_(filter, 0), y_(filter, 1) {}
+FilterSampler::FilterSampler(const PixelFilter& filter) : x_(filter, 0), y_(filter, 1) {
+  const bool any_below = x_.mass(true) + y_.mass(true) > 0;
+  signs_ = {of_sign(false, any_below ? 1 - kNegative : 1), of_sign(true, any_below ? kNegative : 0)};
+}
 
-FilterSampler::Offset FilterSampler::sample(Vec2 u) const { return both(x_.sample(u.x), y_.sample(u.y)); }
+FilterSampler::Sign FilterSampler::of_sign(bool below, float share) const {
+  const double first = x_.mass(false) * y_.mass(below), mass = first + x_.mass(true) * y_.mass(!below);
+  if (!(mass > 0)) return {0, 0, 0, 0};
+  const double integral = (x_.mass(false) - x_.mass(true)) * (y_.mass(false) - y_.mass(true));
+  const double density = share * x_.magnitude.total() * y_.magnitude.total() / mass;
+  const double weight = mass / (share * integral);
+  return {share, static_cast<float>(first / mass), static_cast<float>(below ? -weight : weight), static_cast<float>(density)};
+}
 
-FilterSampler::Offset FilterSampler::at(Vec2 p) const { return both(x_.at(p.x), y_.at(p.y)); }
+FilterSampler::Offset FilterSampler::sample(Vec2 u) const {
+  const bool below = u.x < signs_[1].share;
+  const Sign& sign = signs_[below ? 1 : 0];
+  float left = std::min((below ? u.x : u.x - signs_[1].share) / sign.share, kOneMinusEpsilon);
+  const bool second = left >= sign.first;
+  left = second ? (left - sign.first) / (1 - sign.first) : left / sign.first;
+  return offset(x_.sample(std::min(left, kOneMinusEpsilon), second), y_.sample(u.y, second != below));
+}
 
-FilterSampler::Offset FilterSampler::both(Axis::Place x, Axis::Place y) {
-  return {{x.x, y.x}, x.weight * y.weight, x.pdf * y.pdf};
+FilterSampler::Offset FilterSampler::at(Vec2 p) const { return offset(x_.at(p.x), y_.at(p.y)); }
+
+FilterSampler::Offset FilterSampler::offset(const Axis::Place& x, const Axis::Place& y) const {
+  const Sign& sign = signs_[x.below != y.below ? 1 : 0];
+  return {{x.x, y.x}, sign.weight, x.pdf * y.pdf * sign.density};
 }
 
 }  // namespace tyndall

@@ -84,7 +84,8 @@ TEST_CASE("a polygon's mass is what the filter has in it, and its places are dra
       for (int i = 0; i < kDraws; ++i) {
         const float u = rng.uniform(), v = rng.uniform();
         const auto place = cells.sample(polygon, {u, v});
-        const double weight = sampler.at({static_cast<float>(place.at.x), static_cast<float>(place.at.y)}).pdf / place.pdf;
+        const double density = sampler.pdf(0, static_cast<float>(place.at.x)) * sampler.pdf(1, static_cast<float>(place.at.y));
+        const double weight = density / place.pdf;
         sum += weight, squares += weight * weight;
       }
       const double mean = sum / kDraws, relative_variance = squares / kDraws / (mean * mean) - 1;
