@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <numbers>
 #include <numeric>
 
 #include "math/hash.h"
@@ -18,8 +19,6 @@ constexpr std::uint64_t kPilotSeed = 0x9110;
 constexpr int kSamples = 4;
 /// One block of so many: a twelfth of a sample of the picture. More than kMostBlocks know no better.
 constexpr std::size_t kBlocksEach = 48, kMostBlocks = 64;
-/// Fewer blocks can't tell one technique from the other, as all pixels of one may share what a single path has found.
-constexpr std::size_t kLeastToCompare = 4;
 /// Blocks that know as much as the numbers that stand without them.
 constexpr double kDoubt = 2;
 /// Relative variance of a sample, of which nothing is seen: where there is less, what costs less is better.
@@ -36,9 +35,7 @@ PixelPlace spread_place(std::size_t i, const PixelBounds& frame) {
   return {at(kX, frame.x1), at(kY, frame.y1)};
 }
 
-std::size_t blocks_of(const PixelBounds& frame) {
-  return std::min(std::max<std::size_t>(BlockGrid(frame).size() / kBlocksEach, 1), kMostBlocks);
-}
+PixelBounds frame_of(const Film& film) { return {0, 0, film.width, film.height}; }
 
 /// What a variance is relative to, as errors are seen: a squared mean; what is dark by a tenth of the mean of all.
 double unit_of(double mean, double of_all) { return mean * mean + 0.01 * of_all * of_all; }
@@ -59,20 +56,60 @@ double Look::Block::mean() const {
   return count > 0 ? found / count : 0.0;
 }
 
+/// More than 0.
+double Look::Block::error(double unit) const {
+  double error = 0;
+  for (const Pixel& pixel : pixels) {
+    if (pixel.is_finite()) error += (unit > 0 ? pixel.error() / unit : 0.0) + kUnseen;
+  }
+  return error;
+}
+
+Look::Look(const SampleContext& context, const Decision& decision, ThreadPool& pool)
+    : context_(context), pool_(pool), decision_(decision) {}
+
+std::size_t Look::usual_blocks(const Film& film) {
+  return std::min(std::max<std::size_t>(BlockGrid(frame_of(film)).size() / kBlocksEach, 1), kMostBlocks);
+}
+
+double Look::samples_of(std::size_t blocks, const Film& film) {
+  return kSamples * static_cast<double>(blocks) / static_cast<double>(BlockGrid(frame_of(film)).size());
+}
+
+void Look::extend(std::size_t blocks) {
+  const std::size_t before = blocks_.size();
+  if (blocks <= before) return;
+  blocks_.resize(blocks);
+  pool_.for_each(blocks - before, 1, [&](std::size_t i) {
+    const FlushDenormals guard;
+    blocks_[before + i] = try_block(before + i);
+  });
+  for (std::size_t i = before; i < blocks; ++i) counters_ += blocks_[i].counters;
+}
+
 /// Without the emission that is seen: the film looks for emitters by itself.
-Look::Block Look::try_block(const SampleContext& context, const PixelBlock& block) {
+Look::Block Look::try_block(std::size_t number) const {
+  const SampleContext pilot{context_.world,
+                            context_.selector,
+                            context_.selector_with_volumes,
+                            decision_.settings,
+                            {.max_depth = context_.limits.max_depth},
+                            decision_.budget ? &*decision_.budget : nullptr};
+  const Film& film = context_.world.built.scene.film;
+  const PixelPlace place = spread_place(number, frame_of(film));
+  const PixelBlock block(place.x, place.y, frame_of(film));
   Block tried;
   tried.pixels.resize(block.pixels().size());
   const auto group = std::make_unique<PixelGroup>();
-  const double exposure{context.world.built.scene.film.imaging_ratio};  // trials see light as it is found
+  const double exposure{film.imaging_ratio};  // trials see light as it is found
   for (int s = 0; s < kSamples; ++s) {
     group->clear();
     for (std::size_t i = 0; i < tried.pixels.size(); ++i) {
       const auto [x, y] = block.pixels()[i];
-      group->add(context, {hash(context.settings.seed, kPilotSeed), x, y, s}, PixelFilm(), tried.counters);
+      group->add(pilot, {hash(pilot.settings.seed, kPilotSeed), x, y, s}, PixelFilm(), tried.counters);
       if (Path* path = (*group)[i].path()) path->observe(tried.pixels[i].light);
     }
-    group->run(context, tried.counters);
+    group->run(pilot, tried.counters);
     for (std::size_t i = 0; i < tried.pixels.size(); ++i) {
       const PathRecord record = (*group)[i].record();
       const auto L = double{mean(record.radiance() - record.emission)} / exposure;
@@ -80,33 +117,10 @@ Look::Block Look::try_block(const SampleContext& context, const PixelBlock& bloc
       tried.pixels[i].squares += L * L;
     }
   }
-  for (const Pixel& pixel : tried.pixels) tried.repeated += pixel.light.repeated;
+  tried.cost = Prices(context_.world.built.lights.size()).of(tried.counters);
+  for (const Pixel& pixel : tried.pixels) tried.cost -= pixel.light.repeated;
   return tried;
 }
-
-Look::Look(const SampleContext& context, const Decision& decision, ThreadPool& pool) : decision_(decision) {
-  const SampleContext pilot{context.world,
-                            context.selector,
-                            context.selector_with_volumes,
-                            decision_.settings,
-                            {.max_depth = context.limits.max_depth},
-                            decision_.budget ? &*decision_.budget : nullptr};
-  const Film& film = context.world.built.scene.film;
-  const PixelBounds frame{0, 0, film.width, film.height};
-  blocks_.resize(blocks_of(frame));
-  pool.for_each(blocks_.size(), 1, [&](std::size_t i) {
-    const FlushDenormals guard;
-    const PixelPlace p = spread_place(i, frame);
-    blocks_[i] = try_block(pilot, PixelBlock(p.x, p.y, frame));
-  });
-  for (const Block& block : blocks_) {
-    counters_ += block.counters;
-    cost_ -= block.repeated;
-  }
-  cost_ += Prices(context.world.built.lights.size()).of(counters_);
-}
-
-bool Look::can_be_compared() const { return blocks_.size() >= kLeastToCompare; }
 
 double Look::mean_of_all() const {
   const double sum =
@@ -114,46 +128,57 @@ double Look::mean_of_all() const {
   return sum / static_cast<double>(blocks_.size());
 }
 
-/// Of all pixels of a block that of its mean, in both looks together: those of single pixels are too noisy to divide by.
-std::vector<double> Look::units(const Look& other) const {
+/// Errors are relative to the mean of a block, in both looks together: those of single pixels are too noisy to divide by.
+Look::Ratio Look::over(const Look& other) const {
+  struct Product {
+    double error = 0, cost = 0;
+    void add(const Product& more, double times) { error += times * more.error, cost += times * more.cost; }
+    double log() const { return std::log(error * cost); }
+  };
   const double all = 0.5 * (mean_of_all() + other.mean_of_all());
-  std::vector<double> units;
-  for (std::size_t i = 0; i < blocks_.size(); ++i)
-    units.push_back(unit_of(0.5 * (blocks_[i].mean() + other.blocks_[i].mean()), all));
-  return units;
-}
-
-double Look::error(const std::vector<double>& units) const {
-  double error = 0;
-  for (std::size_t b = 0; b < blocks_.size(); ++b) {
-    for (const Pixel& pixel : blocks_[b].pixels) {
-      if (pixel.is_finite()) error += (units[b] > 0 ? pixel.error() / units[b] : 0.0) + kUnseen;
-    }
+  const std::size_t count = std::min(blocks_.size(), other.blocks_.size());
+  std::vector<Product> mine, others;
+  Product my_sum, other_sum;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Block &my_block = blocks_[i], &other_block = other.blocks_[i];
+    const double unit = unit_of(0.5 * (my_block.mean() + other_block.mean()), all);
+    my_sum.add(mine.emplace_back(my_block.error(unit), my_block.cost), 1);
+    other_sum.add(others.emplace_back(other_block.error(unit), other_block.cost), 1);
   }
-  return error;
+  const double log = my_sum.log() - other_sum.log();
+  double squares = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    Product a = my_sum, b = other_sum;
+    a.add(mine[i], -1), b.add(others[i], -1);
+    const double change = a.log() - b.log() - log;
+    squares += change * change;
+  }
+  const auto n = static_cast<double>(count);
+  return {log, std::sqrt(squares * (n - 1) / n)};
 }
 
-bool Look::beats(const Look& other, double share) const {
-  const std::vector<double> unit = units(other);
-  return error(unit) * cost_ < share * other.error(unit) * other.cost_;
+double Look::Ratio::expected_loss() const {
+  if (!(deviation > 0)) return 0;
+  const double z = std::abs(log) / deviation;
+  return deviation * (std::exp(-0.5 * z * z) / std::sqrt(2 * std::numbers::pi) - 0.5 * z * std::erfc(z / std::numbers::sqrt2));
 }
 
 Trials Look::trials() const {
   const double all = mean_of_all();
-  Trials trials{.all_cost = cost_};
+  const auto looks = static_cast<double>(blocks_.size());
+  Trials trials{.trust = looks / (looks + kDoubt)};
   for (const Block& block : blocks_) {
+    trials.all_cost += block.cost / looks;
     for (const Pixel& pixel : block.pixels) {
-      const double unit = unit_of(pixel.mean(), all);
+      const double unit = looks * unit_of(pixel.mean(), all);
       if (!(unit > 0) || !pixel.is_finite()) continue;
       trials.all_variance += pixel.variance() / unit;
       for (std::size_t i = 0; i < kSpents; ++i) {
         trials.variance[i] += pixel.light.variance[i] / unit;
-        trials.cost[i] += pixel.light.cost[i];
+        trials.cost[i] += pixel.light.cost[i] / looks;
       }
     }
   }
-  const auto looks = static_cast<double>(blocks_.size());
-  trials.trust = looks / (looks + kDoubt);
   return trials;
 }
 

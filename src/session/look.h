@@ -22,17 +22,30 @@ struct Decision {
 /// have the same pixels and random numbers.
 class Look {
  public:
-  /// Of `context` all but settings and budget; without what only pictures want.
+  /// Of `context` all but settings and budget; without what only pictures want. Both must outlive it.
   Look(const SampleContext& context, const Decision& decision, ThreadPool& pool);
+
+  /// The first blocks of a sequence, those that are missing until now.
+  void extend(std::size_t blocks);
+  /// So many suffice for numbers of lights, and are a small share of the frame.
+  static std::size_t usual_blocks(const Film& film);
+  /// How many samples of the whole frame take as long as a look at so many blocks.
+  static double samples_of(std::size_t blocks, const Film& film);
 
   const Decision& decision() const { return decision_; }
   /// What lights leave to chance, for best_budget().
   Trials trials() const;
-  /// The frame is large enough to tell techniques apart, and for what that takes to be a small share of it.
-  bool can_be_compared() const;
-  /// Its variance x cost is less than `share` of that of `other`.
-  bool beats(const Look& other, double share) const;
   const Counters& counters() const { return counters_; }
+
+  /// The logarithm of variance x cost over that of another look, and its standard error by the jackknife over blocks.
+  struct Ratio {
+    double log, deviation;
+
+    /// What choosing by the sign of `log` loses on average, where the truth is normal about it.
+    double expected_loss() const;
+  };
+  /// Of the blocks that both have, two at least.
+  Ratio over(const Look& other) const;
 
  private:
   /// One pixel.
@@ -49,19 +62,19 @@ class Look {
   struct Block {
     std::vector<Pixel> pixels;
     Counters counters;
-    double repeated = 0;  ///< ns (Prices) of what only LightTrial wants
+    double cost = 0;  ///< ns (Prices), without what only LightTrial wants
 
     double mean() const;
+    double error(double unit) const;
   };
-  static Block try_block(const SampleContext& context, const PixelBlock& block);
-  std::vector<double> units(const Look& other) const;
-  double error(const std::vector<double>& units) const;
+  Block try_block(std::size_t number) const;
   double mean_of_all() const;
 
+  const SampleContext& context_;
+  ThreadPool& pool_;
   Decision decision_;
   std::vector<Block> blocks_;
   Counters counters_;  ///< of all
-  double cost_ = 0;    ///< ns (Prices)
 };
 
 }  // namespace tyndall

@@ -1,13 +1,22 @@
 #include "session/pilot.h"
 
 #include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
 #include <utility>
 
 namespace tyndall {
 namespace {
 
-/// Of the product, what a change has to beat: by chance alone looks of a few blocks often differ by less.
+/// Frames that a look usually sees fewer blocks of are too small to tell techniques apart, for what that may cost.
+constexpr std::size_t kLeastToCompare = 4;
+/// Two techniques are compared by so many blocks at first: all pixels of one may share what a single path has found.
+constexpr std::size_t kFirstBlocks = 16;
+/// Of the product, what a change has to beat: looks see little of rare light, which is what most techniques are there for.
 constexpr double kWins = 0.9;
+/// They are looked at more closely while that pays in a picture of so many samples.
+constexpr double kSamples = 32;
 
 /// There are lights to choose among, and numbers that are not given. Single scattering has its own.
 bool decides_lights(const SampleContext& context, const RenderSettings& settings) {
@@ -23,41 +32,73 @@ bool decides_collisions(const SampleContext& context) {
          std::any_of(media.begin(), media.end(), [](const ParticipatingMedium& m) { return !m.homogeneous(); });
 }
 
+/// Twice the blocks, but no more than a sample of the picture, leave 1 / sqrt(2) of a standard error, and about as much of what
+/// a wrong choice loses.
+bool pays_to_double(const Look::Ratio& ratio, std::size_t blocks, const Film& film) {
+  const double cost = Look::samples_of(blocks, film);
+  return (1 - 1 / std::numbers::sqrt2) * ratio.expected_loss() * kSamples > 2 * cost && 2 * cost <= 1;
+}
+
+/// Whether a look is so much better than another.
+bool beats(Look& look, Look& other, const Film& film) {
+  for (std::size_t blocks = kFirstBlocks;; blocks *= 2) {
+    look.extend(blocks);
+    other.extend(blocks);
+    Look::Ratio ratio = look.over(other);
+    ratio.log -= std::log(kWins);
+    if (!pays_to_double(ratio, blocks, film)) return ratio.log < 0;
+  }
+}
+
 /// Changes one thing after the other, and keeps what pays.
 class Search {
  public:
   Search(const SampleContext& context, const Decision& first, ThreadPool& pool)
-      : context_(context), pool_(pool), unmeasured_(*first.budget), best_(context, first, pool), choices_(best_.trials()) {}
+      : context_(context),
+        pool_(pool),
+        film_(context.world.built.scene.film),
+        unmeasured_(*first.budget),
+        best_(look(first)),
+        choices_(best_->trials()) {}
 
   /// Goes on with the numbers of lights that pay: noise of too few would hide what a change is worth.
   void ask_lights() {
-    if (decides_lights(context_, best_.decision().settings)) best_ = Look(context_, result(), pool_);
+    const Decision asked = result();
+    const LightBudget &now = *best_->decision().budget, &then = *asked.budget;
+    if (now.vertex != then.vertex || now.span != then.span) best_ = look(asked);
   }
   /// Where variance x cost is less it stays changed. Nothing is looked at where what it changes is not `used`.
   template <typename Change>
   void consider(std::uint64_t used, const Change& change) {
     if (used == 0) return;
-    Decision other = best_.decision();
+    Decision other = best_->decision();
     change(other);
-    Look look(context_, other, pool_);
-    if (look.beats(best_, kWins)) best_ = std::move(look);
+    auto changed = std::make_unique<Look>(context_, other, pool_);
+    if (beats(*changed, *best_, film_)) best_ = std::move(changed);
   }
-  const Look& best() const { return best_; }
+  const Look& best() const { return *best_; }
   /// The best, with the numbers of lights that it makes pay.
   Decision result() const {
-    Decision result = best_.decision();
+    Decision result = best_->decision();
     if (!decides_lights(context_, result.settings)) return result;
     LightBudget during = unmeasured_;
     during.collisions_shared = result.budget->collisions_shared;
-    result.budget = best_budget(beside(choices_, best_.trials()), during);
+    result.budget = best_budget(beside(choices_, best_->trials()), during);
     return result;
   }
 
  private:
+  std::unique_ptr<Look> look(const Decision& decision) const {
+    auto look = std::make_unique<Look>(context_, decision, pool_);
+    look->extend(decides_lights(context_, decision.settings) ? Look::usual_blocks(film_) : kFirstBlocks);
+    return look;
+  }
+
   const SampleContext& context_;
   ThreadPool& pool_;
+  const Film& film_;
   LightBudget unmeasured_;
-  Look best_;
+  std::unique_ptr<Look> best_;
   Trials choices_;  ///< as unmeasured numbers show them
 };
 
@@ -77,14 +118,13 @@ void lit_at_collisions(Decision& d) {
 
 Decision decide(const SampleContext& context, const OpenChoices& open, ThreadPool& pool) {
   Decision first{context.settings, std::nullopt};
-  const bool collisions = decides_collisions(context);
-  if (context.settings.budget != BudgetStrategy::measured ||
-      !(decides_lights(context, context.settings) || collisions || open.any()))
-    return first;
+  if (context.settings.budget != BudgetStrategy::measured) return first;
+  const bool comparable = Look::usual_blocks(context.world.built.scene.film) >= kLeastToCompare;
+  const bool collisions = comparable && decides_collisions(context), compares = comparable && open.any();
+  if (!(decides_lights(context, context.settings) || collisions || compares)) return first;
   first.budget = LightBudget::unmeasured(context.settings.reuse);
   if (collisions) first.budget->collisions_shared = true;
   Search search(context, first, pool);
-  const bool compares = open.any() && search.best().can_be_compared();
   if (collisions || compares) search.ask_lights();
   const auto used = [&]() -> const Counters& { return search.best().counters(); };
   if (collisions) search.consider(used().connections, collisions_not_shared);

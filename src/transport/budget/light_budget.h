@@ -13,6 +13,8 @@ namespace tyndall {
 struct LightCounts {
   int candidates;   ///< 0: as many as splitting makes clusters
   int shadow_rays;  ///< 0: to all candidates
+
+  bool operator==(const LightCounts&) const = default;
 };
 
 /// What is counted: numbers of candidates and shadow rays, at a path's first vertex and along its first segment.
@@ -40,7 +42,7 @@ struct LightBudget {
   }
 };
 
-/// Of samples that were rendered with some budget, each in the same unit of variance.
+/// Of samples that were rendered with some budget, each in the same unit of variance; averages over blocks.
 struct Trials {
   PerSpent<double> variance{}, cost{};  ///< of the choices
   double all_variance = 0, all_cost = 0;
