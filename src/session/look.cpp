@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <memory>
 #include <numbers>
-#include <numeric>
 
 #include "math/hash.h"
 #include "session/block_grid.h"
@@ -122,10 +121,10 @@ Look::Block Look::try_block(std::size_t number) const {
   return tried;
 }
 
-double Look::mean_of_all() const {
-  const double sum =
-      std::accumulate(blocks_.begin(), blocks_.end(), 0.0, [](double s, const Block& b) { return s + b.mean(); });
-  return sum / static_cast<double>(blocks_.size());
+double Look::mean_of(std::size_t blocks) const {
+  double sum = 0;
+  for (std::size_t i = 0; i < blocks; ++i) sum += blocks_[i].mean();
+  return sum / static_cast<double>(blocks);
 }
 
 /// Errors are relative to the mean of a block, in both looks together: those of single pixels are too noisy to divide by.
@@ -135,8 +134,8 @@ Look::Ratio Look::over(const Look& other) const {
     void add(const Product& more, double times) { error += times * more.error, cost += times * more.cost; }
     double log() const { return std::log(error * cost); }
   };
-  const double all = 0.5 * (mean_of_all() + other.mean_of_all());
   const std::size_t count = std::min(blocks_.size(), other.blocks_.size());
+  const double all = 0.5 * (mean_of(count) + other.mean_of(count));
   std::vector<Product> mine, others;
   Product my_sum, other_sum;
   for (std::size_t i = 0; i < count; ++i) {
@@ -163,19 +162,20 @@ double Look::Ratio::expected_loss() const {
   return deviation * (std::exp(-0.5 * z * z) / std::sqrt(2 * std::numbers::pi) - 0.5 * z * std::erfc(z / std::numbers::sqrt2));
 }
 
-Trials Look::trials() const {
-  const double all = mean_of_all();
-  const auto looks = static_cast<double>(blocks_.size());
+Trials Look::trials(std::size_t blocks) const {
+  const double all = mean_of(blocks);
+  const auto looks = static_cast<double>(blocks);
   Trials trials{.trust = looks / (looks + kDoubt)};
-  for (const Block& block : blocks_) {
+  for (std::size_t i = 0; i < blocks; ++i) {
+    const Block& block = blocks_[i];
     trials.all_cost += block.cost / looks;
     for (const Pixel& pixel : block.pixels) {
       const double unit = looks * unit_of(pixel.mean(), all);
       if (!(unit > 0) || !pixel.is_finite()) continue;
       trials.all_variance += pixel.variance() / unit;
-      for (std::size_t i = 0; i < kSpents; ++i) {
-        trials.variance[i] += pixel.light.variance[i] / unit;
-        trials.cost[i] += pixel.light.cost[i] / looks;
+      for (std::size_t spent = 0; spent < kSpents; ++spent) {
+        trials.variance[spent] += pixel.light.variance[spent] / unit;
+        trials.cost[spent] += pixel.light.cost[spent] / looks;
       }
     }
   }

@@ -33,8 +33,8 @@ class Look {
   static double samples_of(std::size_t blocks, const Film& film);
 
   const Decision& decision() const { return decision_; }
-  /// What lights leave to chance, for best_budget().
-  Trials trials() const;
+  /// What lights leave to chance in the first of its blocks, for best_budget().
+  Trials trials(std::size_t blocks) const;
   const Counters& counters() const { return counters_; }
 
   /// The logarithm of variance x cost over that of another look, and its standard error by the jackknife over blocks.
@@ -68,7 +68,7 @@ class Look {
     double error(double unit) const;
   };
   Block try_block(std::size_t number) const;
-  double mean_of_all() const;
+  double mean_of(std::size_t blocks) const;
 
   const SampleContext& context_;
   ThreadPool& pool_;

@@ -58,8 +58,10 @@ class Search {
         pool_(pool),
         film_(context.world.built.scene.film),
         unmeasured_(*first.budget),
-        best_(look(first)),
-        choices_(best_->trials()) {}
+        usual_blocks_(Look::usual_blocks(film_)),
+        best_(look(first)) {
+    if (decides_lights(context, first.settings)) choices_ = best_->trials(usual_blocks_);
+  }
 
   /// Goes on with the numbers of lights that pay: noise of too few would hide what a change is worth.
   void ask_lights() {
@@ -83,14 +85,15 @@ class Search {
     if (!decides_lights(context_, result.settings)) return result;
     LightBudget during = unmeasured_;
     during.collisions_shared = result.budget->collisions_shared;
-    result.budget = best_budget(beside(choices_, best_->trials()), during);
+    best_->extend(usual_blocks_);
+    result.budget = best_budget(beside(choices_, best_->trials(usual_blocks_)), during);
     return result;
   }
 
  private:
   std::unique_ptr<Look> look(const Decision& decision) const {
     auto look = std::make_unique<Look>(context_, decision, pool_);
-    look->extend(decides_lights(context_, decision.settings) ? Look::usual_blocks(film_) : kFirstBlocks);
+    look->extend(decides_lights(context_, decision.settings) ? usual_blocks_ : kFirstBlocks);
     return look;
   }
 
@@ -98,6 +101,7 @@ class Search {
   ThreadPool& pool_;
   const Film& film_;
   LightBudget unmeasured_;
+  std::size_t usual_blocks_;
   std::unique_ptr<Look> best_;
   Trials choices_;  ///< as unmeasured numbers show them
 };
