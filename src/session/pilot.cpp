@@ -16,7 +16,7 @@ constexpr std::size_t kFirstBlocks = 16;
 /// Of the product, what a change has to beat: looks see little of rare light, which is what most techniques are there for.
 constexpr double kWins = 0.9;
 /// They are looked at more closely while that pays in a picture of so many samples.
-constexpr double kSamples = 32;
+constexpr double kSamples = 16;
 
 /// There are lights to choose among, and numbers that are not given. Single scattering has its own.
 bool decides_lights(const SampleContext& context, const RenderSettings& settings) {
