@@ -16,7 +16,7 @@ constexpr std::size_t kFirstBlocks = 16;
 /// Of the product, what a change has to beat: looks see little of rare light, which is what most techniques are there for.
 constexpr double kWins = 0.9;
 /// They are looked at more closely while that pays in a picture of so many samples.
-constexpr double kSamples = 16;
+constexpr double kPictureSamples = 16;
 
 /// There are lights to choose among, and numbers that are not given. Single scattering has its own.
 bool decides_lights(const SampleContext& context, const RenderSettings& settings) {
@@ -36,7 +36,7 @@ bool decides_collisions(const SampleContext& context) {
 /// a wrong choice loses.
 bool pays_to_double(const Look::Ratio& ratio, std::size_t blocks, const Film& film) {
   const double cost = Look::samples_of(blocks, film);
-  return (1 - 1 / std::numbers::sqrt2) * ratio.expected_loss() * kSamples > 2 * cost && 2 * cost <= 1;
+  return (1 - 1 / std::numbers::sqrt2) * ratio.expected_loss() * kPictureSamples > 2 * cost && 2 * cost <= 1;
 }
 
 /// Whether a look is so much better than another.

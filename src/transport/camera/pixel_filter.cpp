@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace tyndall {
 namespace {
@@ -59,11 +60,10 @@ FilterSampler::Axis::Axis(const PixelFilter& filter, int axis) : radius(axis == 
   for (int i = 0; i < kBins; ++i) {
     values.push_back(filter_axis(filter, radius * (2 * (static_cast<float>(i) + 0.5f) / kBins - 1), radius));
     magnitudes.push_back(std::abs(values.back()));
-    negative.push_back(values.back() < 0);
   }
   magnitude = PiecewiseConstant1D(magnitudes);
   even = std::all_of(magnitudes.begin(), magnitudes.end(), [&](float m) { return m == magnitudes.front(); });
-  if (std::find(negative.begin(), negative.end(), true) != negative.end()) {
+  if (std::any_of(values.begin(), values.end(), [](float v) { return v < 0; })) {
     lobes[0] = PiecewiseConstant1D(values);  // what is negative counts as 0
     for (float& v : values) v = -v;
     lobes[1] = PiecewiseConstant1D(values);
@@ -86,7 +86,7 @@ FilterSampler::Axis::Place FilterSampler::Axis::sample(float u, bool below) cons
 FilterSampler::Axis::Place FilterSampler::Axis::at(float x) const {
   const float unit = 0.5f * (x / radius + 1);
   if (!(unit >= 0 && unit < 1)) return {x, 0, false};
-  return {x, magnitude.pdf(unit) / (2 * radius), negative[static_cast<std::size_t>(unit * kBins)]};
+  return {x, magnitude.pdf(unit) / (2 * radius), lobes[1].size() > 0 && lobes[1].pdf(unit) > 0};
 }
 
 FilterSampler::FilterSampler(const PixelFilter& filter) : x_(filter, 0), y_(filter, 1) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <vector>
 
 #include "math/distribution.h"
 #include "tyndall/scene.h"
@@ -40,7 +39,6 @@ class FilterSampler {
     float radius;
     PiecewiseConstant1D magnitude;             ///< |f|
     std::array<PiecewiseConstant1D, 2> lobes;  ///< of f > 0 and f < 0; empty where f is nowhere negative
-    std::vector<bool> negative;                ///< by bin
     bool even;
 
     Axis(const PixelFilter& filter, int axis);
