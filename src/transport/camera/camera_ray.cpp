@@ -137,7 +137,8 @@ std::array<Vec3, 2> CameraRays::steps_across(Vec3 to_p) const {
     const float step = length(to_p) * std::sqrt(4 * kPi / (width_ * height_));
     return {frame.x * step, frame.y * step};
   }
-  const float depth = dot(to_p, axis_);
+  // In camera space, whose unit of length need not be the world's.
+  const float depth = dot(to_p, axis_) / length(to_world_.vector({0, 0, 1}));
   if (film_position(center() + to_p)) return {to_world_.vector({sx * depth, 0, 0}), to_world_.vector({0, sy * depth, 0})};
   const Frame frame = Frame::around(normalize(to_p));
   const float distance = length(to_p);

@@ -162,12 +162,14 @@ TEST_CASE("a point is seen at the film position whose ray passes it, far from th
   }
 }
 
-TEST_CASE("a pixel's step on a plane is where the neighbouring pixel's ray meets it") {
+TEST_CASE("a pixel's step on a plane is where the neighbouring pixel's ray meets it, whatever the camera's unit of length") {
   Camera perspective, parallel;
   perspective.fov_degrees = 50;
   parallel.kind = Camera::Kind::orthographic;
-  for (Camera* camera : {&perspective, &parallel}) {
-    camera->to_world = Transform::translate(1, 2, 3) * Transform::rotate(30, 1, 1, 0);
+  for (int i = 0; i < 6; ++i) {
+    Camera* const camera = i % 2 == 0 ? &perspective : &parallel;
+    const float unit = std::array{1.0f, 0.125f, 5.0f}[static_cast<std::size_t>(i / 2)];
+    camera->to_world = Transform::translate(1, 2, 3) * Transform::rotate(30, 1, 1, 0) * Transform::scale(unit, unit, unit);
     const CameraRays rays(*camera, film(40, 30));
     const Vec3 n = normalize(Vec3{0.3f, -0.4f, -0.8f});
     const auto on_plane = [&](Vec2 pixel) {
