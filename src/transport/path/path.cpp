@@ -1,23 +1,14 @@
 #include "transport/path/path.h"
 
-#include <bit>
 #include <cmath>
 #include <utility>
 
-#include "math/hash.h"
 #include "transport/sample/camera_matte.h"
 #include "transport/sample/deep_sample.h"
+#include "transport/vertex/surface_vertex.h"
 
 namespace tyndall {
 namespace {
-
-/// A uniform number that depends on where a surface is seen and from where, and on nothing else: makes the choices of
-/// mix materials and of coated materials' walks repeatable, as in pbrt.
-float hash_to_unit(Vec3 p, Vec3 w) {
-  const auto bits = [](float f) { return static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(f)); };
-  const std::uint64_t h = hash(bits(p.x), bits(p.y), bits(p.z), bits(w.x), bits(w.y), bits(w.z));
-  return static_cast<float>(h >> 40) * 0x1p-24f;
-}
 
 /// Russian roulette is for paths of less throughput than this: a dark wall's path into bright smoke is too rare to be made
 /// rarer (docs/measurements.md).
@@ -151,45 +142,22 @@ std::optional<Vertex> Path::arrive(const Trace& trace) {
   }
   add_surface_emission(*trace.hit);
   if (depth_ > 0 && depth_ >= limits_.max_depth) return std::nullopt;  // follow() would end the path there
-  Vertex vertex = surface_vertex(*trace.hit, -ray_.d, media_);
+  Vertex vertex = vertex_at(*trace.hit, -ray_.d, media_);
   if (depth_ == 0 && limits_.want_albedo) record_.albedo += seen_.value_or(beta_) * vertex.albedo();
   return vertex;
 }
 
-Vertex Path::surface_vertex(const SurfaceHit& hit, Vec3 wo, const MediaState& media) {
-  const Materials& materials = context_.world.materials;
-  const MaterialId material = context_.world.material_of(hit);
-  SurfaceQuery query{.p = hit.p,
-                     .uv = hit.uv,
-                     .shading = Frame::around(hit.ns, hit.dpdu),
-                     .wo = wo,
-                     .random = hash_to_unit(hit.p, wo),
-                     .ng = hit.ng};
-  std::optional<SurfaceDetail> detail;
-  if (materials.wants_detail(material)) query.detail = &detail.emplace(surface_detail(hit));
-  if (materials.is_dispersive(material)) query.channel = narrow_to_channel();
-  Vertex::Surface surface{hit, materials.bsdf(material, query)};
-  if (materials.bends_normals(material)) surface.hit.ns = surface.bsdf.normal();  // what lights are chosen by
-  return Vertex(surface, wo, media);
-}
-
-/// Every hit takes the camera's footprint, reduced as pbrt reduces it for 64 samples a pixel and more: a picture must not
-/// depend on how many are yet to come.
-SurfaceDetail Path::surface_detail(const SurfaceHit& hit) const {
-  constexpr float kShare = 0.125f;
-  const auto [dpdx, dpdy] = context_.world.camera.pixel_steps(hit.p, hit.ng);
-  const SurfaceTangents tangents = context_.world.geometry.tangents(hit);
-  return {tangents, footprint_on(tangents, kShare * dpdx, kShare * dpdy)};
+Vertex Path::vertex_at(const SurfaceHit& hit, Vec3 wo, const MediaState& media) {
+  const bool dispersive = context_.world.materials.is_dispersive(context_.world.material_of(hit));
+  return surface_vertex(context_.world, hit, wo, media, dispersive ? std::optional(narrow_to_channel()) : std::nullopt);
 }
 
 /// At its first dispersive surface a path chooses the channel it goes on with, whose weight makes up for the others.
 int Path::narrow_to_channel() {
   if (!channel_) {
-    channel_ = std::min(static_cast<int>(3 * context_.sampler.next_1d()), 2);
-    Rgb one;
-    one[*channel_] = 3;
-    beta_ *= one;
-    if (seen_) *seen_ *= one;
+    channel_ = channel_by(context_.sampler.next_1d());
+    beta_ *= only(*channel_);
+    if (seen_) *seen_ *= only(*channel_);
   }
   return *channel_;
 }

@@ -95,8 +95,7 @@ class Path {
   void dim(const Span& span);
   Rgb light_at(const Directions& directions, Rgb beta);
   float scattering_mis_weight(LightId id, float light_pdf) const;
-  Vertex surface_vertex(const SurfaceHit& hit, Vec3 wo, const MediaState& media);
-  SurfaceDetail surface_detail(const SurfaceHit& hit) const;
+  Vertex vertex_at(const SurfaceHit& hit, Vec3 wo, const MediaState& media);
   int narrow_to_channel();
   void add_environment();
   void add_surface_emission(const SurfaceHit& hit);

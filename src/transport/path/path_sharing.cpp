@@ -54,7 +54,7 @@ PathOffer* Path::behind() {
   const SurfaceHit& hit = *segment_->end();
   if (context_.world.materials.is_dispersive(context_.world.material_of(hit))) return nullptr;
   const Span& span = segment_->span();
-  const Vertex vertex = surface_vertex(hit, -span.ray.d, span.end);
+  const Vertex vertex = vertex_at(hit, -span.ray.d, span.end);
   context_.bounce = 0;
   return may_share(vertex) ? &behind_.emplace(context_, vertex, Rgb(1.0f)) : nullptr;
 }

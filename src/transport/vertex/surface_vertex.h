@@ -1,0 +1,25 @@
+/// What a ray has met, as a vertex.
+#pragma once
+
+#include <algorithm>
+#include <optional>
+
+#include "transport/vertex/vertex.h"
+#include "transport/world/built_world.h"
+
+namespace tyndall {
+
+/// `wo`: unit, back along the ray; `media`: membership on that side. `channel`: the only one that is asked about, needed where
+/// the material is dispersive.
+Vertex surface_vertex(const BuiltWorld& world, const SurfaceHit& hit, Vec3 wo, const MediaState& media,
+                      std::optional<int> channel);
+
+/// A channel by a number in [0, 1), and the throughput that makes up for the others.
+inline int channel_by(float u) { return std::min(static_cast<int>(3 * u), 2); }
+inline Rgb only(int channel) {
+  Rgb one;
+  one[channel] = 3;
+  return one;
+}
+
+}  // namespace tyndall
