@@ -11,7 +11,7 @@ void BlockRender::render(PixelPlace corner, const PixelBounds& tile, SampleSpan 
 
 PixelFilm BlockRender::film_of(PixelPlace p) const {
   if (!shared_.film.crop().contains(p.x, p.y)) return PixelFilm();
-  return {shared_.points.of(p.x, p.y), shared_.emitters.of(p.x, p.y)};
+  return {shared_.points.of(p.x, p.y), shared_.peaks.of(p.x, p.y), shared_.emitters.of(p.x, p.y)};
 }
 
 SampleKey BlockRender::key_of(PixelPlace p, int sample) const {

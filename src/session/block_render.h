@@ -23,6 +23,7 @@ class BlockRender {
     const SampleContext& context;
     const MatteLayers& mattes;
     const FilmPoints& points;
+    const FilmPeaks& peaks;
     const FilmEmitters& emitters;
     int first_sample;  ///< number of the render's first
     FilmBuffer& film;

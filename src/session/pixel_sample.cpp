@@ -17,7 +17,8 @@ PixelSample::PixelSample(const SampleContext& sample, const SampleKey& key, Pixe
       sampler_(key),
       offset_(sample.world.built.filter.sample(sampler_.next_2d())),
       on_film_(center_of(key) + offset_.p),
-      joint_weight_(film_.points, on_film_, offset_.pdf) {
+      joint_weight_(film_.points, on_film_, offset_.pdf),
+      peak_weight_(film_.peaks, on_film_, offset_.pdf) {
   const Vec2 lens = sampler_.next_2d();
   LightContext context{world_.built, sample.selector, sample.settings, sampler_, counters};
   context.selector_with_volumes = sample.selector_with_volumes;
@@ -28,6 +29,10 @@ PixelSample::PixelSample(const SampleContext& sample, const SampleKey& key, Pixe
   if (!film_.points.empty()) {
     context.joint = &joint_weight_;
     of_points_ = camera_joint_estimate(context, film_.points, center_of(key), sampler_.fork());
+  }
+  if (!film_.peaks.empty()) {
+    context.joint_at_surface = &peak_weight_;
+    of_peaks_ = peak_estimate(context, film_.peaks, center_of(key), sampler_.fork());
   }
   if (!film_.emitters.empty()) {
     context.emitters = &film_.emitters;
@@ -54,6 +59,7 @@ PathRecord PixelSample::record() {
 
 void PixelSample::receive_light(PathRecord& record) {
   record.volume_direct += of_points_ * (1 / offset_.weight);  // the film takes it times that weight
+  record.surface_direct += of_peaks_ * (1 / offset_.weight);
   record.emission += of_emitters_ * (1 / offset_.weight);
   expose(record);
 }

@@ -10,6 +10,7 @@
 #include "session/world_parts.h"
 #include "transport/budget/light_budget.h"
 #include "transport/pixel/camera_joint.h"
+#include "transport/pixel/camera_peaks.h"
 #include "transport/pixel/visible_emitters.h"
 #include "transport/sample/camera_matte.h"
 #include "transport/sample/deep_sample.h"
@@ -32,6 +33,7 @@ struct SampleContext {
 /// What is searched for on the film for a pixel's samples; nothing outside of the pixels that are rendered.
 struct PixelFilm {
   PixelPoints points;
+  PixelPeaks peaks;
   PixelEmitters emitters;
 };
 
@@ -67,7 +69,8 @@ class PixelSample {
   FilterSampler::Offset offset_;
   Vec2 on_film_;
   CameraJointWeight joint_weight_;
-  Rgb of_points_, of_emitters_;
+  PeakWeight peak_weight_;
+  Rgb of_points_, of_peaks_, of_emitters_;
   float weight_of_ray_ = 1;
   std::optional<GroupedLight> groups_;
   std::optional<CameraMatte> matte_;

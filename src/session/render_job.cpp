@@ -78,7 +78,7 @@ class RenderJob::Impl {
                         !mattes_.empty(),
                         deep_ ? &deep_->bins : nullptr},
         pool_(settings.threads),
-        blocks_({sample_context_, mattes_, film_points_, film_emitters_, first_sample_, film_}) {
+        blocks_({sample_context_, mattes_, film_points_, film_peaks_, film_emitters_, first_sample_, film_}) {
     if (*settings_.adaptive) plan_.emplace(film_.crop(), settings_.spp, goal());
   }
 
@@ -227,6 +227,7 @@ class RenderJob::Impl {
     const FilmSearch search{world_.built, settings_, film_.crop(), pool_, alive};
     alive();
     film_points_ = film_points(search);
+    film_peaks_ = film_peaks(search);
     film_emitters_ = FilmEmitters(search);
     const Decision decision = decide(sample_context_, open_, pool_);
     decided_ = decision.settings;
@@ -312,6 +313,7 @@ class RenderJob::Impl {
   bool searched_ = false;
   double preparing_seconds_ = 0;
   FilmPoints film_points_;
+  FilmPeaks film_peaks_;
   FilmEmitters film_emitters_;
   int samples_ = 0;
   double seconds_ = 0;

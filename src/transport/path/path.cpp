@@ -73,7 +73,8 @@ Rng Path::stream_for_emission() {
 bool Path::scatter(const Vertex& vertex) {
   context_.bounce = depth_ - 1;
   context_.guided_weight = 1 / guided_pdf_ratio_;
-  if (vertex.on_surface()) context_.joint = nullptr;  // it was about what the ray gathers in media
+  // On the ray it was about what media scatter.
+  if (vertex.on_surface()) context_.joint = depth_ == 1 ? context_.joint_at_surface : nullptr;
   begin(Step::light);
   const Rgb seen = seen_.value_or(beta_);
   seen_.reset();

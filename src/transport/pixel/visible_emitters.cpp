@@ -49,7 +49,7 @@ Rgb found_at(const LightContext& context, const PixelEmitters& emitters, Vec2 ce
   const Rgb light = seen->L * attenuated(context, ray, *seen, sampler) *
                     (filter.weight * filter.pdf / (pdf * static_cast<float>(emitters.positions)));
   if (context.groups) context.groups->estimate(seen->light, light);
-  if (context.deep) context.deep->emitted_by_surface(world.camera.depth(seen->hit.p), light);
+  if (context.deep) context.deep->from_surface(world.camera.depth(seen->hit.p), light);
   return light;
 }
 

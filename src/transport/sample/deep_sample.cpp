@@ -65,7 +65,7 @@ void DeepSample::emitted(float t, Rgb light) {
   if (!is_black(light)) emitted_.push_back({depth_at(t), emission_factor_ * light});
 }
 
-void DeepSample::emitted_by_surface(float z, Rgb light) {
+void DeepSample::from_surface(float z, Rgb light) {
   if (!is_black(light)) surfaces_.push_back({z, light});
 }
 
@@ -103,7 +103,7 @@ std::vector<DeepSample::Part> DeepSample::parts(const PathRecord& record) const 
   for (const Piece& piece : surfaces_) parts.push_back(on_surface(piece.z, piece.light));
   const Rgb by_media = rest(record.volume_direct + record.volume_indirect, {&scattered_});
   if (!is_black(by_media)) parts.push_back(in_media(record.z_volume, by_media));
-  const Rgb end = record.surface_direct + record.surface_indirect + rest(record.emission, {&emitted_, &surfaces_});
+  const Rgb end = rest(record.surface_direct + record.surface_indirect + record.emission, {&emitted_, &surfaces_});
   if (hit_ || !is_black(end)) parts.push_back(at_end(end));
   return parts;
 }

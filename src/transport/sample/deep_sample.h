@@ -32,8 +32,8 @@ class DeepSample : public EmissionSink {
   /// Light that media of a part of its span emit comes next, to be multiplied by `factor`. Of homogeneous media all is known.
   void begin_emission(const SpanPart& part, Rgb factor);
   void emitted(float t, Rgb light) override;
-  /// Light that a surface emits at depth `z`.
-  void emitted_by_surface(float z, Rgb light);
+  /// Light that a surface sends at depth `z`.
+  void from_surface(float z, Rgb light);
 
   void scale(float s);
 

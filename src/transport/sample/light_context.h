@@ -28,6 +28,9 @@ struct LightContext {
   const LightSelector* selector_with_volumes = nullptr;
   /// The ray to it, where lights were also sampled jointly (techniques/mis.h).
   const JointWeight* joint = nullptr;
+  /// The same for what the surface scatters that the camera's ray meets, where film positions were drawn for lights close to it
+  /// (pixel/camera_peaks.h).
+  const JointWeight* joint_at_surface = nullptr;
   /// Emitters whose directly visible emission is found otherwise (visible_emitters.h).
   const PixelEmitters* emitters = nullptr;
   /// Where the scene has light groups (grouped_light.h).
