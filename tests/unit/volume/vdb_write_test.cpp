@@ -1,8 +1,8 @@
 #include <doctest/doctest.h>
 
-#include <fstream>
 #include <limits>
 
+#include "support/scratch.h"
 #include "support/vdb_writer.h"
 #include "tyndall/volume_io.h"
 #include "volume/vdb_file.h"
@@ -20,14 +20,18 @@ FogGrid sample() {
   return grid;
 }
 
-std::string saved(const std::string& bytes) {
-  std::ofstream("fog.vdb", std::ios::binary) << bytes;
-  return "fog.vdb";
-}
+/// A file that lasts as long as this.
+struct Saved {
+  test::Scratch folder;
+  std::string path = folder / "fog.vdb";
+
+  explicit Saved(const std::string& bytes) { test::write_bytes(path, bytes); }
+};
 
 TEST_CASE("every voxel of a written fog reads back, where it was") {
   const FogGrid fog = sample();
-  const std::string path = saved(encode_vdb_fog({fog}));
+  const Saved saved(encode_vdb_fog({fog}));
+  const std::string& path = saved.path;
   std::vector<Vec3> points;
   for (int z = 0; z < 12; ++z)
     for (int y = 0; y < 5; ++y)
@@ -56,7 +60,8 @@ TEST_CASE("several grids, one of them empty") {
   FogGrid empty = sample();
   empty.name = "temperature";
   std::fill(empty.values.begin(), empty.values.end(), 0.0f);
-  const auto file = open_volume(saved(encode_vdb_fog({sample(), empty})));
+  const Saved saved(encode_vdb_fog({sample(), empty}));
+  const auto file = open_volume(saved.path);
   REQUIRE(file->grids().size() == 2);
   CHECK(file->grids()[1].name == "temperature");
 }
