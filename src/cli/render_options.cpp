@@ -118,8 +118,9 @@ void declare(CLI::App& command, MethodOptions& o) {
   command
       .add_option("--splitting", o.splitting,
                   "clusters of the light tree predicted worse than this are split, with --lights tree, up to 15 or as many as "
-                  "--candidates, 0..1; 0: none, 1: down to single lights [the Integrator's, else 0.5 for 8 candidates or more "
-                  "and for --candidates 0, 0 elsewhere]; --splitting 0.7")
+                  "--candidates, 0..1; 0: none, 1: down to single lights [the Integrator's, else 0.5 for --candidates 0; "
+                  "elsewhere, at points, what may hold a light that is so near that it deserves a candidate is split]; "
+                  "--splitting 0.7")
       ->check(fraction());
   command
       .add_option("--shadow-rays", o.shadow_rays,

@@ -40,10 +40,12 @@ void for_each_candidate(const LightCut& cut, double u, const F& f) {
   }
 }
 
-/// What a cut may cost.
+/// What a cut may cost, and what is split.
 struct CutSettings {
   int candidates = 1;   ///< in all; 0: as many as splitting makes clusters
   float splitting = 0;  ///< clusters with a lower score are split while candidates allow; 0: none, 1: down to single lights
+  bool near_lights =
+      false;  ///< at points, in place of `splitting`: whatever may hold a light that deserves a candidate is split
 };
 
 }  // namespace tyndall

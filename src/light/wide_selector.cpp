@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "light/near_cut.h"
 #include "light/wide_cut.h"
 
 namespace tyndall {
@@ -16,30 +17,45 @@ const LightCluster* find(const LightCut& cut, std::uint32_t ref) {
   return it == cut.end() ? nullptr : it;
 }
 
+/// Without a limit every cluster keeps its candidate.
+LightCut scaled(LightCut cut, float share, const CutSettings& settings) {
+  if (settings.candidates == 0) return cut;
+  for (LightCluster& c : cut) c.candidates *= share;
+  return cut;
+}
+
+template <typename Tree>
+LightCut cut_of_tree(const Tree& tree, const PointQuery& query, const CutSettings& settings, float share) {
+  if (settings.near_lights) return near_cut(tree, query, share * static_cast<float>(settings.candidates));
+  return scaled(wide_cut(tree, query, settings), share, settings);
+}
+// Among lights along a line the variance grows with the logarithm of how near the nearest is: nothing is to be found.
+template <typename Tree>
+LightCut cut_of_tree(const Tree& tree, const Segment& query, const CutSettings& settings, float share) {
+  return scaled(wide_cut(tree, query, settings), share, settings);
+}
+
 }  // namespace
 
 template <typename Tree>
 template <typename Query>
-LightCut WideSelector<Tree>::split(const Query& query, int candidates, float splitting) const {
+LightCut WideSelector<Tree>::split(const Query& query, const CutSettings& settings) const {
   const auto share = this->shares(query);
   LightCut cut;
-  if (share.near > 0) cut = wide_cut(tree(), query, {candidates, splitting});
+  if (share.near > 0) cut = cut_of_tree(tree(), query, settings, static_cast<float>(share.near));
   if (!(share.far > 0)) return cut;
   const double far_share = cut.empty() ? 1 : share.far;  // the tree as a whole may have importance where none of its lights has
-  if (candidates > 0) {
-    for (LightCluster& c : cut) c.candidates *= static_cast<float>(share.near);
-  }
-  cut.push_back({kFarCluster, candidates > 0 ? static_cast<float>(far_share * candidates) : 1.0f});
+  cut.push_back({kFarCluster, settings.candidates > 0 ? static_cast<float>(far_share * settings.candidates) : 1.0f});
   return cut;
 }
 
 template <typename Tree>
 LightCut WideSelector<Tree>::cut(const PointQuery& query, const CutSettings& settings) const {
-  return split(query, settings.candidates, settings.splitting);
+  return split(query, settings);
 }
 template <typename Tree>
 LightCut WideSelector<Tree>::cut(const SegmentQuery& query, const CutSettings& settings) const {
-  return split(Segment(query), settings.candidates, settings.splitting);
+  return split(Segment(query), settings);
 }
 
 template <typename Tree>

@@ -1,4 +1,4 @@
-/// Choice by the wide light tree, with adaptive splitting.
+/// Choice by the wide light tree, from cuts that find near lights or are split by score.
 #pragma once
 
 #include "light/tree_selector.h"
@@ -20,7 +20,7 @@ class WideSelector final : public TreeSelector<Tree> {
 
  private:
   template <typename Query>
-  LightCut split(const Query& query, int candidates, float splitting) const;
+  LightCut split(const Query& query, const CutSettings& settings) const;
   template <typename Query>
   LightCandidates draw_all(const LightCut& cut, const Query& query, double u) const;
   template <typename Query>

@@ -43,9 +43,7 @@ LightCounts limited(LightCounts counts, std::size_t lights) {
   return {std::min(counts.candidates, n), std::min(counts.shadow_rays, (n + 1) / 2)};
 }
 
-/// Few candidates are drawn as well from the whole tree, in strata of one number: to split clusters for them costs more than it
-/// saves (docs/measurements.md).
-constexpr int kSplitFrom = 8;
+/// Of cuts without a limit, which have a candidate for each cluster.
 constexpr float kSplitting = 0.5f;
 
 bool mostly_glossy(const PointQuery& query) { return query.glossy() && query.diffuse < 0.5f; }
@@ -71,8 +69,9 @@ constexpr LightCounts kNoLimits{0, 0};
 }  // namespace
 
 CutSettings cut_settings(const LightContext& context, int candidates) {
-  const float unless_set = candidates == 0 || candidates >= kSplitFrom ? kSplitting : 0.0f;
-  return {.candidates = candidates, .splitting = context.settings.splitting.value_or(unless_set)};
+  if (context.settings.splitting) return {.candidates = candidates, .splitting = *context.settings.splitting};
+  if (candidates == 0) return {.candidates = 0, .splitting = kSplitting};
+  return {.candidates = candidates, .near_lights = true};
 }
 
 LightCounts counts_at_vertex(const LightContext& context, const LightSelector& among, const PointQuery& query) {

@@ -287,7 +287,7 @@ TEST_CASE("instances: cuts go into them, and every light is drawn as often as ex
       CHECK(sum <= kDraws * candidates_of(cut) * (1 + 1e-5));
     };
     for (const PointQuery& q : test::instanced_queries(input, 10, 9)) {
-      for (const CutSettings s : {CutSettings{4, 0.5f}, {16, 1}, {0, 0.7f}}) check(q, s);
+      for (const CutSettings s : {CutSettings{4, 0.5f}, {16, 1}, {0, 0.7f}, {6, 0, true}}) check(q, s);
     }
     for (const SegmentQuery& q : test::segments_for(test::world_bounds(input), 6, 9)) check(q, {8, 0.8f});
     CHECK(inside);

@@ -29,9 +29,7 @@ class Counted {
 
   const LightBudget* measured = nullptr;
 
-  float splitting(const RenderSettings& settings, int candidates) {
-    return cut_settings(context(settings, 0), candidates).splitting;
-  }
+  CutSettings cut(const RenderSettings& settings, int candidates) { return cut_settings(context(settings, 0), candidates); }
 
  private:
   static std::string scene(int points, bool area_light) {
@@ -164,13 +162,16 @@ TEST_CASE("few lights need few candidates, unless the path ends there") {
   check(three.span(direct, 0, 0.5f), 16, 0);
 }
 
-TEST_CASE("clusters are split for many candidates, unless it is set") {
+TEST_CASE("cuts find near lights, unless a score is set or nothing limits them") {
   Counted lights(2, false);
   RenderSettings set;
   set.splitting = 0.2f;
-  for (const int candidates : {0, 8, 32}) CHECK(lights.splitting({}, candidates) == 0.5f);
-  for (const int candidates : {1, 2, 7}) CHECK(lights.splitting({}, candidates) == 0);
-  for (const int candidates : {0, 1, 8}) CHECK(lights.splitting(set, candidates) == 0.2f);
+  for (const int candidates : {1, 2, 8, 32}) CHECK(lights.cut({}, candidates).near_lights);
+  CHECK(lights.cut({}, 0).splitting == 0.5f);
+  for (const int candidates : {0, 1, 8}) {
+    CHECK(lights.cut(set, candidates).splitting == 0.2f);
+    CHECK(!lights.cut(set, candidates).near_lights);
+  }
 }
 
 TEST_CASE("what is set holds everywhere") {
