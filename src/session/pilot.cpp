@@ -39,13 +39,15 @@ bool pays_to_double(const Look::Ratio& ratio, std::size_t blocks, const Film& fi
   return (1 - 1 / std::numbers::sqrt2) * ratio.expected_loss() * kPictureSamples > 2 * cost && 2 * cost <= 1;
 }
 
-/// Whether a look is so much better than another.
-bool beats(Look& look, Look& other, const Film& film) {
+/// Whether a look is so much better than another; `doubted`: by a standard error more, for variance without a bound, as of
+/// lights close to collisions, of which looks see little.
+bool beats(Look& look, Look& other, const Film& film, bool doubted) {
   for (std::size_t blocks = kFirstBlocks;; blocks *= 2) {
     look.extend(blocks);
     other.extend(blocks);
     Look::Ratio ratio = look.over(other);
     ratio.log -= std::log(kWins);
+    if (doubted) ratio.log += ratio.deviation;
     if (!pays_to_double(ratio, blocks, film)) return ratio.log < 0;
   }
 }
@@ -71,12 +73,12 @@ class Search {
   }
   /// Where variance x cost is less it stays changed. Nothing is looked at where what it changes is not `used`.
   template <typename Change>
-  void consider(std::uint64_t used, const Change& change) {
+  void consider(std::uint64_t used, const Change& change, bool doubted = false) {
     if (used == 0) return;
     Decision other = best_->decision();
     change(other);
     auto changed = std::make_unique<Look>(context_, other, pool_);
-    if (beats(*changed, *best_, film_)) best_ = std::move(changed);
+    if (beats(*changed, *best_, film_, doubted)) best_ = std::move(changed);
   }
   const Look& best() const { return *best_; }
   /// The best, with the numbers of lights that it makes pay.
@@ -135,7 +137,7 @@ Decision decide(const SampleContext& context, const OpenChoices& open, ThreadPoo
   if (compares) {
     if (open.sharing) search.consider(used().connections, without_sharing);
     if (open.emission) search.consider(used().rays, emission_by_rays);
-    if (open.pairs) search.consider(used().segments, lit_at_collisions);
+    if (open.pairs) search.consider(used().segments, lit_at_collisions, true);
     if (open.guiding) search.consider(used().guided, unguided);
   }
   return search.result();
