@@ -16,6 +16,17 @@ struct LightCluster {
 /// Disjoint clusters that hold every light which may contribute.
 using LightCut = SmallVector<LightCluster, 16>;
 
+/// Of a cluster, so that sums of these are finite.
+inline constexpr float kMostImportance = 1e35f;
+
+/// Makes of a cut whose clusters have their importance, at most kMostImportance, in place of candidates one that shares so many
+/// candidates out by it.
+inline void share_out(LightCut& cut, float candidates) {
+  float total = 0;
+  for (const LightCluster& c : cut) total += c.candidates;
+  for (LightCluster& c : cut) c.candidates = candidates * (c.candidates / total);
+}
+
 /// How many candidates a cut has in all.
 inline int candidates_of(const LightCut& cut) {
   float sum = 0;

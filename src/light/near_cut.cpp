@@ -1,6 +1,7 @@
 #include "light/near_cut.h"
 
 #include <algorithm>
+#include <array>
 
 #include "light/near_light.h"
 
@@ -11,8 +12,6 @@ using NodeRef = WideLightTree::NodeRef;
 
 /// Among lights whose boxes overlap, all may be near.
 constexpr std::size_t kMostClusters = 256;
-/// Sums of these are finite.
-constexpr float kMostImportance = 1e35f;
 
 /// Splits depth first, so that neighbours in the cut are neighbours in space, and strata of the number that draws from it are
 /// regions.
@@ -23,9 +22,7 @@ class NearCut {
 
   LightCut build() {
     split(tree_.root(), 0);
-    float total = 0;  // what is left after large parts were taken off `total_` may be rounding alone
-    for (const LightCluster& c : cut_) total += c.candidates;
-    for (LightCluster& c : cut_) c.candidates = candidates_ * (c.candidates / total);
+    share_out(cut_, candidates_);  // not by `total_`: after large parts were taken off, its rest may be rounding alone
     return std::move(cut_);
   }
 
@@ -36,7 +33,8 @@ class NearCut {
       const ChildImportance children = child_importance(node, local);
       const NearestLight nearest = nearest_light(node, local);
       const float scale = node.scale * factor;
-      float parts[WideNode::kWidth], sum = 0;
+      std::array<float, WideNode::kWidth> parts;
+      float sum = 0;
       for (std::size_t i = 0; i < WideNode::kWidth; ++i) sum += parts[i] = std::min(children.of[i] * scale, kMostImportance);
       total_ = std::max(total_ - importance, 0.0f) + sum;
       for (std::uint32_t i = 0; i < WideNode::kWidth; ++i) {
@@ -47,7 +45,6 @@ class NearCut {
           cut_.push_back({first + i, parts[i]});
         }
       }
-      return true;
     });
   }
 
@@ -55,7 +52,7 @@ class NearCut {
   const Local& local_;
   float candidates_;
   float total_ = 0;  ///< importance of what is in the cut or still to be split, roughly
-  LightCut cut_;     ///< `candidates` is the importance until all are known
+  LightCut cut_;     ///< with importances, to be shared out
 };
 
 }  // namespace

@@ -14,9 +14,6 @@ using NodeRef = WideLightTree::NodeRef;
 /// The children of two nodes: more clusters cost more than they gained (docs/measurements.md).
 constexpr int kClusters = 15;
 
-/// Sums of these are finite.
-constexpr float kMostImportance = 1e35f;
-
 /// A cluster of the growing cut.
 struct Open {
   NodeRef ref;
@@ -101,10 +98,8 @@ class CutBuilder {
   /// By importance: a candidate for each cluster, were there enough, would take most of them from the few that matter.
   LightCut shared_out() const {
     LightCut result;
-    float total = 0;
-    for (const Open& c : cut_) total += c.importance;
-    const auto n = static_cast<float>(candidates_);
-    for (const Open& c : cut_) result.push_back({c.ref, candidates_ > 0 ? n * (c.importance / total) : 1.0f});
+    for (const Open& c : cut_) result.push_back({c.ref, candidates_ > 0 ? c.importance : 1.0f});
+    if (candidates_ > 0) share_out(result, static_cast<float>(candidates_));
     return result;
   }
 

@@ -8,6 +8,7 @@
 
 #include "support/agreement.h"
 #include "support/covering.h"
+#include "support/noise.h"
 #include "support/scene_text.h"
 #include "support/strategies.h"
 #include "tyndall/io.h"
@@ -396,19 +397,7 @@ TEST_CASE("slivers that few samples meet have a hundredth of the filter's noise 
                      "\"point3 P\" [0 0 0  0 0.1 0  0.002 0 0] \"integer indices\" [0 1 2]\n");
   }
   View lens{.eye = {0, 0, -3}, .look = {0, 0, 0}, .fov_degrees = 36, .resolution = 20, .max_depth = 0};
-  const auto noise_and_mean = [&](JointStrategy joint) {
-    SceneFile file = read_scene_text(view(lens) + slivers, "slivers.pbrt");
-    RenderSettings settings = file.scene.settings;
-    settings.spp = 64;
-    settings.joint = joint;
-    settings.aovs = {"Variance"};
-    const Image image = render(build(std::move(file.scene)), settings).image;
-    const auto sum = [&](const char* channel) {
-      const auto& values = image.find(channel)->values;
-      return std::accumulate(values.begin(), values.end(), 0.0);
-    };
-    return std::pair(sum("Variance.R"), sum("R"));
-  };
+  const auto noise_and_mean = [&](JointStrategy joint) { return noise_of(view(lens) + slivers, joint, 64); };
   const auto [noise, mean] = noise_and_mean(JointStrategy::off);
   const auto [less_noise, same_mean] = noise_and_mean(JointStrategy::points);
   CHECK(less_noise < 0.01 * noise);

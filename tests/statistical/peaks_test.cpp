@@ -2,9 +2,9 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
-#include <numeric>
 
 #include "support/agreement.h"
+#include "support/noise.h"
 #include "support/scene_text.h"
 #include "support/strategies.h"
 #include "tyndall/io.h"
@@ -33,23 +33,6 @@ std::string lights_at(float height) {
 }
 
 Agreement to(double per_commit) { return {.d = nightly() ? 0.01 : per_commit}; }
-
-struct Look {
-  double noise = 0, mean = 0;  ///< sums over pixels, R
-};
-Look look_at(const std::string& scene, JointStrategy joint, int spp) {
-  SceneFile file = read_scene_text(scene, "peaks.pbrt");
-  RenderSettings settings = file.scene.settings;
-  settings.spp = spp;
-  settings.joint = joint;
-  settings.aovs = {"Variance"};
-  const Image image = render(build(std::move(file.scene)), settings).image;
-  const auto sum = [&](const char* channel) {
-    const auto& values = image.find(channel)->values;
-    return std::accumulate(values.begin(), values.end(), 0.0);
-  };
-  return {sum("Variance.R"), sum("R")};
-}
 
 }  // namespace
 
@@ -92,14 +75,14 @@ TEST_CASE("the same without perspective") {
 TEST_CASE("lights right above a surface have little of the filter's noise, at any height and scale of the scene") {
   constexpr int kMany = 16'384, kFew = 64;
   const std::string plane = diffuse_plane(0, 3, 0.5f);
-  const Look filtered = look_at(view(look_down(1)) + plane + lights_at(0.004f), JointStrategy::off, kMany);
+  const Noise filtered = noise_of(view(look_down(1)) + plane + lights_at(0.004f), JointStrategy::off, kMany);
   const double noise = filtered.noise * kMany / kFew;
   for (const float height : {0.004f, 0.0004f}) {
     for (const float scale : {1.0f, 1e-4f, 1e4f}) {
       const std::string s = number(scale), larger = "Scale " + s + ' ' + s + ' ' + s + '\n';
       View seen = look_down(1);
       seen.eye = seen.eye * scale;
-      const Look drawn = look_at(view(seen) + larger + plane + lights_at(height), JointStrategy::points, kFew);
+      const Noise drawn = noise_of(view(seen) + larger + plane + lights_at(height), JointStrategy::points, kFew);
       // The lights' power stays what it is: at another scale the picture is brighter by 1 / scale^2.
       const double same = double{scale} * scale, own = drawn.noise * same * same;
       CHECK(own < 0.1 * noise);

@@ -6,6 +6,7 @@
 
 #include "light/light_tree.h"
 #include "light/selection.h"
+#include "math/frame.h"
 #include "math/rng.h"
 
 namespace tyndall::test {
@@ -223,13 +224,30 @@ inline std::vector<PointQuery> queries_for(const std::vector<LightBounds>& light
   return queries;
 }
 
-/// Mixed lights, and one at infinity if `sun`: what a selector is made of.
-inline SelectionInput lights_of(std::size_t count, bool sun) {
+/// A lobe of facets that mirrors light from `axis`, seen along the normal.
+inline void add_lobe(PointQuery& q, Vec3 axis, float alpha) {
+  q.n = axis;
+  QueryLobe& lobe = q.lobes[q.lobe_count++];
+  const Frame frame = Frame::around(axis);
+  lobe.tangent = frame.x;
+  lobe.bitangent = frame.y;
+  lobe.slope2_t = lobe.slope2_b = alpha * alpha;
+  lobe.spread_t = lobe.spread_b = 0.25f;
+  lobe.scale = 0.5f;
+  q.diffuse = 0.01f;
+}
+
+/// What a selector is made of.
+inline SelectionInput input_of(const std::vector<LightBounds>& lights) {
   SelectionInput input;
-  for (const LightBounds& l : mixed_lights(count, 5)) {
-    input.near.push_back({l, static_cast<LightId>(input.power.size())});
-    input.power.push_back(l.intensity);
-  }
+  input.near = numbered(lights);
+  for (const LightBounds& light : lights) input.power.push_back(light.intensity);
+  return input;
+}
+
+/// Mixed lights, and one at infinity if `sun`.
+inline SelectionInput lights_of(std::size_t count, bool sun) {
+  SelectionInput input = input_of(mixed_lights(count, 5));
   if (sun) {
     input.far.push_back({{{DirectionCone::around({0, 0, 1}), {0, 0, 1}, 3, 3}}, static_cast<LightId>(input.power.size())});
     input.power.push_back(10);

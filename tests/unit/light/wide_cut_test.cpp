@@ -6,25 +6,11 @@
 #include "light/wide_light_tree.h"
 #include "light/wide_spread.h"
 #include "light_cases.h"
-#include "math/frame.h"
 #include "math/rng.h"
 #include "support/relative.h"
 
 namespace tyndall {
 namespace {
-
-/// A lobe of facets that mirrors light from `axis`, seen along the normal.
-void add_lobe(PointQuery& q, Vec3 axis, float alpha) {
-  q.n = axis;
-  QueryLobe& lobe = q.lobes[q.lobe_count++];
-  const Frame frame = Frame::around(axis);
-  lobe.tangent = frame.x;
-  lobe.bitangent = frame.y;
-  lobe.slope2_t = lobe.slope2_b = alpha * alpha;
-  lobe.spread_t = lobe.spread_b = 0.25f;
-  lobe.scale = 0.5f;
-  q.diffuse = 0.01f;
-}
 
 std::vector<PointQuery> queries() {
   std::vector<LightBounds> box{test::point_bounds({-1, -1, -1}, 1), test::point_bounds({1, 1, 1}, 1)};
@@ -32,7 +18,7 @@ std::vector<PointQuery> queries() {
   Rng rng(3);
   for (std::size_t i = 0; i < all.size(); i += 2) {
     if (length_squared(all[i].n) > 0) {
-      add_lobe(all[i], test::random_direction(rng), 0.05f + 0.5f * rng.uniform());
+      test::add_lobe(all[i], test::random_direction(rng), 0.05f + 0.5f * rng.uniform());
     } else {
       all[i].g = 0.9f * rng.uniform();
       all[i].forward = test::random_direction(rng);
@@ -249,7 +235,7 @@ TEST_CASE("a lobe within reach makes lights unlike, one out of reach does not") 
     return child_spread(node, local).cv2[0];
   };
   const float plain = cv2();
-  add_lobe(q, {1, 0, 0}, 0.03f);
+  test::add_lobe(q, {1, 0, 0}, 0.03f);
   CHECK(cv2() > 2 * plain + 1);
   q.lobes[0].sin_o = 0.9f;  // seen so that it mirrors light from elsewhere
   q.lobes[0].cos_o = 0.436f;
