@@ -1,7 +1,10 @@
 #include "math/perlin_noise.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "math/simd_math.h"
 
 namespace tyndall {
 namespace {
@@ -22,36 +25,57 @@ constexpr std::array<unsigned char, 256> kPermutation{
 
 int permuted(int i) { return kPermutation[static_cast<std::size_t>(i & 255)]; }
 
-/// Dot product of the offset with one of 12 edge directions (4 of them twice) chosen by the lattice point.
-float gradient(int x, int y, int z, Vec3 d) {
-  const int h = permuted(permuted(permuted(x) + y) + z) & 15;
-  const float u = h < 8 || h == 12 || h == 13 ? d.x : d.y;
-  const float v = h < 4 || h == 12 || h == 13 ? d.y : d.z;
-  return ((h & 1) ? -u : u) + ((h & 2) ? -v : v);
+float fade(float t) { return t * t * t * (t * (t * 6 - 15) + 10); }
+
+template <typename T>
+T mix(float t, T a, T b) {
+  return (1 - t) * a + t * b;
+}
+/// The last half of numbers for t = 1, the first for 0.
+template <typename Simd>
+auto mix_halves(float t, const Simd& values) {
+  constexpr int kHalf = Simd::size() / 2;
+  const auto [first, last] = std::experimental::split<kHalf, kHalf>(values);
+  return mix(t, first, last);
 }
 
-float fade(float t) { return t * t * t * (t * (t * 6 - 15) + 10); }
-float mix(float t, float a, float b) { return (1 - t) * a + t * b; }
+/// Beyond 2^24 a float has no fraction left; keep the conversion to int defined there.
+float within_ints(float x) {
+  constexpr float kPeriod = 1 << 24;
+  return std::abs(x) < kPeriod ? x : std::fmod(x, kPeriod);
+}
 
 }  // namespace
 
-float perlin_noise(Vec3 p) {
-  // Beyond 2^24 a float has no fraction left; keep the conversion to int defined there.
-  constexpr float kPeriod = 1 << 24;
-  const float x = std::fmod(p.x, kPeriod), y = std::fmod(p.y, kPeriod), z = std::fmod(p.z, kPeriod);
-  const int ix = static_cast<int>(std::floor(x)), iy = static_cast<int>(std::floor(y)), iz = static_cast<int>(std::floor(z));
-  const float dx = x - static_cast<float>(ix), dy = y - static_cast<float>(iy), dz = z - static_cast<float>(iz);
+// Corner k is the farther one along x if k & 4, along y if k & 2, along z if k & 1.
 
-  float corner[8];
-  for (int i = 0; i < 8; ++i) {
-    const int a = i & 1, b = i >> 1 & 1, c = i >> 2;
-    const Vec3 offset{dx - static_cast<float>(a), dy - static_cast<float>(b), dz - static_cast<float>(c)};
-    corner[i] = gradient((ix & 255) + a, (iy & 255) + b, (iz & 255) + c, offset);
-  }
-  const float wx = fade(dx), wy = fade(dy), wz = fade(dz);
-  const float y0 = mix(wy, mix(wx, corner[0], corner[1]), mix(wx, corner[2], corner[3]));
-  const float y1 = mix(wy, mix(wx, corner[4], corner[5]), mix(wx, corner[6], corner[7]));
-  return mix(wz, y0, y1);
+/// A gradient is one of 12 edge directions, 4 of them twice: two of three coordinates, each with a sign.
+NoiseCell::NoiseCell(Vec3 p)
+    : corner_{std::floor(within_ints(p.x)), std::floor(within_ints(p.y)), std::floor(within_ints(p.z))} {
+  const int x = static_cast<int>(corner_.x), y = static_cast<int>(corner_.y), z = static_cast<int>(corner_.z);
+  const int of_x[2] = {permuted(x) + y, permuted(x + 1) + y};
+  const int of_xy[4] = {permuted(of_x[0]) + z, permuted(of_x[0] + 1) + z, permuted(of_x[1]) + z, permuted(of_x[1] + 1) + z};
+  const Int8 hash([&](int k) { return permuted(of_xy[k >> 1] + (k & 1)); });
+
+  const Float8 edge = std::experimental::static_simd_cast<Float8>(hash & 15);
+  const Mask8 x_and_y = abs(edge - 12.5f) < 1.0f;
+  first_is_x_ = x_and_y || edge < 8.0f;
+  second_is_y_ = x_and_y || edge < 4.0f;
+  first_sign_ = 1.0f - std::experimental::static_simd_cast<Float8>((hash & 1) << 1);
+  second_sign_ = 1.0f - std::experimental::static_simd_cast<Float8>(hash & 2);
+}
+
+bool NoiseCell::holds(Vec3 p) const {
+  const Vec3 d = p - corner_;
+  return std::min({d.x, d.y, d.z}) >= 0 && std::max({d.x, d.y, d.z}) < 1;
+}
+
+float NoiseCell::at(Vec3 p) const {
+  const Vec3 d{within_ints(p.x) - corner_.x, within_ints(p.y) - corner_.y, within_ints(p.z) - corner_.z};
+  const Float8 x([&](int k) { return k & 4 ? d.x - 1 : d.x; }), y([&](int k) { return k & 2 ? d.y - 1 : d.y; }),
+      z([&](int k) { return k & 1 ? d.z - 1 : d.z; });
+  const Float8 heights = first_sign_ * choose(first_is_x_, x, y) + second_sign_ * choose(second_is_y_, y, z);
+  return mix_halves(fade(d.z), mix_halves(fade(d.y), mix_halves(fade(d.x), heights)))[0];
 }
 
 }  // namespace tyndall

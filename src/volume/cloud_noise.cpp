@@ -10,14 +10,19 @@ namespace {
 /// Gradient of the noise by forward differences of 0.01, as pbrt takes it.
 Vec3 noise_slope(Vec3 p) {
   constexpr float kDelta = 0.01f;
-  const float n = perlin_noise(p);
-  return {(perlin_noise(p + Vec3{kDelta, 0, 0}) - n) / kDelta, (perlin_noise(p + Vec3{0, kDelta, 0}) - n) / kDelta,
-          (perlin_noise(p + Vec3{0, 0, kDelta}) - n) / kDelta};
+  const NoiseCell cell(p);
+  const float n = cell.at(p);
+  const auto rise = [&](Vec3 step) {
+    const Vec3 q = p + step;
+    return ((cell.holds(q) ? cell.at(q) : perlin_noise(q)) - n) / kDelta;
+  };
+  return {rise({kDelta, 0, 0}), rise({0, kDelta, 0}), rise({0, 0, kDelta})};
 }
 
 }  // namespace
 
 float cloud_density(const CloudMedium& cloud, Vec3 p) {
+  if (p.y <= 0) return 1;  // noise only adds there
   Vec3 q = cloud.frequency * p;
   if (cloud.wispiness > 0) {
     float omega = 0.05f * cloud.wispiness, lambda = 10;
