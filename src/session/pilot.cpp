@@ -39,8 +39,10 @@ bool pays_to_double(const Look::Ratio& ratio, std::size_t blocks, const Film& fi
   return (1 - 1 / std::numbers::sqrt2) * ratio.expected_loss() * kPictureSamples > 2 * cost && 2 * cost <= 1;
 }
 
-/// Whether a look is so much better than another; `doubted`: by a standard error more, for variance without a bound, as of
-/// lights close to collisions, of which looks see little.
+/// Where lights may be close to collisions their variance there has no bound, of which looks see little.
+bool doubts_collisions(const SampleContext& context) { return context.world.built.lights.near_power() > 0; }
+
+/// Whether a look is so much better than another; `doubted`: by a standard error more.
 bool beats(Look& look, Look& other, const Film& film, bool doubted) {
   for (std::size_t blocks = kFirstBlocks;; blocks *= 2) {
     look.extend(blocks);
@@ -137,7 +139,7 @@ Decision decide(const SampleContext& context, const OpenChoices& open, ThreadPoo
   if (compares) {
     if (open.sharing) search.consider(used().connections, without_sharing);
     if (open.emission) search.consider(used().rays, emission_by_rays);
-    if (open.pairs) search.consider(used().segments, lit_at_collisions, true);
+    if (open.pairs) search.consider(used().segments, lit_at_collisions, doubts_collisions(context));
     if (open.guiding) search.consider(used().guided, unguided);
   }
   return search.result();

@@ -59,6 +59,7 @@ class MediumWalk {
   float rate() const { return rate_; }
   Rgb control() const { return control_; }  ///< sigma_t that is subtracted; 0 in majorant mode
   std::uint64_t steps() const { return steps_ + parts_walked_; }
+  std::uint64_t noise_lookups() const { return noise_lookups_; }
   bool capped() const { return steps_ > max_steps_; }  ///< the safety limit of steps ended the walk: a defect
 
   /// Inside the current piece, of non-zero rate.
@@ -70,6 +71,7 @@ class MediumWalk {
         break;
       case MediumData::Kind::cloud:
         scale_by(cloud_density(medium_->cloud, medium_point(t)), result);
+        ++noise_lookups_;
         break;
       case MediumData::Kind::grid:
         read_grid(t, result);
@@ -270,7 +272,7 @@ class MediumWalk {
   int node_level_ = 0;
   double part_ends_[4];
   int part_ = 0, part_count_ = 0;
-  std::uint64_t parts_walked_ = 0;
+  std::uint64_t parts_walked_ = 0, noise_lookups_ = 0;
   bool reading_ = false;  // the piece is one brick, and the reader is there
   BrickReader reader_;
 };

@@ -49,6 +49,11 @@ class MergedWalk {
   float rate() const { return rate_; }
   Rgb control() const { return control_; }
   std::uint64_t steps() const { return steps_; }
+  std::uint64_t noise_lookups() const {
+    std::uint64_t sum = 0;
+    for (std::size_t i = 0; i < count_; ++i) sum += walks_[i].noise_lookups();
+    return sum;
+  }
   bool capped() const {
     for (std::size_t i = 0; i < count_; ++i)
       if (walks_[i].capped()) return true;

@@ -22,11 +22,13 @@ bool any_emissive(MediaView media);
 /// Counters of one thread; add them up at the end.
 struct TrackingStats {
   std::uint64_t lookups = 0;              ///< coefficients read at a point
+  std::uint64_t noise_lookups = 0;        ///< those of procedural clouds, which cost more
   std::uint64_t segments = 0;             ///< pieces of constant majorant visited
   std::uint64_t majorant_violations = 0;  ///< lookups above the majorant: 0 unless there is a defect
   std::uint64_t caps_hit = 0;             ///< loops ended by their safety limit
   TrackingStats& operator+=(const TrackingStats& other) {
     lookups += other.lookups;
+    noise_lookups += other.noise_lookups;
     segments += other.segments;
     majorant_violations += other.majorant_violations;
     caps_hit += other.caps_hit;

@@ -102,6 +102,7 @@ void for_each_collision(Walk& walk, Rgb& T, Rng& rng, TrackingStats& stats, cons
 template <typename Walk>
 void finish(const Walk& walk, TrackingStats& stats) {
   stats.segments += walk.steps();
+  stats.noise_lookups += walk.noise_lookups();
   if (walk.capped()) ++stats.caps_hit;
 }
 

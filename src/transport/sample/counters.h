@@ -59,12 +59,13 @@ class Prices {
   explicit Prices(std::size_t lights) : levels_(std::log2(static_cast<double>(lights) + 1)) {}
 
   double of(const Counters& c) const {
-    constexpr double kRay = 1000, kShadowRay = 420, kLookup = 15, kGuided = 200, kSegment = 1700, kPlace = 330;
+    constexpr double kRay = 1000, kShadowRay = 420, kLookup = 15, kNoiseLookup = 270, kGuided = 200, kSegment = 1700,
+                     kPlace = 330;
     constexpr double kCandidate = 80, kPair = 170;
     const auto cost = [](double price, std::uint64_t count) { return price * static_cast<double>(count); };
-    return cost(kRay, c.rays) + cost(kShadowRay, c.shadow_rays) + cost(kLookup, c.tracking.lookups) + cost(kGuided, c.guided) +
-           cost(kSegment, c.segments) + cost(kPlace, c.places) +
-           levels_ * (cost(kCandidate, c.candidates) + cost(kPair, c.pairs));
+    return cost(kRay, c.rays) + cost(kShadowRay, c.shadow_rays) + cost(kLookup, c.tracking.lookups) +
+           cost(kNoiseLookup, c.tracking.noise_lookups) + cost(kGuided, c.guided) + cost(kSegment, c.segments) +
+           cost(kPlace, c.places) + levels_ * (cost(kCandidate, c.candidates) + cost(kPair, c.pairs));
   }
 
  private:

@@ -6,6 +6,8 @@
 
 #include "math/perlin_noise.h"
 #include "math/rng.h"
+#include "support/test_media.h"
+#include "volume/tracking.h"
 
 using namespace tyndall;
 
@@ -51,4 +53,28 @@ TEST_CASE("a cloud's density is that of the book, to the bit") {
     partial += density > 0 && density < 1 ? 1 : 0;
   }
   CHECK(partial > 3'000);
+}
+
+TEST_CASE("look-ups of procedural clouds are counted apart, alone and among other media") {
+  const ParticipatingMedium cloud = test::cloud({{}, Rgb{20}}), fog = test::homogeneous({{}, Rgb{1}});
+  const ParticipatingMedium smoke =
+      test::grid({8, -2, 2}, {{}, Rgb{20}}, [](int i) { return 0.1f * static_cast<float>(i % 7); });
+  const auto counted = [](std::vector<const ParticipatingMedium*> media) {
+    TrackingStats stats;
+    Rng rng(6);
+    for (int i = 0; i < 100; ++i) {
+      const Ray ray({-3, 0.75f, 0.1f * static_cast<float>(i % 10)}, {1, 0, 0});
+      free_flight(media, ray, 0, 6, Rgb{1}, rng.uniform(), rng, stats);
+      for (const auto strategy :
+           {TransmittanceStrategy::raymarch, TransmittanceStrategy::ratio, TransmittanceStrategy::residual})
+        transmittance({strategy}, media, ray, 0, 6, rng, stats);
+    }
+    CHECK(stats.lookups > 1000);
+    return stats;
+  };
+  const TrackingStats alone = counted({&cloud}), beside = counted({&fog, &cloud, &smoke});
+  CHECK(alone.noise_lookups == alone.lookups);
+  CHECK(counted({&smoke}).noise_lookups == 0);
+  CHECK(beside.noise_lookups > 0);
+  CHECK(beside.noise_lookups < beside.lookups);
 }
