@@ -4,11 +4,10 @@
 
 #include "session/block_grid.h"
 #include "session/film_buffer.h"
+#include "session/relative_error.h"
 
 namespace tyndall {
 namespace {
-
-constexpr double kRelativeEpsilon = 0.01;  ///< of relMSE, as everywhere
 
 /// E[(a-b)^2] = v/even + v/odd for a variance of v a sample, so the mean of all has (a-b)^2 even odd / samples^2.
 /// A single sample has no variance estimate; its square stands in as a pessimistic value.

@@ -9,6 +9,7 @@
 #include "math/hash.h"
 #include "session/block_grid.h"
 #include "session/flush_denormals.h"
+#include "session/relative_error.h"
 
 namespace tyndall {
 namespace {
@@ -20,6 +21,10 @@ constexpr int kSamples = 4;
 constexpr std::size_t kBlocksEach = 48, kMostBlocks = 64;
 /// Blocks that know as much as the numbers that stand without them.
 constexpr double kDoubt = 2;
+/// The more samples, the more strata, which spare much of the variance over a pixel and little of what choices among lights
+/// add: how much the second of a look's samples spares each doubling up to those of a picture is taken to, within bounds.
+constexpr int kDoublings = 3;  ///< two sequences of 8 samples
+constexpr double kLeastLeft = 0.5;
 /// Relative variance of a sample, of which nothing is seen: where there is less, what costs less is better.
 constexpr double kUnseen = 1e-8;
 
@@ -36,8 +41,10 @@ PixelPlace spread_place(std::size_t i, const PixelBounds& frame) {
 
 PixelBounds frame_of(const Film& film) { return {0, 0, film.width, film.height}; }
 
-/// What a variance is relative to, as errors are seen: a squared mean; what is dark by a tenth of the mean of all.
-double unit_of(double mean, double of_all) { return mean * mean + 0.01 * of_all * of_all; }
+/// What a variance is relative to, as errors are seen, with radiance of the film.
+double unit_of(double mean, const Film& film) {
+  return mean * mean + kRelativeEpsilon / (double{film.imaging_ratio} * film.imaging_ratio);
+}
 
 }  // namespace
 
@@ -121,12 +128,6 @@ Look::Block Look::try_block(std::size_t number) const {
   return tried;
 }
 
-double Look::mean_of(std::size_t blocks) const {
-  double sum = 0;
-  for (std::size_t i = 0; i < blocks; ++i) sum += blocks_[i].mean();
-  return sum / static_cast<double>(blocks);
-}
-
 /// Errors are relative to the mean of a block, in both looks together: those of single pixels are too noisy to divide by.
 Look::Ratio Look::over(const Look& other) const {
   struct Product {
@@ -135,12 +136,11 @@ Look::Ratio Look::over(const Look& other) const {
     double log() const { return std::log(error * cost); }
   };
   const std::size_t count = std::min(blocks_.size(), other.blocks_.size());
-  const double all = 0.5 * (mean_of(count) + other.mean_of(count));
   std::vector<Product> mine, others;
   Product my_sum, other_sum;
   for (std::size_t i = 0; i < count; ++i) {
     const Block &my_block = blocks_[i], &other_block = other.blocks_[i];
-    const double unit = unit_of(0.5 * (my_block.mean() + other_block.mean()), all);
+    const double unit = unit_of(0.5 * (my_block.mean() + other_block.mean()), context_.world.built.scene.film);
     my_sum.add(mine.emplace_back(my_block.error(unit), my_block.cost), 1);
     other_sum.add(others.emplace_back(other_block.error(unit), other_block.cost), 1);
   }
@@ -163,22 +163,28 @@ double Look::Ratio::expected_loss() const {
 }
 
 Trials Look::trials(std::size_t blocks) const {
-  const double all = mean_of(blocks);
   const auto looks = static_cast<double>(blocks);
   Trials trials{.trust = looks / (looks + kDoubt)};
+  double stratified = 0;
   for (std::size_t i = 0; i < blocks; ++i) {
     const Block& block = blocks_[i];
     trials.all_cost += block.cost / looks;
     for (const Pixel& pixel : block.pixels) {
-      const double unit = looks * unit_of(pixel.mean(), all);
+      const double unit = looks * unit_of(pixel.mean(), context_.world.built.scene.film);
       if (!(unit > 0) || !pixel.is_finite()) continue;
       trials.all_variance += pixel.variance() / unit;
+      stratified += pixel.error() / unit;
       for (std::size_t spent = 0; spent < kSpents; ++spent) {
         trials.variance[spent] += pixel.light.variance[spent] / unit;
         trials.cost[spent] += pixel.light.cost[spent] / looks;
       }
     }
   }
+  const double rest = rest_of_variance(trials);
+  if (!(rest > 0)) return trials;
+  const double chosen = trials.all_variance - rest;
+  const double left = std::min(std::max((stratified - chosen) / rest, kLeastLeft), 1.0);
+  trials.all_variance = chosen + rest * std::pow(left, kDoublings);
   return trials;
 }
 

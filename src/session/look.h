@@ -68,7 +68,6 @@ class Look {
     double error(double unit) const;
   };
   Block try_block(std::size_t number) const;
-  double mean_of(std::size_t blocks) const;
 
   const SampleContext& context_;
   ThreadPool& pool_;

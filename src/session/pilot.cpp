@@ -18,11 +18,11 @@ constexpr double kWins = 0.9;
 /// They are looked at more closely while that pays in a picture of so many samples.
 constexpr double kPictureSamples = 16;
 
-/// There are lights to choose among, and numbers that are not given. Single scattering has its own.
+/// There are lights to choose among, and numbers that are not given.
 bool decides_lights(const SampleContext& context, const RenderSettings& settings) {
   const bool volumes = context.selector_with_volumes && settings.emission != EmissionStrategy::paths;
-  return context.world.built.lights.sought(volumes) > 1 && settings.max_depth > 1 && !context.selector.exhaustive() &&
-         !context.selector.sizes_cut() && !(settings.candidates && settings.shadow_rays);
+  return context.world.built.lights.sought(volumes) > 1 && !context.selector.exhaustive() && !context.selector.sizes_cut() &&
+         !(settings.candidates && settings.shadow_rays);
 }
 
 /// Connections through homogeneous media have no noise of their own, and always pay.
@@ -130,7 +130,7 @@ Decision decide(const SampleContext& context, const OpenChoices& open, ThreadPoo
   const bool comparable = Look::usual_blocks(context.world.built.scene.film) >= kLeastToCompare;
   const bool collisions = comparable && decides_collisions(context), compares = comparable && open.any();
   if (!(decides_lights(context, context.settings) || collisions || compares)) return first;
-  first.budget = LightBudget::unmeasured(context.settings.reuse);
+  first.budget = LightBudget::unmeasured(context.settings);
   if (collisions) first.budget->collisions_shared = true;
   Search search(context, first, pool);
   if (collisions || compares) search.ask_lights();

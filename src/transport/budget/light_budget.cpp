@@ -12,12 +12,13 @@ constexpr double kLeast = 2, kMost = 64;
 constexpr double kLeastRest = 0.05;
 
 double sum(const PerSpent<double>& values) { return std::accumulate(values.begin(), values.end(), 0.0); }
-double rest_of_variance(const Trials& trials) {
-  return std::max(trials.all_variance - sum(trials.variance), kLeastRest * trials.all_variance);
-}
 double rest_of_cost(const Trials& trials) { return trials.all_cost - sum(trials.cost); }
 
 }  // namespace
+
+double rest_of_variance(const Trials& trials) {
+  return std::max(trials.all_variance - sum(trials.variance), kLeastRest * trials.all_variance);
+}
 
 Trials beside(const Trials& choices, const Trials& others) {
   Trials trials = choices;

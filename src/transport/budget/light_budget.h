@@ -36,9 +36,10 @@ struct LightBudget {
   std::optional<bool> collisions_shared{};
 
   /// What stands where nothing is measured. Light of later vertices is averaged over the paths that share it, that of the first
-  /// is not.
-  static LightBudget unmeasured(ReuseStrategy reuse) {
-    return {reuse == ReuseStrategy::pixels ? LightCounts{8, 4} : LightCounts{2, 2}, {3, 2}};
+  /// is not; and where there is none a path has nothing else to pay for.
+  static LightBudget unmeasured(const RenderSettings& settings) {
+    if (settings.max_depth == 1) return {{8, 4}, {16, 8}};
+    return {settings.reuse == ReuseStrategy::pixels ? LightCounts{8, 4} : LightCounts{2, 2}, {3, 2}};
   }
 };
 
@@ -48,6 +49,9 @@ struct Trials {
   double all_variance = 0, all_cost = 0;
   double trust = 1;  ///< from 0, they may be wrong, to 1, they know: how far the budget follows them
 };
+
+/// What choices don't add, but no less than noise leaves to be known.
+double rest_of_variance(const Trials& trials);
 
 /// The choices of `choices` beside all else of `others`: numbers that make these pay hide what they leave to chance.
 Trials beside(const Trials& choices, const Trials& others);

@@ -5,14 +5,13 @@
 namespace tyndall {
 namespace {
 
-constexpr LightCounts kOnlyVertex{8, 0}, kSecondVertex{2, 2}, kLater{1, 1};
+constexpr LightCounts kSecondVertex{2, 2}, kLater{1, 1};
 /// Bounds of clusters say little of where a narrow lobe meets a light. Where most is scattered elsewhere, as under a coat, more
 /// candidates are not worth their time (docs/measurements.md).
 constexpr LightCounts kGlossyVertex{4, 2};
 /// Where paths go on, most of the error is of later bounces, and more pairs cost more than they save, for the camera's span as
 /// well (docs/measurements.md). Fewer leave fireflies among lights in smoke.
 constexpr LightCounts kSecondSpan{3, 2};
-constexpr SpanCounts kOnlySpan{{16, 0}};
 /// Spans that scatter less than this share of the light take one candidate.
 constexpr float kThin = 1e-3f;
 constexpr LightCounts kThinSpan{1, 1};
@@ -21,10 +20,6 @@ constexpr LightCounts kThinSpan{1, 1};
 constexpr float kFaint = 0.1f;
 /// What is scattered is known coarsely: what was underestimated must still be sampled, with a bounded weight.
 constexpr float kLeastChance = 1 / 16.0f;
-/// In media of more than this optical depth most of the candidates are attenuated, and few of the distances matter
-/// (docs/measurements.md).
-constexpr float kDense = 3;
-constexpr SpanCounts kOnlyDenseSpan{{16, 8}, 2};
 
 LightCounts chosen(const RenderSettings& settings, LightCounts unless_set) {
   return {settings.candidates.value_or(unless_set.candidates), settings.shadow_rays.value_or(unless_set.shadow_rays)};
@@ -33,14 +28,24 @@ LightCounts chosen(const RenderSettings& settings, LightCounts unless_set) {
 /// Candidates that are counted by the settings are pairs, and always sampled.
 SpanCounts chosen(const RenderSettings& settings, SpanCounts unless_set) {
   const LightCounts counts = chosen(settings, static_cast<LightCounts>(unless_set));
-  return settings.candidates ? SpanCounts{counts} : SpanCounts{counts, unless_set.distances, unless_set.chance};
+  return settings.candidates ? SpanCounts{counts} : SpanCounts{counts, unless_set.chance};
 }
 
-/// Not more candidates than there are lights, and a shadow ray for every other one: for one light along media a single pair is
-/// the most efficient (docs/measurements.md).
-LightCounts limited(LightCounts counts, std::size_t lights) {
-  const int n = static_cast<int>(std::clamp<std::size_t>(lights, 1, 1000));
+/// Where paths go on not more candidates than there are lights, and a shadow ray for every other one: for one light along media
+/// a single pair is the most efficient (docs/measurements.md).
+LightCounts limited(const LightContext& context, LightCounts counts) {
+  if (is_single_scattering(context)) return counts;
+  const std::size_t lights = context.world.lights.sought(seeks_volume_lights(context));
+  const int n = static_cast<int>(std::min<std::size_t>(std::max<std::size_t>(lights, 1), 1000));
   return {std::min(counts.candidates, n), std::min(counts.shadow_rays, (n + 1) / 2)};
+}
+
+/// From one point a light without extent is always the same.
+LightCounts limited_at_point(const LightContext& context, LightCounts counts) {
+  const Lights& lights = context.world.lights;
+  if (lights.stats().points == lights.stats().lights)
+    counts.candidates = std::min(counts.candidates, static_cast<int>(std::min<std::size_t>(lights.size(), 1000)));
+  return limited(context, counts);
 }
 
 /// Of cuts without a limit, which have a candidate for each cluster.
@@ -49,7 +54,7 @@ constexpr float kSplitting = 0.5f;
 bool mostly_glossy(const PointQuery& query) { return query.glossy() && query.diffuse < 0.5f; }
 
 LightBudget budget_of(const LightContext& context) {
-  return context.budget ? *context.budget : LightBudget::unmeasured(context.settings.reuse);
+  return context.budget ? *context.budget : LightBudget::unmeasured(context.settings);
 }
 
 LightCounts counts_at_bounce(const LightContext& context, bool glossy) {
@@ -76,26 +81,13 @@ CutSettings cut_settings(const LightContext& context, int candidates) {
 
 LightCounts counts_at_vertex(const LightContext& context, const LightSelector& among, const PointQuery& query) {
   if (among.sizes_cut()) return chosen(context.settings, kNoLimits);
-  const Lights& lights = context.world.lights;
-  const bool volumes = seeks_volume_lights(context);
-  if (is_single_scattering(context)) {
-    // From one point a light without extent is always the same.
-    LightCounts counts = kOnlyVertex;
-    if (lights.stats().points == lights.stats().lights) counts.candidates = limited(counts, lights.sought(volumes)).candidates;
-    return chosen(context.settings, counts);
-  }
-  return chosen(context.settings, limited(counts_at_bounce(context, mostly_glossy(query)), lights.sought(volumes)));
+  return chosen(context.settings, limited_at_point(context, counts_at_bounce(context, mostly_glossy(query))));
 }
 
-SpanCounts counts_along_span(const LightContext& context, const LightSelector& among, float scattered, float depth) {
+SpanCounts counts_along_span(const LightContext& context, const LightSelector& among, float scattered) {
   if (among.sizes_cut()) return SpanCounts{chosen(context.settings, kNoLimits)};
-  const bool thin = scattered < kThin;
-  if (is_single_scattering(context)) {
-    return chosen(context.settings, thin ? SpanCounts{kThinSpan} : depth > kDense ? kOnlyDenseSpan : kOnlySpan);
-  }
-  const std::size_t sought = context.world.lights.sought(seeks_volume_lights(context));
-  SpanCounts counts{thin ? kThinSpan : limited(counts_along_bounce(context), sought)};
-  if (scattered < kFaint) counts.chance = std::max(scattered / kFaint, kLeastChance);
+  SpanCounts counts{scattered < kThin ? kThinSpan : limited(context, counts_along_bounce(context))};
+  if (scattered < kFaint && !is_single_scattering(context)) counts.chance = std::max(scattered / kFaint, kLeastChance);
   return chosen(context.settings, counts);
 }
 

@@ -8,18 +8,16 @@
 namespace tyndall {
 
 struct SpanCounts : LightCounts {
-  int distances = 1;  ///< along the span, for each candidate
-  float chance = 1;   ///< probability of drawing any
+  float chance = 1;  ///< probability of drawing any
 };
 
 /// How clusters are split for that many candidates.
 CutSettings cut_settings(const LightContext& context, int candidates);
 
-/// Among the lights that `among` chooses from. As the settings say; unset ones by what follows: in single scattering nothing
-/// else shares the path's cost, so more candidates pay. Where `among` sizes its cuts itself (LightSelector::sizes_cut) the
-/// settings are limits, and unset ones none.
+/// Among the lights that `among` chooses from. As the settings say; unset ones by the budget. Where `among` sizes its cuts
+/// itself (LightSelector::sizes_cut) the settings are limits, and unset ones none.
 LightCounts counts_at_vertex(const LightContext& context, const LightSelector& among, const PointQuery& query);
-/// `scattered`: the fraction of light that the span scatters, roughly; `depth`: its optical depth.
-SpanCounts counts_along_span(const LightContext& context, const LightSelector& among, float scattered, float depth);
+/// `scattered`: the fraction of light that the span scatters, roughly.
+SpanCounts counts_along_span(const LightContext& context, const LightSelector& among, float scattered);
 
 }  // namespace tyndall

@@ -16,11 +16,12 @@ namespace tyndall {
 inline constexpr std::size_t kBadSamplesKept = 16;
 
 struct Counters {
-  std::uint64_t candidates = 0, pairs = 0;  ///< lights drawn for vertices, and along segments
-  std::uint64_t segments = 0;               ///< that lights are sought along
-  std::uint64_t places = 0;                 ///< along them, of a light each, that are evaluated
-  std::uint64_t connections = 0;            ///< of a path with what another has found that are asked for
-  std::uint64_t guided = 0;                 ///< vertices that directions are guided at
+  std::uint64_t choices = 0;      ///< among lights, at vertices
+  std::uint64_t candidates = 0;   ///< lights drawn for them
+  std::uint64_t segments = 0;     ///< that lights are sought along
+  std::uint64_t places = 0;       ///< along them, of a light each, that are evaluated
+  std::uint64_t connections = 0;  ///< of a path with what another has found that are asked for
+  std::uint64_t guided = 0;       ///< vertices that directions are guided at
   std::uint64_t paths = 0, rays = 0, shadow_rays = 0, non_finite = 0, parity_errors = 0;
   TrackingStats tracking;
   std::vector<BadSample> bad_samples;
@@ -34,8 +35,8 @@ struct Counters {
   }
 
   Counters& operator+=(const Counters& other) {
+    choices += other.choices;
     candidates += other.candidates;
-    pairs += other.pairs;
     segments += other.segments;
     places += other.places;
     connections += other.connections;
@@ -53,19 +54,20 @@ struct Counters {
 };
 
 /// Costs by counts: choices made by clocks would not give the same picture twice. About ns of one core, and up to a factor that
-/// depends on the scene (docs/measurements.md); of a light drawn for a vertex or along a segment, down a tree of so many.
+/// depends on the scene (docs/measurements.md); of a light drawn for a vertex, down a tree of so many.
 class Prices {
  public:
   explicit Prices(std::size_t lights) : levels_(std::log2(static_cast<double>(lights) + 1)) {}
 
   double of(const Counters& c) const {
-    constexpr double kRay = 1000, kShadowRay = 420, kLookup = 15, kNoiseLookup = 270, kGuided = 200, kSegment = 1700,
-                     kPlace = 330;
-    constexpr double kCandidate = 80, kPair = 170;
+    constexpr double kRay = 960, kGuided = 410, kConnection = 90;
+    constexpr double kChoice = 340, kCandidate = 32, kShadowRay = 200, kSegment = 1940, kPlace = 1340;
+    constexpr double kPiece = 130, kLookup = 18, kNoiseLookup = 270;
     const auto cost = [](double price, std::uint64_t count) { return price * static_cast<double>(count); };
-    return cost(kRay, c.rays) + cost(kShadowRay, c.shadow_rays) + cost(kLookup, c.tracking.lookups) +
-           cost(kNoiseLookup, c.tracking.noise_lookups) + cost(kGuided, c.guided) + cost(kSegment, c.segments) +
-           cost(kPlace, c.places) + levels_ * (cost(kCandidate, c.candidates) + cost(kPair, c.pairs));
+    return cost(kRay, c.rays) + cost(kGuided, c.guided) + cost(kConnection, c.connections) + cost(kChoice, c.choices) +
+           levels_ * cost(kCandidate, c.candidates) + cost(kShadowRay, c.shadow_rays) + cost(kSegment, c.segments) +
+           cost(kPlace, c.places) + cost(kPiece, c.tracking.segments) + cost(kLookup, c.tracking.lookups) +
+           cost(kNoiseLookup, c.tracking.noise_lookups);
   }
 
  private:

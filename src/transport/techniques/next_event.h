@@ -69,6 +69,7 @@ class NextEvent {
   }
 
   Rgb chosen(Sampler& sampler, LightTrial* trial) const {
+    ++context_.counters.choices;
     const float u = sampler.next_1d();
     SmallVector<Candidate, 8> candidates;
     for (const LightCandidate& candidate : search_.among->draw(search_.cut, search_.query, sampler.next_wide())) {

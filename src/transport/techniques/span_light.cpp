@@ -44,15 +44,11 @@ class PairFinder {
   PairFinder(const LightContext& context, const Span& span, const SpanSearch& search, Rgb beta)
       : context_(context), span_(span), search_(search), beta_(beta) {}
 
-  /// Strata of one number give the distances.
   void look_along(LightCandidate candidate, Sampler& sampler, Pairs& pairs) const {
     const DistanceSampler distances = distances_to(context_, search_, candidate.light);
-    const float u = sampler.next_1d(), stratum = 1 / static_cast<float>(search_.distances);
-    context_.counters.places += static_cast<std::uint64_t>(search_.distances);
-    for (int i = 0; i < search_.distances; ++i) {
-      const float along = std::min((static_cast<float>(i) + u) * stratum, 0x1.fffffep-1f);
-      if (const auto pair = look_at(candidate, distances.sample(along), sampler.next_2d())) pairs.push_back(*pair);
-    }
+    ++context_.counters.places;
+    const DistanceSample distance = distances.sample(sampler.next_1d());
+    if (const auto pair = look_at(candidate, distance, sampler.next_2d())) pairs.push_back(*pair);
   }
 
  private:
@@ -70,7 +66,7 @@ class PairFinder {
 
     const Vec3 wo = -span_.ray.d;
     const Rgb f = scattering.sigma_s * scattering.phase.eval(wo, light->wi);
-    const float density = search_.chance * n_pmf * static_cast<float>(search_.distances) * distance.pdf * light->pdf;
+    const float density = search_.chance * n_pmf * distance.pdf * light->pdf;
     if (is_black(f) || !(density > 0)) return std::nullopt;
     const float collide = scattering.sigma_t * search_.profile.transmittance(distance.t);
     const float tracked = search_.tracked ? collide * n_pmf * light->pdf : 0.0f;
@@ -104,10 +100,9 @@ Pairs all_lights(const LightContext& context, const SpanSearch& search, const Pa
   return pairs;
 }
 
-Pairs chosen_lights(const LightContext& context, const SpanSearch& search, const PairFinder& finder, Sampler& sampler) {
+Pairs chosen_lights(const SpanSearch& search, const PairFinder& finder, Sampler& sampler) {
   Pairs pairs;
   for (const LightCandidate& candidate : search.among->draw(search.cut, search.query, sampler.next_wide())) {
-    ++context.counters.pairs;
     finder.look_along(candidate, sampler, pairs);
   }
   return pairs;
@@ -194,10 +189,9 @@ std::optional<SpanSearch> span_search(const LightContext& context, const Span& s
   search.query = query_of(settings, span, *profile, search.g);
   search.tracked = tracks(context);
   if (!search.among->exhaustive()) {
-    const SpanCounts counts = counts_along_span(context, *search.among, profile->scattered(), profile->optical_depth());
+    const SpanCounts counts = counts_along_span(context, *search.among, profile->scattered());
     search.cut = search.among->cut(search.query, cut_settings(context, counts.candidates));
     search.shadow_rays = counts.shadow_rays;
-    search.distances = counts.distances;
     search.chance = counts.chance;
   }
   return search;
@@ -210,7 +204,7 @@ Rgb span_light(const LightContext& context, const Span& span, const SpanSearch& 
   return tried(context, {Spent::span_candidates, Spent::span_rays}, beta, [&](const LightContext& c, LightTrial* trial) {
     const float u = sampler.next_1d();
     const bool all = search.among->exhaustive();
-    const Pairs pairs = all ? all_lights(c, search, finder, sampler) : chosen_lights(c, search, finder, sampler);
+    const Pairs pairs = all ? all_lights(c, search, finder, sampler) : chosen_lights(search, finder, sampler);
     return evaluate({c, span, beta, trial}, pairs, resample(pairs, search.shadow_rays, u), sampler);
   });
 }
@@ -221,10 +215,8 @@ float collision_density(const Span& span, const SpanSearch& search, float t) {
 
 SpanDensities span_densities(const LightContext& context, const SpanCollision& collision, LightId id) {
   const float n_pmf = collision.search.among->n_pmf(collision.search.cut, collision.search.query, id);
-  const float pairs =
-      collision.search.chance * static_cast<float>(collision.search.distances);  // for each candidate, on average
   return {.pair = pairs_along_spans(context.settings)
-                      ? n_pmf * pairs * distances_to(context, collision.search, id).pdf(collision.t)
+                      ? n_pmf * collision.search.chance * distances_to(context, collision.search, id).pdf(collision.t)
                       : 0.0f,
           .tracked = collision.search.tracked ? n_pmf * collision.density : 0.0f};
 }

@@ -19,7 +19,6 @@ struct SpanSearch {
   SpanProfile profile;
   float g = 0;           ///< mean cosine of the phase functions, roughly
   int shadow_rays = 0;   ///< to trace, 0: to all candidates
-  int distances = 1;     ///< drawn for each candidate
   float chance = 1;      ///< of drawing any pair; roulette decides
   bool tracked = false;  ///< a collision draws lights by this search too
 };

@@ -22,9 +22,9 @@ class Counted {
     const LightContext here = context(settings, bounce);
     return counts_at_vertex(here, here.selector, query);
   }
-  SpanCounts span(const RenderSettings& settings, int bounce, float scattered, float depth = 1) {
+  SpanCounts span(const RenderSettings& settings, int bounce, float scattered) {
     const LightContext here = context(settings, bounce);
-    return counts_along_span(here, here.selector, scattered, depth);
+    return counts_along_span(here, here.selector, scattered);
   }
 
   const LightBudget* measured = nullptr;
@@ -67,9 +67,9 @@ TEST_CASE("single scattering has more candidates, and so have glossy surfaces") 
     check(many.vertex(deep, bounce, 0.1f), late ? 1 : 2, late ? 1 : 2);  // coated
     check(many.span(deep, bounce, 0.5f), late ? 1 : 3, late ? 1 : 2);
   }
-  check(many.vertex(direct, 0), 8, 0);
-  check(many.vertex(direct, 0, 0.9f), 8, 0);
-  check(many.span(direct, 0, 0.5f), 16, 0);
+  check(many.vertex(direct, 0), 8, 4);
+  check(many.vertex(direct, 0, 0.9f), 8, 4);
+  check(many.span(direct, 0, 0.5f), 16, 8);
 }
 
 TEST_CASE("segments that scatter next to nothing have one candidate") { check(Counted(3, true).span({}, 0, 0.9e-3f), 1, 1); }
@@ -87,26 +87,12 @@ TEST_CASE("segments that scatter little seldom have pairs, but in single scatter
   CHECK(many.span(set, 0, 0.05f).chance == 1);
 }
 
-TEST_CASE("along dense segments candidates have two distances in single scattering") {
-  Counted many(3, true);
-  RenderSettings direct, set;
-  direct.max_depth = set.max_depth = 1;
-  set.candidates = 16;
-  CHECK(many.span(direct, 0, 0.9f, 1).distances == 1);
-  const SpanCounts dense = many.span(direct, 0, 0.9f, 10);
-  check(dense, 16, 8);
-  CHECK(dense.distances == 2);
-  CHECK(many.span({}, 0, 0.9f, 10).distances == 1);
-  CHECK(many.span(direct, 0, 1e-5f, 10).distances == 1);
-  CHECK(many.span(set, 0, 0.9f, 10).distances == 1);  // as many pairs as were asked for
-}
-
 TEST_CASE("at one point a light without extent is one candidate") {
   RenderSettings direct;
   direct.max_depth = 1;
-  check(Counted(5, false).vertex(direct, 0), 5, 0);
-  check(Counted(5, true).vertex(direct, 0), 8, 0);
-  check(Counted(1, false).span(direct, 0, 0.5f), 16, 0);  // from several points along the segment
+  check(Counted(5, false).vertex(direct, 0), 5, 4);
+  check(Counted(5, true).vertex(direct, 0), 8, 4);
+  check(Counted(1, false).span(direct, 0, 0.5f), 16, 8);  // from several points along the segment
 }
 
 TEST_CASE("what was measured holds at the first vertex and along the first segment, up to what there are lights") {
@@ -122,6 +108,11 @@ TEST_CASE("what was measured holds at the first vertex and along the first segme
   check(many.span(deep, 1, 0.5f), 3, 2);
   check(three.vertex(deep, 0), 3, 2);
   check(three.span(deep, 0, 0.5f), 3, 2);
+  RenderSettings direct;
+  direct.max_depth = 1;
+  check(many.vertex(direct, 0), 12, 7);
+  check(three.vertex(direct, 0), 12, 7);  // other points of the same lights
+  check(three.span(direct, 0, 0.5f), 9, 5);
   check(many.vertex(set, 0), 3, 7);
 }
 
@@ -158,8 +149,8 @@ TEST_CASE("few lights need few candidates, unless the path ends there") {
   check(three.vertex(deep, 1, 0.9f), 3, 2);
   check(three.span(deep, 0, 0.5f), 3, 2);
   check(Counted(1, true).span(deep, 1, 0.5f), 2, 1);
-  check(three.vertex(direct, 0), 8, 0);
-  check(three.span(direct, 0, 0.5f), 16, 0);
+  check(three.vertex(direct, 0), 8, 4);
+  check(three.span(direct, 0, 0.5f), 16, 8);
 }
 
 TEST_CASE("cuts find near lights, unless a score is set or nothing limits them") {
