@@ -22,8 +22,9 @@ constexpr std::size_t kBlocksEach = 48, kMostBlocks = 64;
 /// Blocks that know as much as the numbers that stand without them.
 constexpr double kDoubt = 2;
 /// The more samples, the more strata, which spare much of the variance over a pixel and little of what choices among lights
-/// add: how much the second of a look's samples spares each doubling up to those of a picture is taken to, within bounds.
-constexpr int kDoublings = 3;  ///< two sequences of 8 samples
+/// add. What the second sample of a look's sequences leaves of it, at least kLeastLeft, is taken for what one more doubling
+/// leaves: further ones spare less (docs/measurements.md).
+constexpr int kDoublings = 2;
 constexpr double kLeastLeft = 0.5;
 /// Relative variance of a sample, of which nothing is seen: where there is less, what costs less is better.
 constexpr double kUnseen = 1e-8;
