@@ -79,14 +79,13 @@ struct RenderSettings {
   /// Candidates at a vertex or along a segment in media, >= 0; 0: as many as splitting makes clusters, one without a tree.
   /// Exhaustive takes all lights and traces all; lightcuts takes the cut's, at most so many, 0 or unset: 1,000. Unset: as
   /// `budget` has it, later 1 to 4.
-  /// Single scattering (max_depth 1) takes 8, along media 16.
   std::optional<int> candidates{};
-  /// Of the candidates, are traced, >= 0; 0: every one. Unset: likewise, later 1 or 2, in single scattering all or most; with
-  /// lightcuts all.
+  /// Of the candidates, are traced, >= 0; 0: every one. Unset: likewise, later 1 or 2; with lightcuts all.
   std::optional<int> shadow_rays{};
   /// Clusters of the light tree that are predicted worse than this are split, in [0, 1]; 0: none, 1: down to single lights. Up
   /// to 15 clusters are made, or as many as there are candidates if those are more; with 0 candidates there is no limit. Not
-  /// used by strategies without a wide tree. Unset: 0.5 where there are 8 candidates or more, or no limit; 0 elsewhere.
+  /// used by strategies without a wide tree. Unset: 0.5 where there is no limit; elsewhere, at points, what may hold a light
+  /// that is so near that it deserves a candidate is split.
   std::optional<float> splitting{};
   MediaStrategy media = MediaStrategy::automatic;
   DistanceStrategy distance = DistanceStrategy::automatic;

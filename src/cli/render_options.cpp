@@ -112,8 +112,8 @@ void declare(CLI::App& command, MethodOptions& o) {
       .add_option("--candidates", o.candidates,
                   "lights chosen at a vertex or along a segment and looked at without visibility; 0: one for each "
                   "cluster that --splitting makes; with --lights lightcuts the most nodes that a cut has, 0: 1,000 [the "
-                  "Integrator's, else as --budget has it at first, later 1 to 4, but not more than there are lights; more with "
-                  "--max-depth 1; with lightcuts 0]; --candidates 8")
+                  "Integrator's, else as --budget has it at first, later 1 to 4, but not more than there are lights unless "
+                  "--max-depth is 1; with lightcuts 0]; --candidates 8")
       ->check(CLI::Range(0, 4096));
   command
       .add_option("--splitting", o.splitting,
@@ -125,7 +125,7 @@ void declare(CLI::App& command, MethodOptions& o) {
   command
       .add_option("--shadow-rays", o.shadow_rays,
                   "of these are traced, resampled by their contribution; 0: all [the Integrator's, else as --budget has it at "
-                  "first, later 1 or 2, but not more than half the lights; all or most with --max-depth 1; with lightcuts "
+                  "first, later 1 or 2, but not more than half the lights unless --max-depth is 1; with lightcuts "
                   "all]; --shadow-rays 0")
       ->check(CLI::Range(0, 4096));
 }
