@@ -62,7 +62,7 @@ class Prices {
   double of(const Counters& c) const {
     constexpr double kRay = 960, kGuided = 410, kConnection = 90;
     constexpr double kChoice = 340, kCandidate = 32, kShadowRay = 200, kSegment = 1940, kPlace = 1340;
-    constexpr double kPiece = 130, kLookup = 18, kNoiseLookup = 270;
+    constexpr double kPiece = 130, kLookup = 18, kNoiseLookup = 270;  // noise: what it costs more
     const auto cost = [](double price, std::uint64_t count) { return price * static_cast<double>(count); };
     return cost(kRay, c.rays) + cost(kGuided, c.guided) + cost(kConnection, c.connections) + cost(kChoice, c.choices) +
            levels_ * cost(kCandidate, c.candidates) + cost(kShadowRay, c.shadow_rays) + cost(kSegment, c.segments) +

@@ -16,8 +16,8 @@ TEST_CASE("noise has Perlin's values") {
   CHECK(perlin_noise({3, -7, 250}) == 0);
   CHECK(perlin_noise({3.14f, 42, 7}) == doctest::Approx(0.13691995878400012).epsilon(1e-4));
 
-  // By formulas one after the other, with a gradient chosen by cases; the last two are beyond where floats have fractions, and
-  // wrap.
+  // By formulas one after the other, with a gradient chosen by cases; the last is beyond where floats have fractions, and
+  // wraps.
   struct At {
     Vec3 p;
     float noise;
