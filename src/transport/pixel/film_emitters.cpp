@@ -12,8 +12,6 @@ namespace {
 constexpr std::uint8_t kPositions = 13;
 /// Looks at the emitters of a pixel, to know of what hides them.
 constexpr std::size_t kLooks = 8;
-/// Of an emitter that no look met: it may be seen all the same.
-constexpr float kLeastSeen = 0.1f;
 /// Emitters that fill a pixel: places along each side of the filter's support where they are looked at.
 constexpr int kLooksAtOne = 2, kLooksAtMany = 4;
 /// Between looks, relative to the brighter: more than emission varies, less than another emitter differs.
@@ -44,6 +42,16 @@ struct InPixel {
   std::uint32_t emitter;  ///< of the list of all
   float mass;             ///< of the filter, that its image covers
   bool hull;              ///< the polygon is but a hull of what ends there
+};
+
+/// Places on an emitter's image that were looked at, and those that saw it.
+struct Looks {
+  std::size_t looks, met;
+
+  bool partly() const { return met > 0 && met < looks; }
+  /// What the emitter's light is weighed by in its share: with that of root mean square the estimate of what is found by such
+  /// shares has the least variance, and the mean square of a yes or no is its chance, here by Jeffreys's prior.
+  float weight() const { return std::sqrt((static_cast<float>(met) + 0.5f) / (static_cast<float>(looks) + 1)); }
 };
 
 /// What the pixels of one row draw, one after the other.
@@ -154,10 +162,10 @@ class Search {
     double sum = 0;
     for (const InPixel& f : found) {
       const SeenEmitter& emitter = all[f.emitter];
-      const float seen = seen_part(center, emitter, std::max<std::size_t>(kLooks / found.size(), 1));
-      some |= seen > 0;
-      partly |= seen > 0 && (seen < 1 || f.hull);  // few looks do not tell of a narrow rest
-      chosen.push_back({emitter.shape, emitter.primitive, emitter.brightness * f.mass * std::max(seen, kLeastSeen)});
+      const Looks looks = look_at(center, emitter, std::max<std::size_t>(kLooks / found.size(), 1));
+      some |= looks.met > 0;
+      partly |= looks.partly() || (looks.met > 0 && f.hull);  // few looks do not tell of a narrow rest
+      chosen.push_back({emitter.shape, emitter.primitive, emitter.brightness * f.mass * looks.weight()});
       sum += chosen.back().share;
     }
     if (!some || !(sum > 0 && sum < kInfinity)) {
@@ -170,20 +178,20 @@ class Search {
 
   Ray ray_through(Point2 film) const { return world_.camera.ray_through(film); }
 
-  /// Of `looks` at an emitter's image in the pixel, the part that met it.
-  float seen_part(Point2 center, const SeenEmitter& emitter, std::size_t looks) const {
+  /// At an emitter's image in the pixel.
+  Looks look_at(Point2 center, const SeenEmitter& emitter, std::size_t count) const {
     const ConvexPolygon image = image_of(world_, emitter.shape, emitter.primitive)->moved({-center.x, -center.y});
     const LightId light = world_.first_light[emitter.shape] + emitter.primitive;
-    int met = 0;
-    for (std::size_t i = 0; i < looks; ++i) {
-      const float along = (static_cast<float>(i) + 0.5f) / static_cast<float>(looks),
+    Looks looks{count, 0};
+    for (std::size_t i = 0; i < count; ++i) {
+      const float along = (static_cast<float>(i) + 0.5f) / static_cast<float>(count),
                   across = 0.5f + 0.618034f * static_cast<float>(i);
       const auto place = cells_.sample(image, {along, across - std::floor(across)});
       const Ray ray = ray_through({center.x + place.at.x, center.y + place.at.y});
       const auto seen = place.pdf > 0 ? directly_visible(world_, ray) : std::nullopt;
-      met += seen && seen->light == light && attenuated_roughly(world_, ray, *seen) > 0;
+      looks.met += seen && seen->light == light && attenuated_roughly(world_, ray, *seen) > 0;
     }
-    return static_cast<float>(met) / static_cast<float>(looks);
+    return looks;
   }
 
   /// Whether places spread over the filter are about as bright.
