@@ -181,6 +181,29 @@ TEST_CASE("sharing changes the noise alone: fog as neighbouring rays see it alik
   check_agree("thick", camera(3, 8) + soft_room() + thick + medium_box("m", "", everywhere), {}, 3);
 }
 
+// What mirrors and panes show is shared as what the camera sees: dark mirrors, whose paths roulette may end, bright ones behind
+// fog that neighbours receive all along their rays as well, and panes that some rays pass and others do not.
+TEST_CASE("sharing changes the noise alone: mirrors, and a room behind a pane") {
+  const auto mirror = [](const std::string& rgb) {
+    return block("Material \"conductor\" \"rgb reflectance\" [" + rgb +
+                 "] \"float roughness\" 0\n"
+                 "Shape \"bilinearmesh\" \"point3 P\" [-1.6 -1 1.9  1.2 -1 1.4  -1.6 1.4 1.9  1.2 1.4 1.4]\n");
+  };
+  const std::string pane = block(
+      "Material \"thindielectric\" \"float eta\" 2.2\n"
+      "Shape \"bilinearmesh\" \"point3 P\" [-3 -3 -3.2  3 -3 -3.4  -3 3 -3.2  3 3 -3.4]\n");
+  // Points alone: no light comes to walls by mirrors, where it would be rare and bright.
+  const std::string lit = room_without_lights() + point_light({-1.7f, 1.2f, 1.1f}, 3) + point_light({1.2f, -1, 0.6f}, 0.4f);
+  const std::string dark = lit + mirror("0.3 0.2 0.25"), bright = lit + mirror("0.9 0.95 1");
+  check_agree("mirror", camera(3, 30) + dark, {}, 1.5);
+  check_agree("pane", camera(6) + dark + pane, {}, 1.3);
+  const std::string fog = homogeneous("m", kThin) + medium_box("m", "", {{-3, -3, -5}, {3, 3, 3}});
+  check_agree("mirror in fog", camera(4, 30) + bright + fog, {}, 1.5);
+  const Coefficients thicker{.sigma_a = Rgb(0.25f), .sigma_s = {0.05f, 0.03f, 0.08f}, .g = 0.4f};
+  const std::string alike = homogeneous("m", thicker) + medium_box("m", "", {{-3, -3, -5}, {3, 3, 3}});
+  check_agree("as neighbouring rays see it alike", camera(3, 14) + bright + alike, {}, 1.5);
+}
+
 TEST_CASE("sharing changes the noise alone: smoke that leaves some ways open, from which paths are sent toward it") {
   Coefficients smoke = kThin;
   smoke.sigma_s = {3, 2, 1.5f};

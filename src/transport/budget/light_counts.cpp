@@ -58,14 +58,16 @@ LightBudget budget_of(const LightContext& context) {
 }
 
 LightCounts counts_at_bounce(const LightContext& context, bool glossy) {
-  LightCounts counts = context.bounce == 0 ? budget_of(context).vertex : context.bounce == 1 ? kSecondVertex : kLater;
+  LightCounts counts = context.smooth_bounces == 0   ? budget_of(context).vertex
+                       : context.smooth_bounces == 1 ? kSecondVertex
+                                                     : kLater;
   if (glossy)
     counts = {std::max(counts.candidates, kGlossyVertex.candidates), std::max(counts.shadow_rays, kGlossyVertex.shadow_rays)};
   return counts;
 }
 
 LightCounts counts_along_bounce(const LightContext& context) {
-  return context.bounce == 0 ? budget_of(context).span : context.bounce == 1 ? kSecondSpan : kLater;
+  return context.smooth_bounces == 0 ? budget_of(context).span : context.smooth_bounces == 1 ? kSecondSpan : kLater;
 }
 
 /// Where the strategy sizes its cuts itself.

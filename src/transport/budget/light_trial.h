@@ -77,7 +77,7 @@ struct SpentOn {
 /// known.
 template <typename Estimate>
 Rgb tried(const LightContext& context, SpentOn spent, Rgb beta, const Estimate& estimate) {
-  LightTrial* const trial = context.bounce == 0 ? context.trial : nullptr;
+  LightTrial* const trial = context.smooth_bounces == 0 ? context.trial : nullptr;
   if (!trial) return estimate(context, nullptr);
   const LightTrial before = *trial;
   const double begin = cost_so_far(context);

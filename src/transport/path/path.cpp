@@ -85,7 +85,7 @@ bool Path::scatter(const Vertex& vertex) {
   if (is_black(beta_) || (is_last_bounce(context_) && !context_.world.rays_find_lights())) return false;
 
   // What is aimed at lights weighs against the directions of this path alone.
-  const bool offered = depth_ == 2 && completes_collision();
+  const bool offered = is_scattered_by_find(depth_);
   const auto joint = offered ? std::nullopt : joint_search(context_, vertex);
   if (joint) add_estimate(beta_, joint_estimate(context_, vertex, *joint), depth_ + 1);
 
@@ -100,6 +100,7 @@ bool Path::scatter(const Vertex& vertex) {
   light_sampled_ = !s->specular && vertex.has_smooth();
   from_ = vertex.p();
   pdf_ = span_collision_ ? vertex.pdf(s->wi, Rgb(1.0f)) : s->pdf;
+  if (vertex.has_smooth()) ++context_.smooth_bounces;
   media_ = vertex.media_toward(context_.world.geometry, s->wi);
   ray_ = {vertex.origin(context_.world.geometry, s->wi), s->wi};
   context_.joint = joint ? &joint_.emplace(*joint, s->wi, vertex.pdf(s->wi, Rgb(1.0f))) : nullptr;
@@ -111,7 +112,7 @@ bool Path::scatter(const Vertex& vertex) {
 }
 
 bool Path::survive_roulette() {
-  if (depth_ <= 1) return true;
+  if (depth_ <= 1 || leaves_first()) return true;  // to what others receive all go by densities that these know
   const float survival = before_ * max_component(beta_) * eta_scale_ * guided_life(guided_pdf_ratio_) / kRouletteBelow;
   if (!(survival < 1)) return true;
   if (context_.sampler.next_wide() >= survival) return false;  // many bits, as survival may be next to nothing
@@ -165,7 +166,7 @@ int Path::narrow_to_channel() {
 
 /// Light that reached the camera after `bounces` bounces.
 void Path::add(Rgb contribution, int bounces) {
-  if (bounces == 2 && completes_collision()) {
+  if (is_scattered_by_find(bounces)) {
     offer_->own += contribution;
   } else if (bounces == 0) {
     record_.emission += contribution;
@@ -178,7 +179,7 @@ void Path::add(Rgb contribution, int bounces) {
 
 /// The same by light groups: where that light goes.
 GroupedLight::Sums& Path::sums_by_group(int bounces) {
-  return bounces == 2 && completes_collision() ? context_.groups->own : context_.groups->found;
+  return is_scattered_by_find(bounces) ? context_.groups->own : context_.groups->found;
 }
 
 /// Of several lights, times `factor`.

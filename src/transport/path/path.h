@@ -78,6 +78,8 @@ class Path {
 
   std::optional<Vertex> follow(std::optional<Vertex> vertex);
   bool may_offer(const Vertex& first) const;
+  bool leaves_first() const;
+  bool is_scattered_by_find(int bounces) const;
   bool may_share(const Vertex& first) const;
   const Span& receive_along(Span span, const Trace& trace);
   bool is_offered(const Vertex& second) const;

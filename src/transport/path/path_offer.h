@@ -13,11 +13,13 @@ inline constexpr std::size_t kMostSharing = 64;
 
 /// What the path met after its first bounce, a diffuse surface or a collision, and the light that is scattered there.
 struct PathOffer {
+  /// For bounce number context.bounce.
   PathOffer(const LightContext& context, const Vertex& vertex, Rgb throughput)
-      : first(vertex), directions(context, first), beta(throughput) {}
+      : first(vertex), bounces(context.bounce + 1), directions(context, first), beta(throughput) {}
   PathOffer(const PathOffer&) = delete;  // directions refers to first
 
-  Vertex first;           ///< of the first bounce
+  Vertex first;           ///< the first that spreads light
+  int bounces;            ///< with that at `first`: 1 where no mirror or pane is before it
   Directions directions;  ///< how the path went on from there
   Rgb beta;               ///< throughput before that bounce
 

@@ -41,7 +41,7 @@ void Path::complete_offer() {
   const Rgb scattered = offer_->at->on_surface() ? Rgb(1.0f) : offer_->scattered;
   offer_->radiance = divided(record_.radiance(), scattered);
   record_ = before;
-  add(offer_->arrived * offer_->own, 2);
+  add(offer_->arrived * offer_->own, offer_->bounces + 1);
   if (!groups) return;
   groups->end_find(found_before);
   for (Rgb& light : groups->find) light = divided(light, scattered);
@@ -55,7 +55,7 @@ PathOffer* Path::behind() {
   if (context_.world.materials.is_dispersive(context_.world.material_of(hit))) return nullptr;
   const Span& span = segment_->span();
   const Vertex vertex = vertex_at(hit, -span.ray.d, span.end);
-  context_.bounce = 0;
+  context_.bounce = context_.smooth_bounces = 0;
   return may_share(vertex) ? &behind_.emplace(context_, vertex, Rgb(1.0f)) : nullptr;
 }
 
@@ -71,9 +71,17 @@ void Path::take_at(float t, Rgb factor, const Path& finder) {
 
 bool Path::completes_collision() const { return sharing_ == Sharing::completing && !offer_->at->on_surface(); }
 
+/// At the first vertex that spreads light, which may be behind mirrors and panes; of collisions only on the camera's ray, along
+/// which others receive.
 bool Path::may_offer(const Vertex& first) const {
-  return sharing_ == Sharing::offering && depth_ == 1 && !channel_ && may_share(first);
+  if (sharing_ != Sharing::offering || context_.smooth_bounces > 0 || channel_) return false;
+  return (depth_ == 1 || (first.on_surface() && depth_ < limits_.max_depth)) && may_share(first);
 }
+
+/// It is at the vertex of its offer: the next may be a find.
+bool Path::leaves_first() const { return sharing_ == Sharing::offering && offer_ && depth_ == offer_->bounces; }
+/// Light of so many bounces is what the collision that it found scatters toward the first vertex: none but itself counts that.
+bool Path::is_scattered_by_find(int bounces) const { return completes_collision() && bounces == offer_->bounces + 1; }
 
 /// Not where dispersion has left a single channel: others want them all. Nor where they could not tell how likely the path
 /// went where it did.
@@ -82,8 +90,8 @@ bool Path::may_share(const Vertex& first) const { return limits_.max_depth > 1 &
 /// What the surface sends back must not depend on which of the paths looks at it. Of a collision's light only that of the
 /// next bounce and later is shared.
 bool Path::is_offered(const Vertex& second) const {
-  if (sharing_ != Sharing::offering || depth_ != 1 || !offer_ || !light_sampled_) return false;
-  return second.on_surface() ? second.surface()->bsdf.diffuse() : limits_.max_depth > 2;
+  if (!leaves_first() || !light_sampled_) return false;
+  return second.on_surface() ? second.surface()->bsdf.diffuse() : limits_.max_depth > offer_->bounces + 1;
 }
 
 }  // namespace tyndall

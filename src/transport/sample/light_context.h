@@ -23,6 +23,7 @@ struct LightContext {
   Sampler& sampler;
   Counters& counters;
   int bounce = 0;           ///< bounces of the path before this vertex
+  int smooth_bounces = 0;   ///< of these the ones at vertices that spread light; mirrors and panes show what is behind as it is
   float guided_weight = 1;  ///< of the path there, from being guided
   /// Among all lights, where media that emit are sought at all.
   const LightSelector* selector_with_volumes = nullptr;

@@ -34,6 +34,7 @@ Connection scattered_back(const PathOffer& find, Vec3 w) {
 }
 
 Connection connect(const PathOffer& from, const PathOffer& find) {
+  if (from.bounces != find.bounces) return {};
   const Vec3 v = find.at->p() - from.first.p();
   const float d2 = length_squared(v);
   if (!(d2 > 0)) return {};

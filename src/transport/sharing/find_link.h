@@ -23,7 +23,8 @@ struct Connection {
 };
 /// What the find scatters back along `w`, which points to it, and how likely: the factors of a Connection that are the find's.
 Connection scattered_back(const PathOffer& find, Vec3 w);
-/// By the path of `from`, from its first vertex; without visibility.
+/// By the path of `from`, from its first vertex; without visibility. Nothing after another number of bounces, which leaves
+/// others of the most that paths have.
 Connection connect(const PathOffer& from, const PathOffer& find);
 
 /// What lies in between.

@@ -28,7 +28,7 @@ void VertexShares::add_behind(Path& path) {
   PathOffer* const offer = arrived ? &path.offer() : path.behind();
   if (!offer) return;
   CameraSegment* const segment = path.segment();
-  if (!segment) return add_arrived(path);
+  if (!segment || offer->bounces > 1) return add_arrived(path);
   const Rgb T = segment->transmittance(between_.transmittance, between_.counters.tracking);
   receivers_.push_back({&path, offer, arrived, segment->chance_of_passing(), T});
 }

@@ -19,7 +19,7 @@ float guided_pdf_ratio(float pdf, float scattered) {
 bool guides(const LightContext& context, const Vertex& vertex) {
   if (context.settings.guiding == GuidingStrategy::off || context.world.bright_media.empty()) return false;
   const bool all = context.world.bright_media.emission_share() > 0 && !seeks_volume_lights(context);
-  return (context.bounce == 0 || all) && !is_last_bounce(context) && vertex.on_surface() && vertex.has_smooth();
+  return (context.smooth_bounces == 0 || all) && !is_last_bounce(context) && vertex.on_surface() && vertex.has_smooth();
 }
 
 /// What goes on from the last bounce finds lights alone, which is what next-event estimation is for.

@@ -39,8 +39,13 @@ class Counted {
     return text;
   }
   LightContext context(const RenderSettings& settings, int bounce) {
-    LightContext context{
-        world_.parts().built, world_.parts().built.lights.selector(settings.lights), settings, sampler_, counters_, bounce};
+    LightContext context{world_.parts().built,
+                         world_.parts().built.lights.selector(settings.lights),
+                         settings,
+                         sampler_,
+                         counters_,
+                         bounce,
+                         bounce};
     context.budget = measured;
     return context;
   }

@@ -34,7 +34,8 @@ class Collision {
   }
   Directions directions(const RenderSettings& settings = {}, int bounce = 1, float guided_weight = 1) {
     const BuiltWorld& built = world_.parts().built;
-    return {LightContext{built, built.lights.selector(settings.lights), settings, sampler_, counters_, bounce, guided_weight},
+    return {LightContext{built, built.lights.selector(settings.lights), settings, sampler_, counters_, bounce, bounce,
+                         guided_weight},
             *vertex_};
   }
   const Vertex& vertex() const { return *vertex_; }
