@@ -8,6 +8,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tyndall/deep_image.h"
@@ -90,6 +91,28 @@ struct AskedLights {
 };
 
 /// Counts of a render. A correct render has 0 in the second group.
+/// What a render's work went into, as its counts say at prices that are the same on every machine; in a report fractions of
+/// all.
+struct WorkParts {
+  double paths = 0;           ///< rays from vertex to vertex, with what is done at these
+  double media = 0;           ///< read along them and along shadow rays
+  double vertex_lights = 0;   ///< choosing lights at vertices
+  double segment_lights = 0;  ///< choosing lights and places for them along segments through media
+  double shadow_rays = 0;
+  double sharing = 0;  ///< connecting paths with what neighbouring pixels have found
+  double guiding = 0;  ///< of directions
+};
+
+/// Under their names.
+inline constexpr std::array<std::pair<const char*, double WorkParts::*>, 7> kWorkParts{
+    {{"paths", &WorkParts::paths},
+     {"media", &WorkParts::media},
+     {"vertex_lights", &WorkParts::vertex_lights},
+     {"segment_lights", &WorkParts::segment_lights},
+     {"shadow_rays", &WorkParts::shadow_rays},
+     {"sharing", &WorkParts::sharing},
+     {"guiding", &WorkParts::guiding}}};
+
 struct RenderReport {
   int samples = 0;                          ///< per pixel, done; with RenderSettings::adaptive the work of so many everywhere
   int least_samples = 0, most_samples = 0;  ///< of any pixel
@@ -105,6 +128,7 @@ struct RenderReport {
   /// chosen along segments, instead of at collisions (RenderSettings::media); and whether paths are guided.
   std::optional<bool> sharing, collisions_shared, emission_sought, pairs, guiding;
   std::uint64_t paths = 0, rays = 0, shadow_rays = 0, density_lookups = 0;
+  WorkParts work;  ///< all 0 before the first sample
 
   std::uint64_t non_finite = 0, majorant_violations = 0, caps_hit = 0, parity_errors = 0;
   std::vector<BadSample> bad_samples;  ///< the first 16

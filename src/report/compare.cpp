@@ -115,6 +115,13 @@ Image sample_counts_of(const Image& image, const RenderReport& report) {
   return counts;
 }
 
+WorkParts mean_work(const Runs& runs) {
+  WorkParts mean;
+  for (const auto& [name, part] : kWorkParts)
+    mean.*part = mean_of(runs, [p = part](const RaceRun& r) { return r.report.work.*p; });
+  return mean;
+}
+
 VariantResult summarize(const CompareVariant& variant, const Runs& runs, double noise) {
   VariantResult v;
   v.name = variant.name;
@@ -177,7 +184,7 @@ std::vector<std::size_t> entrants(const std::vector<Runs>& runs, std::size_t eac
   return in;
 }
 
-/// One picture a variant is shown, without what only the filter takes.
+/// One picture a variant is shown, without what only the filter and ErrorParts take.
 void add_run(RaceRun run, Runs& runs) {
   if (!runs.empty()) run.image = {};
   static const std::set<std::string> kept{"R", "G", "B", "A", "Variance.R", "Variance.G", "Variance.B", "SampleCount"};
@@ -185,21 +192,35 @@ void add_run(RaceRun run, Runs& runs) {
   runs.push_back(std::move(run));
 }
 
-/// False: stopped; `runs` is as before.
-bool run_seed(const World& world, const ComparePlan& plan, std::uint64_t seed, const RaceControl& control,
-              std::vector<Runs>& runs) {
+/// Of all variants that are shown, and of those of the plan.
+struct AllRuns {
+  std::vector<Runs> runs;
+  std::vector<ErrorParts> parts;
+};
+
+/// AOVs of a run: its filter's, and what its error is told by.
+std::vector<std::string> aovs_for(const CompareFilter& filter) {
+  std::set<std::string> aovs(filter.aovs.begin(), filter.aovs.end());
+  aovs.insert(kLightParts.begin(), kLightParts.end());
+  aovs.insert("Variance");
+  return {aovs.begin(), aovs.end()};
+}
+
+/// False: stopped; `all` is as before.
+bool run_seed(const World& world, const ComparePlan& plan, std::uint64_t seed, const RaceControl& control, AllRuns& all) {
   const std::size_t each = plan.filter.apply ? 2 : 1;
+  auto& runs = all.runs;
   const auto in = entrants(runs, each);
   std::vector<RenderSettings> methods;
   for (const std::size_t i : in) {
     methods.push_back(plan.variants[i].settings);
     methods.back().seed = seed;
-    methods.back().aovs = plan.filter.aovs;
-    methods.back().aovs.push_back("Variance");
+    methods.back().aovs = aovs_for(plan.filter);
   }
   auto results = race(world, methods, plan.budget, control);
   if (results.empty()) return false;
   for (std::size_t k = 0; k < in.size(); ++k) {
+    all.parts[in[k]].add(results[k].image);
     if (each == 2) add_run(filtered_run(results[k]), runs[2 * in[k] + 1]);
     add_run(std::move(results[k]), runs[each * in[k]]);
   }
@@ -259,16 +280,17 @@ BuildSettings with_needs_of(const ComparePlan& plan, const RenderSettings& base,
 
 CompareResult compare(const World& world, const ComparePlan& plan, const Reference& reference, const CompareControl& control) {
   const std::vector<CompareVariant> shown = shown_variants(plan);
-  std::vector<Runs> runs(shown.size());
+  AllRuns all{std::vector<Runs>(shown.size()), std::vector<ErrorParts>(plan.variants.size(), ErrorParts(reference.image))};
+  std::vector<Runs>& runs = all.runs;
   CompareResult result;
   for (const std::uint64_t seed : plan.seeds) {
-    const auto done = static_cast<double>(result.seeds_done), all = static_cast<double>(plan.seeds.size());
+    const auto done = static_cast<double>(result.seeds_done), planned = static_cast<double>(plan.seeds.size());
     const auto progress = [&](double fraction) {
-      if (control.progress) control.progress((done + fraction) / all);
+      if (control.progress) control.progress((done + fraction) / planned);
     };
     const auto measure = [&](const Image& image) { return reference.error_of(image); };
     if (!run_seed(world, plan, seed,
-                  {.measure = measure, .filter = plan.filter.apply, .progress = progress, .stop = control.stop}, runs))
+                  {.measure = measure, .filter = plan.filter.apply, .progress = progress, .stop = control.stop}, all))
       break;
     ++result.seeds_done;
   }
@@ -278,6 +300,9 @@ CompareResult compare(const World& world, const ComparePlan& plan, const Referen
     if (plan.filter.apply && i % 2 == 1) {
       v.as_rendered = shown[i - 1].name;
       v.sample_counts = {};  // as it tells
+    } else if (!v.given_up) {
+      v.work = mean_work(runs[i]);
+      v.error_parts = all.parts[plan.filter.apply ? i / 2 : i].shares();
     }
     v.build_seconds = build_seconds_of(world, shown[i].settings.lights);
     if (!v.given_up && !runs.front().back().given_up) add_efficiency(runs.front(), runs[i], v);

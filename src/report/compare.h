@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "report/efficiency.h"
+#include "report/error_parts.h"
 #include "report/race.h"
 #include "report/reference.h"
 
@@ -54,8 +55,10 @@ struct VariantResult {
   std::optional<ConfidenceInterval> slope_samples;                   ///< against log samples: without the machine's moods
   std::optional<ConfidenceInterval> efficiency, efficiency_trimmed;  ///< relative to the first variant
   std::array<double, 3> mean_rgb{};
-  Image image;          ///< of the first seed
-  Image sample_counts;  ///< Y: samples of its pixels, where they differ; else empty
+  Image image;                                    ///< of the first seed
+  Image sample_counts;                            ///< Y: samples of its pixels, where they differ; else empty
+  std::optional<WorkParts> work;                  ///< mean over the seeds, fractions of 1; of pictures as rendered
+  std::optional<ErrorParts::Shares> error_parts;  ///< likewise, from two seeds on
   std::uint64_t non_finite = 0, majorant_violations = 0, caps_hit = 0, parity_errors = 0;
   bool given_up = false;
 

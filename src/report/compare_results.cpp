@@ -44,6 +44,20 @@ Json curve_json(const VariantResult& v) {
   return points;
 }
 
+Json work_json(const std::optional<WorkParts>& work) {
+  if (!work) return nullptr;
+  Json j;
+  for (const auto& [name, part] : kWorkParts) j[name] = number((*work).*part);
+  return j;
+}
+
+Json parts_json(const std::optional<ErrorParts::Shares>& shares) {
+  if (!shares) return nullptr;
+  Json j;
+  for (std::size_t i = 0; i < kLightParts.size(); ++i) j[kLightParts[i]] = number((*shares)[i]);
+  return j;
+}
+
 Json variant_json(const VariantResult& v) {
   const auto known = [&](double value) { return v.given_up ? Json(nullptr) : number(value); };
   const auto part = [](const std::optional<ConfidenceInterval>& i, double ConfidenceInterval::*member) {
@@ -70,6 +84,8 @@ Json variant_json(const VariantResult& v) {
   j["slope_note"] = v.slope_note();
   j["efficiency"] = interval(v.efficiency);
   j["efficiency_trimmed"] = interval(v.efficiency_trimmed);
+  j["work"] = work_json(v.work);
+  j["error_parts"] = parts_json(v.error_parts);
   j["mean_rgb"] = v.given_up ? Json(nullptr) : Json(v.mean_rgb);
   j["image"] = v.given_up ? Json(nullptr) : Json(picture_file(v.name));
   j["health"] = {{"non_finite", v.non_finite},

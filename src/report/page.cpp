@@ -114,8 +114,8 @@ struct PageText {
 
 std::string page(const PageText& text, const ordered_json& results, const std::vector<PagePicture>& pictures) {
   const std::string script = joined({"dom.js", "format.js", "pictures.js", "tone.js", "view.js", "viewer.js", "viewer_wipe.js",
-                                     "viewer_input.js", "viewer_controls.js", "table.js", "plot_axes.js", "plot.js", "sheet.js",
-                                     "facts.js", "theme.js", "live_picture.js", text.own_script});
+                                     "viewer_input.js", "viewer_controls.js", "table.js", "parts.js", "plot_axes.js", "plot.js",
+                                     "sheet.js", "facts.js", "theme.js", "live_picture.js", text.own_script});
   return fill(part("page.html"), {{"title", escape_html(text.title)},
                                   {"style", joined({"page.css", "viewer.css", "live.css", "print.css"})},
                                   {"results", embedded_json(results)},

@@ -10,6 +10,7 @@
 #include "session/block_grid.h"
 #include "session/flush_denormals.h"
 #include "session/relative_error.h"
+#include "transport/sample/prices.h"
 
 namespace tyndall {
 namespace {

@@ -18,6 +18,7 @@
 #include "session/slice.h"
 #include "session/unrendered.h"
 #include "transport/sample/counters.h"
+#include "transport/sample/prices.h"
 #include "tyndall/timer.h"
 
 namespace tyndall {
@@ -35,8 +36,11 @@ PixelBounds full_crop(const Scene& scene, const RenderSettings& settings) {
   return crop;
 }
 
-RenderReport report_of(const Counters& counters) {
+RenderReport report_of(const Counters& counters, const Prices& prices) {
   RenderReport r;
+  r.work = prices.parts(counters);
+  const double all = prices.of(counters);
+  for (const auto& [name, part] : kWorkParts) r.work.*part /= all > 0 ? all : 1;
   r.paths = counters.paths;
   r.rays = counters.rays;
   r.shadow_rays = counters.shadow_rays;
@@ -195,7 +199,7 @@ class RenderJob::Impl {
  private:
   /// Without the error, which takes a look at all pixels.
   RenderReport counted() const {
-    RenderReport r = report_of(counters_);
+    RenderReport r = report_of(counters_, Prices(world_.built.lights.size()));
     r.samples = samples_;
     r.least_samples = r.most_samples = samples_;
     if (plan_) std::tie(r.least_samples, r.most_samples) = plan_->range(samples_);

@@ -62,8 +62,8 @@ function checkNumbers(required) {
   const wrong = data.filter((span) => span.dataset.value !== JSON.stringify(value(span.dataset.path) ?? null));
   check('values equal the JSON', wrong.length === 0, wrong.map((span) => span.dataset.path).slice(0, 3).join(' '));
   const misread = data.filter((span) => {
-    const number = value(span.dataset.path);
-    return typeof number === 'number' && !(Math.abs(parseFloat(span.textContent) - number) <= 0.0051 * Math.abs(number));
+    const number = value(span.dataset.path), unit = span.textContent.endsWith('%') ? 0.01 : 1;
+    return typeof number === 'number' && !(Math.abs(parseFloat(span.textContent) * unit - number) <= 0.0051 * Math.abs(number));
   });
   check(
       'numbers read as they are', misread.length === 0,

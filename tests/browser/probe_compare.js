@@ -9,6 +9,7 @@ function requiredPaths() {
   const rest = [
     'scene', 'version', 'machine.cpu', 'machine.threads', 'settings.seeds', 'settings.options', 'settings.command',
     'settings.eps', 'reference.source', 'reference.samples', 'reference.relmse', 'warnings.0', 'warnings.1',
+    'variants.0.work.paths', 'variants.0.work.shadow_rays', 'variants.0.error_parts.SurfaceIndirect',
     'variants.3.health.non_finite', 'variants.1.least_samples', 'variants.1.most_samples'
   ];
   return [...RESULTS.variants.flatMap((_, i) => fields.map((field) => `variants.${i}.${field}`)), ...rest];

@@ -7,7 +7,7 @@ small="--resolution 24x16 --spp 16 --reference-error 0.003"
 # Every preset, each with the strategies that exist.
 expect 0 "$T" compare s.pbrt --variants lights $small -o report
 for file in index.html results.json error.csv reference.exr uniform.exr tree-binary.exr; do [ -s report/$file ] || fail "no report/$file"; done
-for key in scene reference machine variants name options samples seconds relmse slope efficiency efficiency_trimmed relative low high mean_rgb checkpoints mse; do
+for key in scene reference machine variants name options samples seconds relmse slope efficiency efficiency_trimmed relative low high mean_rgb checkpoints mse work paths shadow_rays error_parts SurfaceIndirect; do
   says "\"$key\"" report/results.json
 done
 for name in uniform power exhaustive tree tree-binary cycles-rule lightcuts cells; do says "\"name\": \"$name\"" report/results.json; done

@@ -208,7 +208,7 @@ function comparePage() {
               element(
                   'p', {class: 'note'},
                   'Efficiency is 1 / (MSE × time) relative to the first variant, with a 95 % interval over the seeds; build time is not in it. A click on a header sorts.')),
-          pictureSection(),
+          partsSection(), pictureSection(),
           section(
               'How it was measured', element('div', {class: 'fact-lists'}, settingsFacts(), referenceFacts(), machineFacts()),
               commandLine('settings.command'))]

@@ -30,7 +30,7 @@ class SortableTable {
   constructor(caption, columns, rows, detail = null) {
     this.columns = columns;
     this.entries = rows.map((row) => this.entry(row, detail));
-    this.body = element('tbody');
+    this.body = element('tbody', {}, this.entries.flatMap((entry) => entry.rows));
     this.headers = columns.map((column, i) => this.header(column, i));
     this.root = element(
         'div', {class: 'table', tabindex: 0, role: 'region', 'aria-label': caption},

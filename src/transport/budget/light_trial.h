@@ -6,6 +6,7 @@
 
 #include "transport/budget/light_budget.h"
 #include "transport/sample/light_context.h"
+#include "transport/sample/prices.h"
 
 namespace tyndall {
 

@@ -1,8 +1,7 @@
-/// What one thread counts while it renders, and what that costs.
+/// What one thread counts while it renders.
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <tuple>
@@ -51,27 +50,6 @@ struct Counters {
     if (!other.bad_samples.empty()) trim_bad_samples();
     return *this;
   }
-};
-
-/// Costs by counts: choices made by clocks would not give the same picture twice. About ns of one core, and up to a factor that
-/// depends on the scene (docs/measurements.md); of a light drawn for a vertex, down a tree of so many.
-class Prices {
- public:
-  explicit Prices(std::size_t lights) : levels_(std::log2(static_cast<double>(lights) + 1)) {}
-
-  double of(const Counters& c) const {
-    constexpr double kRay = 960, kGuided = 410, kConnection = 90;
-    constexpr double kChoice = 340, kCandidate = 32, kShadowRay = 200, kSegment = 1940, kPlace = 1340;
-    constexpr double kPiece = 130, kLookup = 18, kNoiseLookup = 270;  // noise: what it costs more
-    const auto cost = [](double price, std::uint64_t count) { return price * static_cast<double>(count); };
-    return cost(kRay, c.rays) + cost(kGuided, c.guided) + cost(kConnection, c.connections) + cost(kChoice, c.choices) +
-           levels_ * cost(kCandidate, c.candidates) + cost(kShadowRay, c.shadow_rays) + cost(kSegment, c.segments) +
-           cost(kPlace, c.places) + cost(kPiece, c.tracking.segments) + cost(kLookup, c.tracking.lookups) +
-           cost(kNoiseLookup, c.tracking.noise_lookups);
-  }
-
- private:
-  double levels_;
 };
 
 }  // namespace tyndall

@@ -42,6 +42,26 @@ TEST_CASE("a job gives the same picture however it is advanced, and the one that
   CHECK(one.report().paths == many.report().paths);
 }
 
+TEST_CASE("shares of a render's work are of what it did, and add up to all of it") {
+  const World world = world_of();
+  RenderSettings settings = settings_of(1);
+  settings.reuse = ReuseStrategy::off;
+  RenderJob job(world, settings);
+  const auto sum = [&] {
+    double all = 0;
+    for (const auto& [name, part] : kWorkParts) all += job.report().work.*part;
+    return all;
+  };
+  CHECK(sum() == 0);
+  job.advance(2);
+  CHECK(sum() == doctest::Approx(1));
+  const WorkParts work = job.report().work;
+  CHECK(work.paths > 0.1);
+  CHECK(work.vertex_lights > 0.01);
+  CHECK(work.shadow_rays > 0.01);
+  for (const double none : {work.media, work.segment_lights, work.sharing, work.guiding}) CHECK(none == 0);
+}
+
 TEST_CASE("a path that scatters between a boundary and a surface right behind it keeps its place") {
   // The gap is less than the surface's place is known to, for its size. Who scatters in it is on the wrong side of the
   // boundary, enters the medium a second time on the way back, and never leaves it.
