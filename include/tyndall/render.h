@@ -90,7 +90,6 @@ struct AskedLights {
   int candidates = 0, shadow_rays = 0;
 };
 
-/// Counts of a render. A correct render has 0 in the second group.
 /// What a render's work went into, as its counts say at prices that are the same on every machine; in a report fractions of
 /// all.
 struct WorkParts {
@@ -113,6 +112,7 @@ inline constexpr std::array<std::pair<const char*, double WorkParts::*>, 7> kWor
      {"sharing", &WorkParts::sharing},
      {"guiding", &WorkParts::guiding}}};
 
+/// Counts of a render. A correct render has 0 in the second group.
 struct RenderReport {
   int samples = 0;                          ///< per pixel, done; with RenderSettings::adaptive the work of so many everywhere
   int least_samples = 0, most_samples = 0;  ///< of any pixel

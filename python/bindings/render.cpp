@@ -21,13 +21,15 @@ py::dict from_report(const RenderReport& r) {
     if (!a) return py::none();
     return py::make_tuple(a->candidates, a->shadow_rays);
   };
+  py::dict work;
+  for (const auto& [name, part] : kWorkParts) work[name] = r.work.*part;
   return py::dict("samples"_a = r.samples, "seconds"_a = r.seconds, "stopped"_a = r.stopped, "paths"_a = r.paths,
                   "rays"_a = r.rays, "shadow_rays"_a = r.shadow_rays, "density_lookups"_a = r.density_lookups,
                   "non_finite"_a = r.non_finite, "majorant_violations"_a = r.majorant_violations, "caps_hit"_a = r.caps_hit,
                   "parity_errors"_a = r.parity_errors, "at_vertices"_a = asked(r.at_vertices),
                   "along_segments"_a = asked(r.along_segments), "sharing"_a = r.sharing,
                   "collisions_shared"_a = r.collisions_shared, "emission_sought"_a = r.emission_sought, "pairs"_a = r.pairs,
-                  "guiding"_a = r.guiding, "bad_samples"_a = bad);
+                  "guiding"_a = r.guiding, "work"_a = work, "bad_samples"_a = bad);
 }
 
 /// (image, report)

@@ -9,7 +9,9 @@
 namespace tyndall {
 namespace {
 
-const std::vector<float>& values_of(const Image& image, const std::string& name) { return image.find(name)->values; }
+const std::vector<float>& values_of(const Image& image, const std::string& name) {
+  return required_channel(image, name).values;
+}
 
 /// Sum of squared differences, each over the reference's square.
 double relative_difference(const std::vector<float>& a, const std::vector<float>& b, const std::vector<float>& reference) {

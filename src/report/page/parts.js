@@ -61,5 +61,5 @@ function partsSection() {
       'What time and error go into', work, error,
       element(
           'p', {class: 'note'},
-          'Time by what was counted, at prices that are the same on every machine. Error as the variance from seed to seed of each kind of light, relative as relMSE is; from two seeds on.'));
+          'Time by what rendering counted, at prices that are the same on every machine. Error as the variance from seed to seed of each kind of light, relative as relMSE is; from two seeds on.'));
 }

@@ -41,6 +41,7 @@ Path::Path(const Path& camera, const Beyond& beyond)
       seen_(beyond.seen),
       record_(camera.record_) {
   context_.joint = nullptr;
+  context_.smooth_bounces = 0;  // wherever the other went after its collision
 }
 
 PathRecord Path::run_beyond(const Trace& trace) {

@@ -11,7 +11,8 @@ namespace tyndall {
 /// Most paths that share.
 inline constexpr std::size_t kMostSharing = 64;
 
-/// What the path met after its first bounce, a diffuse surface or a collision, and the light that is scattered there.
+/// What the path met after its first vertex that spreads light, a diffuse surface or a collision, and the light that is
+/// scattered there.
 struct PathOffer {
   /// For bounce number context.bounce.
   PathOffer(const LightContext& context, const Vertex& vertex, Rgb throughput)

@@ -2,7 +2,7 @@
 ///
 /// Neighbours see much the same, yet each path looks in one direction. What its ray from the first vertex meets, a diffuse
 /// surface or a collision in a medium, is received by the pixels of the other paths too, whose paths might have met it as
-/// well: on the surfaces that they see (surface_shares.h) or anywhere along their rays through media (segment_shares.h). A
+/// well: on the surfaces that they see (vertex_shares.h) or anywhere along their rays through media (segment_shares.h). A
 /// connection costs a shadow ray whatever it brings: finds that are worth little play roulette.
 #pragma once
 

@@ -28,6 +28,7 @@ class Counted {
   }
 
   const LightBudget* measured = nullptr;
+  int mirrors = 0;  ///< of the bounces
 
   CutSettings cut(const RenderSettings& settings, int candidates) { return cut_settings(context(settings, 0), candidates); }
 
@@ -39,13 +40,9 @@ class Counted {
     return text;
   }
   LightContext context(const RenderSettings& settings, int bounce) {
-    LightContext context{world_.parts().built,
-                         world_.parts().built.lights.selector(settings.lights),
-                         settings,
-                         sampler_,
-                         counters_,
-                         bounce,
-                         bounce};
+    LightContext context{
+        world_.parts().built, world_.parts().built.lights.selector(settings.lights), settings, sampler_, counters_, bounce,
+        bounce - mirrors};
     context.budget = measured;
     return context;
   }
@@ -75,6 +72,17 @@ TEST_CASE("single scattering has more candidates, and so have glossy surfaces") 
   check(many.vertex(direct, 0), 8, 4);
   check(many.vertex(direct, 0, 0.9f), 8, 4);
   check(many.span(direct, 0, 0.5f), 16, 8);
+}
+
+TEST_CASE("what mirrors show has the numbers of what the camera sees") {
+  Counted many(8, true);
+  const LightBudget budget{{7, 5}, {6, 4}};
+  many.measured = &budget;
+  many.mirrors = 1;
+  check(many.vertex({}, 1), 7, 5);
+  check(many.span({}, 1, 0.5f), 6, 4);
+  check(many.vertex({}, 2), 2, 2);
+  check(many.vertex({}, 3), 1, 1);
 }
 
 TEST_CASE("segments that scatter next to nothing have one candidate") { check(Counted(3, true).span({}, 0, 0.9e-3f), 1, 1); }
