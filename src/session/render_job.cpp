@@ -12,6 +12,7 @@
 #include "session/matte_layers.h"
 #include "session/pilot.h"
 #include "session/render_pass.h"
+#include "session/render_report.h"
 #include "session/resolved_settings.h"
 #include "session/sample_plan.h"
 #include "session/scene_hash.h"
@@ -34,23 +35,6 @@ PixelBounds full_crop(const Scene& scene, const RenderSettings& settings) {
                                     " frame; give x0,x1,y0,y1 inside it");
   }
   return crop;
-}
-
-RenderReport report_of(const Counters& counters, const Prices& prices) {
-  RenderReport r;
-  r.work = prices.parts(counters);
-  const double all = prices.of(counters);
-  for (const auto& [name, part] : kWorkParts) r.work.*part /= all > 0 ? all : 1;
-  r.paths = counters.paths;
-  r.rays = counters.rays;
-  r.shadow_rays = counters.shadow_rays;
-  r.density_lookups = counters.tracking.lookups;
-  r.non_finite = counters.non_finite;
-  r.majorant_violations = counters.tracking.majorant_violations;
-  r.caps_hit = counters.tracking.caps_hit;
-  r.parity_errors = counters.parity_errors;
-  r.bad_samples = counters.bad_samples;
-  return r;
 }
 
 }  // namespace
@@ -204,21 +188,10 @@ class RenderJob::Impl {
     r.least_samples = r.most_samples = samples_;
     if (plan_) std::tie(r.least_samples, r.most_samples) = plan_->range(samples_);
     r.seconds = seconds_;
-    if (budget_) r.collisions_shared = budget_->collisions_shared;
-    if (searched_) report_choices(r);
-    if (budget_ && budget_->counts_measured) {
-      r.at_vertices = {budget_->vertex.candidates, budget_->vertex.shadow_rays};
-      r.along_segments = {budget_->span.candidates, budget_->span.shadow_rays};
-    }
+    if (budget_) report_budget(*budget_, r);
+    if (searched_) report_choices(open_, decided_, r);
     for (const PixelBounds& tile : unrendered_) r.unrendered += static_cast<std::uint64_t>(tile.width()) * tile.height();
     return r;
-  }
-
-  void report_choices(RenderReport& r) const {
-    if (open_.sharing) r.sharing = decided_.reuse == ReuseStrategy::pixels;
-    if (open_.emission) r.emission_sought = decided_.emission != EmissionStrategy::paths;
-    if (open_.pairs) r.pairs = decided_.media != MediaStrategy::vertex;
-    if (open_.guiding) r.guiding = decided_.guiding == GuidingStrategy::media;
   }
 
   /// What depends on no sample.

@@ -32,8 +32,8 @@ class Path {
   /// To its end.
   void run();
 
-  /// In place of run(), where paths share what they find beyond their first bounce (suffix_reuse.h): the path goes until it
-  /// ends, or stands at a vertex that others may see as well.
+  /// In place of run(), where paths share what they find beyond their first vertex that spreads light (suffix_reuse.h): the
+  /// path goes until it ends, or stands at a vertex that others may see as well.
   void run_until_offer();
   bool offers() const { return offer_.has_value(); }  ///< else it has nothing to offer
   PathOffer& offer() { return *offer_; }

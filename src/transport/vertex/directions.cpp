@@ -14,8 +14,8 @@ float guided_pdf_ratio(float pdf, float scattered) {
   return scattered > 0 ? std::min(pdf / scattered, kMost) : kMost;
 }
 
-/// The first bounce only: later ones contribute a smaller share of the picture (docs/measurements.md). All where volume
-/// emission is found by such rays alone.
+/// At the first vertex that spreads light only: later ones contribute a smaller share of the picture (docs/measurements.md).
+/// All where volume emission is found by such rays alone.
 bool guides(const LightContext& context, const Vertex& vertex) {
   if (context.settings.guiding == GuidingStrategy::off || context.world.bright_media.empty()) return false;
   const bool all = context.world.bright_media.emission_share() > 0 && !seeks_volume_lights(context);
