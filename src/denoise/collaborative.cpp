@@ -37,25 +37,25 @@ class TileSums {
 /// All fits of a tile.
 class TileFits {
  public:
-  TileFits(const Halves& halves, const std::vector<const PaddedPlane*>& features)
+  TileFits(const Halves& halves, const FeatureHalves& features)
       : halves_(halves),
         distances_{PatchDistances(kWindow, kPatch), PatchDistances(kWindow, kPatch)},
-        explanation_(kWindow, features),
+        explanations_{Explanation(kWindow, features[0]), Explanation(kWindow, features[1])},
         targets_{WindowColumns(kWindow, 3), WindowColumns(kWindow, 3)},
         fitted_(kWindow, 3),
-        regression_(kWindow, 3 + features.size()),
+        regression_(kWindow, 3 + features[0].size()),
         weights_(static_cast<std::size_t>(kWindow.padded())) {}
 
   void run(const CentreGrid& centres, TileSums& sums) {
     for (std::size_t h = 0; h < 2; ++h) distances_[h].compute(guide_of(h), centres);
     for (int centre = 0; centre < centres.count(); ++centre) {
       const int x = centres.x(centre), y = centres.y(centre);
-      explanation_.move_to(x, y);
       for (std::size_t h = 0; h < 2; ++h) {
+        explanations_[h].move_to(x, y);
         for (std::size_t c = 0; c < 3; ++c) targets_[h].load(c, halves_.values[h][c], x, y);
         for (std::size_t k = 0; k < kBandwidths.size(); ++k) {
           distances_[h].weights(centre, kBandwidths[k], weights_);
-          const float leverage = regression_.fit(explanation_.columns(), targets_[h], weights_, fitted_);
+          const float leverage = regression_.fit(explanations_[h].columns(), targets_[h], weights_, fitted_);
           splat(leverage, {x % kTile, y % kTile}, h * kBandwidths.size() + k, sums);
         }
       }
@@ -94,7 +94,7 @@ class TileFits {
 
   const Halves& halves_;
   std::array<PatchDistances, 2> distances_;
-  Explanation explanation_;
+  std::array<Explanation, 2> explanations_;
   std::array<WindowColumns, 2> targets_;
   WindowColumns fitted_;
   Regression regression_;
@@ -152,7 +152,7 @@ void normalise(const ColorPlanes& half, Filtered& filtered, const PaddedPlane& w
 
 }  // namespace
 
-FilteredHalves regress(const Halves& halves, const std::vector<const PaddedPlane*>& features, ThreadPool& pool) {
+FilteredHalves regress(const Halves& halves, const FeatureHalves& features, ThreadPool& pool) {
   const int width = halves.width(), height = halves.height();
   const Tiles tiles(width, height);
   std::vector<PaddedPlane> picture(kFits * kSums, PaddedPlane(width, height));

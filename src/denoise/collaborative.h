@@ -19,7 +19,10 @@ inline constexpr std::array kBandwidths{0.5f, 1.0f};
 /// By half, then by bandwidth.
 using FilteredHalves = std::array<std::array<Filtered, kBandwidths.size()>, 2>;
 
+/// What explains each half.
+using FeatureHalves = std::array<std::vector<const PaddedPlane*>, 2>;
+
 /// Each half filtered with weights of its own, so that the other knows nothing of the result and can judge it.
-FilteredHalves regress(const Halves& halves, const std::vector<const PaddedPlane*>& features, ThreadPool& pool);
+FilteredHalves regress(const Halves& halves, const FeatureHalves& features, ThreadPool& pool);
 
 }  // namespace tyndall

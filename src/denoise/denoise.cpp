@@ -8,6 +8,7 @@
 #include "denoise/inputs.h"
 #include "denoise/selection.h"
 #include "denoise/share_out.h"
+#include "denoise/stated_errors.h"
 #include "denoise/variance.h"
 #include "tyndall/timer.h"
 
@@ -18,32 +19,37 @@ namespace {
 constexpr int kNoise = 3, kOutline = 1;
 constexpr float kClear = 0.999f;  ///< transmittance of as good as nothing
 
-/// Features without their noise.
+/// Features without their noise, by half.
 struct CleanFeatures {
-  std::vector<PaddedPlane> surfaces, media;
+  std::array<std::vector<PaddedPlane>, 2> surfaces, media;
   PaddedPlane clear;  ///< 1 where no medium is before the surface, else 0; empty when that is not known
 
   CleanFeatures(const FeatureInputs& inputs, ThreadPool& pool) {
-    const auto add = [&](const std::vector<Feature>& from, std::vector<PaddedPlane>& to) {
+    const auto add = [&](const std::vector<Feature>& from, std::array<std::vector<PaddedPlane>, 2>& to) {
       for (const Feature& feature : from) {
-        for (PaddedPlane& plane : prefiltered(feature, pool)) to.push_back(std::move(plane));
+        Feature clean = prefiltered(feature, pool);
+        for (std::size_t h = 0; h < 2; ++h) {
+          for (PaddedPlane& plane : clean.halves[h]) to[h].push_back(std::move(plane));
+        }
       }
     };
     add(inputs.surfaces, surfaces);
     add(inputs.media, media);
-    if (inputs.transmittance) clear = clear_of(media[*inputs.transmittance], pool);
+    if (inputs.transmittance) clear = clear_of(media[0][*inputs.transmittance], media[1][*inputs.transmittance], pool);
   }
 
-  static PaddedPlane clear_of(const PaddedPlane& transmittance, ThreadPool& pool) {
-    const int width = transmittance.width(), height = transmittance.height();
-    return make_plane(width, height, pool, [&](int x, int y) { return transmittance.at(x, y) > kClear ? 1.0f : 0.0f; });
+  static PaddedPlane clear_of(const PaddedPlane& even, const PaddedPlane& odd, ThreadPool& pool) {
+    return make_plane(even.width(), even.height(), pool,
+                      [&](int x, int y) { return std::min(even.at(x, y), odd.at(x, y)) > kClear ? 1.0f : 0.0f; });
   }
 
-  std::vector<const PaddedPlane*> explaining(Explained what) const {
-    std::vector<const PaddedPlane*> list;
-    for (const PaddedPlane& plane : media) list.push_back(&plane);
-    if (what != Explained::by_media) {
-      for (const PaddedPlane& plane : surfaces) list.push_back(&plane);
+  FeatureHalves explaining(Explained what) const {
+    FeatureHalves list;
+    for (std::size_t h = 0; h < 2; ++h) {
+      for (const PaddedPlane& plane : media[h]) list[h].push_back(&plane);
+      if (what != Explained::by_media) {
+        for (const PaddedPlane& plane : surfaces[h]) list[h].push_back(&plane);
+      }
     }
     return list;
   }
@@ -66,20 +72,13 @@ bool without_noise(const Halves& halves) {
   return true;
 }
 
-void add(ColorPlanes& sum, const ColorPlanes& part) {
-  for (std::size_t c = 0; c < 3; ++c) {
-    for (int y = 0; y < sum[c].height(); ++y) {
-      for (int x = 0; x < sum[c].width(); ++x) sum[c].at(x, y) += part[c].at(x, y);
-    }
-  }
-}
-
 LightEstimate mean_of(const Halves& halves, ThreadPool& pool) {
   LightEstimate estimate(halves.width(), halves.height());
   for (std::size_t c = 0; c < 3; ++c) {
     estimate.values[c] = make_plane(halves.width(), halves.height(), pool, [&](int x, int y) { return halves.mean(c, x, y); });
     estimate.mse[c] = halves.variance[c];
   }
+  estimate.halves = halves.values;
   return estimate;
 }
 
@@ -88,22 +87,24 @@ LightEstimate filtered(const Halves& halves, const Component& component, const K
   const PaddedPlane& clear = known.features.clear;
   const Selection select{.weight = known.weight,
                          .noise_radius = component.emitters ? kOutline : kNoise,
-                         .unfiltered = component.emitters && !clear.empty() ? &clear : nullptr,
-                         .states_errors = component.states_errors};
+                         .unfiltered = component.emitters && !clear.empty() ? &clear : nullptr};
   return select(halves, regress(halves, known.features.explaining(component.explained), pool), pool);
 }
 
 /// Emitters as the camera sees them have sharp outlines, and no noise but of these: no neighbour knows of it, and small ones
 /// would pass for fireflies. Only what media do to their light on the way is filtered.
-LightEstimate denoise_component(Halves halves, const Component& component, const Knowledge& known, ThreadPool& pool) {
+ColorPlanes denoise_component(Halves halves, const Component& component, const Knowledge& known, AllLight* all,
+                              ThreadPool& pool) {
   const Energy energy(halves);
   std::optional<Fireflies> fireflies;
   if (!component.emitters) fireflies = take_out_fireflies(halves, pool);
   pool_variance(halves, component.emitters ? kOutline : kNoise, pool);
   LightEstimate estimate = filtered(halves, component, known, pool);
-  if (fireflies) fireflies->give_back(estimate, pool);
+  if (all) all->add(halves, estimate);
+  if (fireflies) fireflies->give_back(estimate.values, all ? &all->rare : nullptr, pool);
   energy.restore(estimate.values, halves.variance, pool);
-  return estimate;
+  if (all) add_planes(all->filtered.values, estimate.values);
+  return std::move(estimate.values);
 }
 
 /// All light with little noise and with its edges. A firefly, or a bright neighbour, would have the errors of dark pixels count
@@ -115,18 +116,13 @@ ColorPlanes quiet_light(const Image& image, ThreadPool& pool) {
   for (std::size_t h = 0; h < 2; ++h) {
     for (PaddedPlane& plane : halves.values[h]) light.halves[h].push_back(std::move(plane));
   }
-  std::vector<PaddedPlane> planes = prefiltered(light, pool);
-  return {std::move(planes[0]), std::move(planes[1]), std::move(planes[2])};
-}
-
-/// What is stated relative to the picture's brightness counts by the filtered one: around a bright outline others are too
-/// bright.
-void add_relative(LightEstimate& total, ThreadPool& pool) {
-  const PaddedPlane weight = relative_weight(total.values, pool);
+  const Feature clean = prefiltered(light, pool);
+  ColorPlanes mean;
   for (std::size_t c = 0; c < 3; ++c) {
-    for (int y = 0; y < weight.height(); ++y)
-      for (int x = 0; x < weight.width(); ++x) total.mse[c].at(x, y) += total.relative[c].at(x, y) / weight.at(x, y);
+    mean[c] = make_plane(image.width(), image.height(), pool,
+                         [&](int x, int y) { return 0.5f * (clean.halves[0][c].at(x, y) + clean.halves[1][c].at(x, y)); });
   }
+  return mean;
 }
 
 void store(const ColorPlanes& planes, Image& image, const std::string& prefix) {
@@ -173,9 +169,11 @@ std::string header_text(const std::vector<Component>& components, const std::vec
 
 std::vector<std::string> denoise_aovs() { return input_aovs(); }
 
-/// Planes that are there at once: features in two halves, a component, its fits by two bandwidths, what selects among them, and
-/// what was taken out.
-std::size_t denoise_memory(std::size_t pixels) { return pixels * sizeof(float) * (2 * 11 + 11 + 15 + 20 + 20 + 25 + 9); }
+/// Planes that are there at once: features in two halves and without noise, a component, its fits by two bandwidths, what
+/// selects among them, all light in two halves, and what was taken out.
+std::size_t denoise_memory(std::size_t pixels) {
+  return pixels * sizeof(float) * (2 * 11 + 2 * 11 + 15 + 20 + 20 + 25 + 27 + 9);
+}
 
 Denoised denoise(const Image& image, const DenoiseSettings& settings, const std::string& name) {
   const Timer timer;
@@ -187,29 +185,25 @@ Denoised denoise(const Image& image, const DenoiseSettings& settings, const std:
   const ColorPlanes light = read_light(image);
   const Knowledge known{CleanFeatures(inputs, pool), relative_weight(quiet_light(image, pool), pool)};
   inputs = {};
-  LightEstimate total(image.width(), image.height());
+  AllLight all(image.width(), image.height());
   ColorPlanes noise = color_planes(image.width(), image.height());
   for (const Component& component : components) {
     Halves halves = read_halves(image, component.prefix);
     add_noise(halves, noise);
-    const LightEstimate part = denoise_component(std::move(halves), component, known, pool);
-    if (settings.components && !component.prefix.empty()) store(part.values, result.image, component.prefix);
-    add(total.values, part.values);
-    add(total.mse, part.mse);
-    add(total.relative, part.relative);
+    const ColorPlanes part = denoise_component(std::move(halves), component, known, &all, pool);
+    if (settings.components && !component.prefix.empty()) store(part, result.image, component.prefix);
   }
-  add_relative(total, pool);
+  const ColorPlanes values = all.filtered.values, errors = stated_errors(std::move(all), known.weight, pool);
   const std::vector<std::string> groups = groups_of(image);
   for (const std::string& group : groups)
-    store(denoise_component(read_halves(image, group), {group, Explained::by_all, false, false}, known, pool).values,
-          result.image, group);
-  share_out(total.values, groups, result.image);
+    store(denoise_component(read_halves(image, group), {group, Explained::by_all}, known, nullptr, pool), result.image, group);
+  share_out(values, groups, result.image);
   store(light, result.image, "noisy.");
-  store(total.values, result.image, "");
-  store(total.mse, result.image, "Mse.");
+  store(values, result.image, "");
+  store(errors, result.image, "Mse.");
   result.image.attributes["tyndall/denoised"] = header_text(components, result.report.missing);
-  result.report.noisy_relmse = relative_error(noise, total.values);
-  result.report.relmse = relative_error(total.mse, total.values);
+  result.report.noisy_relmse = relative_error(noise, values);
+  result.report.relmse = relative_error(errors, values);
   result.report.seconds = timer.seconds();
   return result;
 }

@@ -45,10 +45,11 @@ float weighted_mean(const PaddedPlane& plane, int x, int y, const std::vector<fl
 
 }  // namespace
 
-std::vector<PaddedPlane> prefiltered(const Feature& feature, ThreadPool& pool) {
+Feature prefiltered(const Feature& feature, ThreadPool& pool) {
   const std::vector<PaddedPlane> variances = variances_of(feature, pool);
   const int width = variances[0].width(), height = variances[0].height();
-  std::vector<PaddedPlane> result(variances.size(), PaddedPlane(width, height));
+  Feature result;
+  for (auto& half : result.halves) half.assign(variances.size(), PaddedPlane(width, height));
   const int across = (width + kTile - 1) / kTile, down = (height + kTile - 1) / kTile;
   pool.for_each(static_cast<std::size_t>(across * down), 1, [&](std::size_t tile) {
     const int x0 = static_cast<int>(tile) % across * kTile, y0 = static_cast<int>(tile) / across * kTile;
@@ -56,16 +57,18 @@ std::vector<PaddedPlane> prefiltered(const Feature& feature, ThreadPool& pool) {
     PatchDistances distances(kSearch, kPatch);
     std::vector<float> weights(static_cast<std::size_t>(kSearch.padded()));
     for (std::size_t h = 0; h < 2; ++h) {
-      distances.compute(guide_of(feature.halves[1 - h], variances), pixels);
+      distances.compute(guide_of(feature.halves[h], variances), pixels);
       for (int i = 0; i < pixels.count(); ++i) {
         distances.weights(i, kBandwidth, weights);
         const int x = pixels.x(i), y = pixels.y(i);
-        for (std::size_t c = 0; c < result.size(); ++c)
-          result[c].at(x, y) += 0.5f * weighted_mean(feature.halves[h][c], x, y, weights);
+        for (std::size_t c = 0; c < variances.size(); ++c)
+          result.halves[h][c].at(x, y) = weighted_mean(feature.halves[h][c], x, y, weights);
       }
     }
   });
-  for (PaddedPlane& plane : result) plane.extend();
+  for (auto& half : result.halves) {
+    for (PaddedPlane& plane : half) plane.extend();
+  }
   return result;
 }
 

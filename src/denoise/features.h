@@ -12,7 +12,7 @@ struct Feature {
   std::array<std::vector<PaddedPlane>, 2> halves;
 };
 
-/// Noise taken away by non-local means, each half with the weights of the other.
-std::vector<PaddedPlane> prefiltered(const Feature& feature, ThreadPool& pool);
+/// Noise taken away by non-local means, each half with weights of its own, so that neither knows of the other's noise.
+Feature prefiltered(const Feature& feature, ThreadPool& pool);
 
 }  // namespace tyndall

@@ -100,17 +100,17 @@ Fireflies take_out_fireflies(Halves& halves, ThreadPool& pool) {
   return found;
 }
 
-void Fireflies::give_back(LightEstimate& filtered, ThreadPool& pool) const {
+void Fireflies::give_back(ColorPlanes& filtered, ColorPlanes* mse, ThreadPool& pool) const {
   const int width = errors[0].width(), height = errors[0].height();
   for (std::size_t c = 0; c < 3; ++c) {
-    const auto positive = [&](int x, int y) { return std::max(filtered.values[c].at(x, y), 0.0f); };
+    const auto positive = [&](int x, int y) { return std::max(filtered[c].at(x, y), 0.0f); };
     const PaddedPlane around = smooth_mean(make_plane(width, height, pool, positive), kLost, pool);
     pool.for_each(static_cast<std::size_t>(height), 16, [&](std::size_t row) {
       const int y = static_cast<int>(row);
       for (int x = 0; x < width; ++x) {
         const float share = around.at(x, y) > 0 ? std::min(positive(x, y) / around.at(x, y), 1.0f) : 0.0f;
-        filtered.values[c].at(x, y) += share * light[c].at(x, y);
-        filtered.mse[c].at(x, y) += errors[c].at(x, y) + share * share * differences[c].at(x, y);
+        filtered[c].at(x, y) += share * light[c].at(x, y);
+        if (mse) (*mse)[c].at(x, y) += errors[c].at(x, y) + share * share * differences[c].at(x, y);
       }
     });
   }

@@ -11,9 +11,9 @@ struct Fireflies {
   ColorPlanes light;        ///< that both halves lost around each pixel, a mean over the neighbourhood
   ColorPlanes differences;  ///< squared, of that mean: between what was lost in all and `light`
 
-  /// Gives back `light` and states the errors: to a pixel as much less as it is darker than those around, so that black stays
-  /// black, but no more where one stands out.
-  void give_back(LightEstimate& filtered, ThreadPool& pool) const;
+  /// Gives back `light` and adds to `mse`, when given, what is expected of it: to a pixel as much less as it is darker than
+  /// those around, so that black stays black, but no more where one stands out.
+  void give_back(ColorPlanes& filtered, ColorPlanes* mse, ThreadPool& pool) const;
 };
 
 /// Takes them out: they give way to the mean around them, since they would be spread over a window, and drown its variance.

@@ -21,8 +21,7 @@ inline constexpr std::array kRgb{"R", "G", "B"};
 struct Component {
   std::string prefix;  ///< of its channels: "VolumeDirect.", or "" for all light at once
   Explained explained;
-  bool emitters = false;      ///< it is what the camera sees of them
-  bool states_errors = true;  ///< somebody reads them
+  bool emitters = false;  ///< it is what the camera sees of them
 };
 
 /// AOVs with which nothing is missing.

@@ -25,13 +25,18 @@ struct Halves {
   }
 };
 
-/// Values, and the squared error that is expected of them: `mse` and, over the square of the picture's brightness as
-/// relative_weight() has it, `relative`.
+/// Values, what each half alone would have given, and the squared error that is expected of light that is not filtered.
 struct LightEstimate {
   LightEstimate(int width, int height)
-      : values(color_planes(width, height)), mse(color_planes(width, height)), relative(color_planes(width, height)) {}
+      : values(color_planes(width, height)),
+        halves{color_planes(width, height), color_planes(width, height)},
+        apart(color_planes(width, height)),
+        mse(color_planes(width, height)) {}
 
-  ColorPlanes values, mse, relative;
+  ColorPlanes values;
+  std::array<ColorPlanes, 2> halves;  ///< `values` is their mean by shares of the samples
+  ColorPlanes apart;                  ///< by how much what is filtered of the first half is above that of the second
+  ColorPlanes mse;
 };
 
 }  // namespace tyndall

@@ -15,6 +15,14 @@ void PaddedPlane::extend() {
   }
 }
 
+void add_planes(ColorPlanes& sum, const ColorPlanes& part) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (int y = 0; y < sum[c].height(); ++y) {
+      for (int x = 0; x < sum[c].width(); ++x) sum[c].at(x, y) += part[c].at(x, y);
+    }
+  }
+}
+
 PaddedPlane box_mean(const PaddedPlane& plane, int radius, ThreadPool& pool) {
   const int width = plane.width(), height = plane.height();
   const float scale = 1.0f / static_cast<float>(2 * radius + 1);

@@ -47,6 +47,8 @@ inline ColorPlanes color_planes(int width, int height) {
   return {PaddedPlane(width, height), PaddedPlane(width, height), PaddedPlane(width, height)};
 }
 
+void add_planes(ColorPlanes& sum, const ColorPlanes& part);
+
 /// Mean over the (2 radius + 1)^2 pixels around each, those beyond the edge being the nearest; radius <= kMargin.
 PaddedPlane box_mean(const PaddedPlane& plane, int radius, ThreadPool& pool);
 

@@ -1,104 +1,41 @@
 #include "denoise/selection.h"
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
 namespace tyndall {
 namespace {
 
-constexpr int kSmooth = 5;   ///< radius over which errors are pooled, twice
-constexpr int kRegion = 20;  ///< the same for what is known of a region only
-/// Of the variance among errors pooled over kSmooth that is left in their mean over kRegion: the areas' ratio.
-constexpr float kPooledShare =
-    static_cast<float>((2 * kSmooth + 1) * (2 * kSmooth + 1)) / ((2 * kRegion + 1) * (2 * kRegion + 1));
-constexpr float kMostTimes = 10;        ///< the noise: an error counts as no more in what is known of a region
-constexpr float kMostBias = 100;        ///< squared, in variances
-constexpr float kRelativeFloor = 0.1f;  ///< of the picture's mean: darker pixels count as this
+constexpr int kChoice = 5;  ///< radius over which choices are mixed
 
-/// One bandwidth: the mean of both halves, and planes by pixel that are sums over channels, relative to the picture.
+/// One bandwidth.
 struct Candidate {
-  ColorPlanes values;
-  PaddedPlane error;     ///< squared, may be negative
-  PaddedPlane variance;  ///< what of it the filtered halves do not share: it is no less
+  std::array<ColorPlanes, 2> values;  ///< by half
   PaddedPlane leverage;
+  JudgedError judged;
 };
 
-PaddedPlane pooled(const PaddedPlane& plane, ThreadPool& pool) { return smooth_mean(plane, kSmooth, pool); }
-
-double sum_of(const PaddedPlane& plane) {
-  double sum = 0;
-  for (int y = 0; y < plane.height(); ++y)
-    for (int x = 0; x < plane.width(); ++x) sum += static_cast<double>(plane.at(x, y));
-  return sum;
-}
-
-/// With F = a Fa + b Fb of the halves' shares a, b, and independent A, B: the other half judges each [Rousselle et al. 2012].
-Candidate candidate(const Halves& halves, const Filtered& fa, const Filtered& fb, const PaddedPlane& weight, ThreadPool& pool) {
-  const int width = halves.width(), height = halves.height();
-  const float a = halves.share[0], b = halves.share[1];
-  Candidate result;
-  for (std::size_t c = 0; c < 3; ++c)
-    result.values[c] =
-        make_plane(width, height, pool, [&](int x, int y) { return a * fa.values[c].at(x, y) + b * fb.values[c].at(x, y); });
-  const auto squared = [](float v) { return v * v; };
-  result.error = make_plane(width, height, pool, [&](int x, int y) {
-    float sum = 0;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const float v = halves.raw_variance(c, x, y), va = fa.values[c].at(x, y), vb = fb.values[c].at(x, y);
-      const float of_a = squared(halves.values[1][c].at(x, y) - va) - v / b;
-      const float of_b = squared(halves.values[0][c].at(x, y) - vb) - v / a;
-      sum += a * of_a + b * of_b - a * b * squared(va - vb);
-    }
-    return sum * weight.at(x, y);
-  });
-  result.variance = make_plane(width, height, pool, [&](int x, int y) {
-    float sum = 0;
-    for (std::size_t c = 0; c < 3; ++c) sum += a * b * squared(fa.values[c].at(x, y) - fb.values[c].at(x, y));
-    return sum * weight.at(x, y);
-  });
-  result.error = pooled(result.error, pool);
-  result.variance = pooled(result.variance, pool);
-  result.leverage =
-      make_plane(width, height, pool, [&](int x, int y) { return a * fa.leverage.at(x, y) + b * fb.leverage.at(x, y); });
-  return result;
-}
-
-void mix(PaddedPlane& first, const PaddedPlane& second, const PaddedPlane& share, ThreadPool& pool) {
-  first = make_plane(first.width(), first.height(), pool,
-                     [&](int x, int y) { return first.at(x, y) + share.at(x, y) * (second.at(x, y) - first.at(x, y)); });
+Candidate candidate(const Halves& halves, Filtered& even, Filtered& odd, const PaddedPlane& weight, ThreadPool& pool) {
+  const auto leverage = [&](int x, int y) {
+    return halves.share[0] * even.leverage.at(x, y) + halves.share[1] * odd.leverage.at(x, y);
+  };
+  JudgedError judged = judge(halves, {&even.values, &odd.values}, weight, pool);
+  return {{std::move(even.values), std::move(odd.values)},
+          make_plane(halves.width(), halves.height(), pool, leverage),
+          std::move(judged)};
 }
 
 Candidate better_of(Candidate first, const Candidate& second, ThreadPool& pool) {
-  const PaddedPlane choice = make_plane(first.error.width(), first.error.height(), pool, [&](int x, int y) {
-    return second.error.at(x, y) < first.error.at(x, y) ? 1.0f : 0.0f;
+  const PaddedPlane choice = make_plane(first.leverage.width(), first.leverage.height(), pool, [&](int x, int y) {
+    return second.judged.error.at(x, y) < first.judged.error.at(x, y) ? 1.0f : 0.0f;
   });
-  const PaddedPlane share = box_mean(choice, kSmooth, pool);
-  for (std::size_t c = 0; c < 3; ++c) mix(first.values[c], second.values[c], share, pool);
-  mix(first.error, second.error, share, pool);
-  mix(first.variance, second.variance, share, pool);
-  mix(first.leverage, second.leverage, share, pool);
+  const PaddedPlane share = box_mean(choice, kChoice, pool);
+  for (std::size_t h = 0; h < 2; ++h) {
+    for (std::size_t c = 0; c < 3; ++c) mix_planes(first.values[h][c], second.values[h][c], share, pool);
+  }
+  mix_planes(first.leverage, second.leverage, share, pool);
+  first.judged.mix(second.judged, share, pool);
   return first;
-}
-
-/// Squared error over variance, at least 1. Error that is not variance is a small difference of large numbers: it is known of a
-/// region, not of a pixel, and there by pixels that have as much to say each, not by the noisiest. What chance might have made
-/// of it does not count.
-PaddedPlane times_variance(const Candidate& filtered, const PaddedPlane& noise, ThreadPool& pool) {
-  const int width = noise.width(), height = noise.height();
-  const auto of_region = [&](const auto& value) { return smooth_mean(make_plane(width, height, pool, value), kRegion, pool); };
-  const auto per_noise = [&](const PaddedPlane& plane, int x, int y) {
-    const float v = noise.at(x, y);
-    return v > 0 ? std::max(std::min(plane.at(x, y) / v, kMostTimes), -kMostTimes) : 0.0f;
-  };
-  const auto bias = [&](int x, int y) { return per_noise(filtered.error, x, y) - per_noise(filtered.variance, x, y); };
-  const PaddedPlane variance = of_region([&](int x, int y) { return per_noise(filtered.variance, x, y); });
-  const PaddedPlane mean = of_region(bias);
-  const PaddedPlane square = of_region([&](int x, int y) { return bias(x, y) * bias(x, y); });
-  return make_plane(width, height, pool, [&](int x, int y) {
-    const float m = std::max(mean.at(x, y), 0.0f), v = variance.at(x, y);
-    const float chance = kPooledShare * std::max(square.at(x, y) - m * m, 0.0f);
-    return m > 0 && v > 0 ? 1 + std::min(m / (1 + chance / m / m) / v, kMostBias) : 1.0f;
-  });
 }
 
 /// Mean over those pixels around that have any light: outlines lie between pixels that have noise and pixels that are black.
@@ -126,42 +63,27 @@ ColorPlanes variance_of_mean(const Halves& halves, const Selection& how, ThreadP
   return variances;
 }
 
-/// Of the noise: light of one colour has none in the others.
-float share_of_channel(const Halves& halves, std::size_t c, int x, int y) {
-  float sum = 0;
-  for (const PaddedPlane& plane : halves.variance) sum += plane.at(x, y);
-  return sum > 0 ? halves.variance[c].at(x, y) / sum : 1.0f / 3;
-}
-
 /// The mean of all samples with weight m, the filtered value with 1 - m: least squared error where C is their covariance.
 LightEstimate combine(const Halves& halves, const Candidate& filtered, const Selection& how, ThreadPool& pool) {
-  const PaddedPlane& weight = how.weight;
   LightEstimate result(halves.width(), halves.height());
-  const PaddedPlane noise = pooled(make_plane(halves.width(), halves.height(), pool,
-                                              [&](int x, int y) {
-                                                float sum = 0;
-                                                for (const PaddedPlane& plane : halves.variance) sum += plane.at(x, y);
-                                                return sum * weight.at(x, y);
-                                              }),
-                                   pool);
-  const bool states = how.states_errors;
-  const ColorPlanes variances = states ? variance_of_mean(halves, how, pool) : color_planes(halves.width(), halves.height());
-  const PaddedPlane with_bias = states ? times_variance(filtered, noise, pool) : PaddedPlane(halves.width(), halves.height());
+  const PaddedPlane noise = pooled_relative(halves.variance, how.weight, pool);
+  const PaddedPlane expected = expected_error(filtered.judged, pool);
+  const ColorPlanes variances = variance_of_mean(halves, how, pool);
   pool.for_each(static_cast<std::size_t>(halves.height()), 16, [&](std::size_t row) {
     const int y = static_cast<int>(row);
     for (int x = 0; x < halves.width(); ++x) {
-      const float v = noise.at(x, y), error = std::max(filtered.error.at(x, y), filtered.variance.at(x, y));
-      const float covariance = filtered.leverage.at(x, y) * v;
+      const float v = noise.at(x, y), error = expected.at(x, y), covariance = filtered.leverage.at(x, y) * v;
       const float spread = error + v - 2 * covariance;
       const float best = spread > 0 ? std::clamp((error - covariance) / spread, 0.0f, 1.0f) : 0.0f;
       const float m = how.unfiltered ? std::max(best, how.unfiltered->at(x, y)) : best;
-      const float stated = (1 - m) * (1 - m) * filtered.variance.at(x, y) * with_bias.at(x, y);
       const float of_mean = m * m + 2 * m * (1 - m) * filtered.leverage.at(x, y);
       for (std::size_t c = 0; c < 3; ++c) {
-        float& value = result.values[c].at(x, y);
-        value = filtered.values[c].at(x, y);
-        value += m * (halves.mean(c, x, y) - value);
-        result.relative[c].at(x, y) = stated * share_of_channel(halves, c, x, y);
+        for (std::size_t h = 0; h < 2; ++h) {
+          const float value = (1 - m) * filtered.values[h][c].at(x, y) + m * halves.values[h][c].at(x, y);
+          result.halves[h][c].at(x, y) = value;
+          result.values[c].at(x, y) += halves.share[h] * value;
+        }
+        result.apart[c].at(x, y) = (1 - m) * (filtered.values[0][c].at(x, y) - filtered.values[1][c].at(x, y));
         result.mse[c].at(x, y) = of_mean * variances[c].at(x, y);
       }
     }
@@ -171,21 +93,7 @@ LightEstimate combine(const Halves& halves, const Candidate& filtered, const Sel
 
 }  // namespace
 
-PaddedPlane relative_weight(const ColorPlanes& light, ThreadPool& pool) {
-  const int width = light[0].width(), height = light[0].height();
-  const PaddedPlane brightness = make_plane(width, height, pool, [&](int x, int y) {
-    float sum = 0;
-    for (const PaddedPlane& plane : light) sum += std::abs(plane.at(x, y));
-    return sum * (1.0f / 3);
-  });
-  const float floor = kRelativeFloor * static_cast<float>(sum_of(brightness) / (static_cast<double>(width) * height));
-  return make_plane(width, height, pool, [&](int x, int y) {
-    const float value = brightness.at(x, y);
-    return 1 / (value * value + floor * floor + 1e-30f);
-  });
-}
-
-LightEstimate Selection::operator()(const Halves& halves, const FilteredHalves& filtered, ThreadPool& pool) const {
+LightEstimate Selection::operator()(const Halves& halves, FilteredHalves filtered, ThreadPool& pool) const {
   Candidate best = candidate(halves, filtered[0][0], filtered[1][0], weight, pool);
   for (std::size_t k = 1; k < kBandwidths.size(); ++k)
     best = better_of(std::move(best), candidate(halves, filtered[0][k], filtered[1][k], weight, pool), pool);

@@ -105,4 +105,52 @@ TEST_CASE("what is stated of emitters as the camera sees them is their noise, we
   CHECK(stated / after == doctest::Approx(1).epsilon(0.25));
 }
 
+namespace {
+
+/// Relative squared errors of a denoised picture, and those stated.
+std::array<double, 2> error_and_stated(const Image& image, const OfPixel& truth) {
+  const Image result = denoise(image).image;
+  double after = 0, stated = 0;
+  for (int y = 0; y < result.height(); ++y) {
+    for (int x = 0; x < result.width(); ++x) {
+      const std::size_t i = result.data.index(x, y);
+      const double t = truth(x, y);
+      after += std::pow((double{result.find("G")->values[i]} - t) / t, 2);
+      stated += result.find("Mse.G")->values[i] / (t * t);
+    }
+  }
+  return {after, stated};
+}
+
+void add_scaled(Image& image, const std::string& from, const std::string& to, float factor, float offset) {
+  for (const std::string suffix : {"R", "G", "B"}) {
+    for (const std::string replicate : {"", "Replicate."}) {
+      std::vector<float> values = image.find(replicate + from + suffix)->values;
+      for (float& value : values) value = factor * value + offset;
+      image.add_channel(replicate + to + suffix).values = values;
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("noise that components have in common is stated as it is in their sum") {
+  const FakeRender render{.width = 128, .height = 96};
+  const auto of_sign = [&](float sign) {
+    Image image = render.image();
+    render.add_rgb(image, "SurfaceDirect.", always(1), always(0.5));
+    add_scaled(image, "SurfaceDirect.", "VolumeDirect.", sign, 1 - sign);
+    for (const char* none : {"Emission.", "SurfaceIndirect.", "VolumeIndirect."})
+      render.add_rgb(image, none, always(0), always(0));
+    add_sums(image);
+    return error_and_stated(image, always(2));
+  };
+  const auto [after, stated] = of_sign(1);
+  // In theory there is half as much bias as variance, here there is none.
+  CHECK(stated / after > 0.8);
+  CHECK(stated / after < 2.5);
+  // It is gone where one has more of it by as much as the other has less.
+  CHECK(of_sign(-1)[1] < 0.1 * stated);
+}
+
 }  // namespace tyndall
