@@ -43,8 +43,7 @@ class RayMarch {
       const float attenuated = sign_ < 0 ? std::min({control_.r, control_.g, control_.b, kThick}) : 0.0f;
       spacing_ = base_spacing_ * (1 + attenuated);
       const double end = marched_ + rate * length / spacing_;
-      for (Comb& comb : combs_)
-        if (!read_teeth(comb, walk, end, rng, stats)) return false;
+      if (!read_teeth(walk, end, rng, stats)) return false;
       marched_ = end;
     }
     control_ += depth_of(walk.control(), length);
@@ -72,34 +71,45 @@ class RayMarch {
     return orders;
   }
 
-  /// The teeth of one comb in the current piece; false as add().
+  /// The teeth in the current piece; false as add(). Combs are read side by side: roulette knows as much of each.
   ///
   /// Roulette inside a piece goes by the control up to the tooth, not to the piece's end: from there on a control may
   /// stand for what turns out to be clear, and the few who survive would weigh exp(what it was too much). As teeth read
   /// at least -control, a comb's optical depth up to a tooth is more than that at the end by a spacing at most.
   template <typename Walk>
-  bool read_teeth(Comb& comb, Walk& walk, double end, Rng& rng, TrackingStats& stats) {
-    const float rate = walk.rate();
-    const double apart = spacing_ / rate;
-    while (comb.tooth < end) {
-      const double from_start = (comb.tooth - marched_) * apart;
-      const Teeth teeth{walk.t() + from_start, apart, guard_.fitting(std::ceil(end - comb.tooth))};
-      const ExcessSum read = walk.excess_at(teeth);
-      count_lookups(teeth.count, read.largest, rate, stats);
-      comb.x += read.sum * (spacing_ / rate);
-      comb.tooth += teeth.count;
-      if (guard_.spent(stats, teeth.count)) return false;
-      const double passed = from_start + (teeth.count - 1) * apart;
+  bool read_teeth(Walk& walk, double end, Rng& rng, TrackingStats& stats) {
+    const double apart = spacing_ / walk.rate();
+    for (;;) {
+      double first = end;
+      for (const Comb& comb : combs_) first = std::min(first, comb.tooth);
+      if (!(first < end)) return true;
+      const int count = guard_.fitting(std::ceil(end - first));
+      const double to = std::min(end, first + count);
+      for (Comb& comb : combs_)
+        if (comb.tooth < to) read(comb, std::min(count, static_cast<int>(std::ceil(to - comb.tooth))), walk, stats);
+      if (guard_.spent(stats, count)) return false;
+      const double passed = (first - marched_ + count - 1) * apart;
       if (guard_.roulette_is_due() && !survives_roulette(control_ + depth_of(walk.control(), passed), rng)) return false;
     }
-    return true;
   }
 
-  /// On exp of what is known so far, `control` and the first comb: any function of the past will do.
+  template <typename Walk>
+  void read(Comb& comb, int count, Walk& walk, TrackingStats& stats) {
+    const double apart = spacing_ / walk.rate();
+    const ExcessSum read = walk.excess_at(Teeth{walk.t() + (comb.tooth - marched_) * apart, apart, count});
+    count_lookups(count, read.largest, walk.rate(), stats);
+    comb.x += read.sum * (spacing_ / walk.rate());
+    comb.tooth += count;
+  }
+
+  /// On exp of what is known so far, `control` and the comb that has found least: any function of the past will do, but those
+  /// who survive what one comb has found would weigh that much in what another has not.
   bool survives_roulette(Rgb control, Rng& rng) {
     if (sign_ > 0) return true;
     float least = kInfinity;
-    for (int channel = 0; channel < 3; ++channel) least = std::min(least, control[channel] + combs_[0].x[channel]);
+    for (int i = 0; i <= orders_; ++i) {
+      for (int channel = 0; channel < 3; ++channel) least = std::min(least, control[channel] + combs_[index(i)].x[channel]);
+    }
     const float left = least - relief_;
     if (!(left > kThick)) return true;
     const float chance = std::exp(kThick - left);
@@ -140,7 +150,7 @@ class RayMarch {
   float sign_;          // of the optical depth in the exponent
   float more_;          // P(N >= 1)
   float base_spacing_;  // of the teeth where nothing is attenuated yet
-  LoopGuard guard_;     // of all combs together
+  LoopGuard guard_;     // of one comb; the others have as many teeth
   int orders_;
   float spacing_ = 0;   // in the current piece, in optical depth of the rate
   double marched_ = 0;  // before the current piece, in teeth
