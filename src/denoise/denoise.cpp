@@ -169,10 +169,13 @@ std::string header_text(const std::vector<Component>& components, const std::vec
 
 std::vector<std::string> denoise_aovs() { return input_aovs(); }
 
-/// Planes that are there at once: features in two halves and without noise, a component, its fits by two bandwidths, what
-/// selects among them, all light in two halves, and what was taken out.
+/// Planes that are there at once: the image once more with what is added to it, features in two halves and without noise, a
+/// component, its fits by two bandwidths, what selects among them, all light in two halves, and what was taken out. The
+/// features' first planes are gone when the latter are made, which leaves room for margins; the sums of tiles are the same for
+/// any size.
 std::size_t denoise_memory(std::size_t pixels) {
-  return pixels * sizeof(float) * (2 * 11 + 2 * 11 + 15 + 20 + 20 + 25 + 27 + 9);
+  constexpr std::size_t kImage = 58 + 6, kTiles = std::size_t{27} << 20;
+  return kTiles + pixels * sizeof(float) * (kImage + 2 * 11 + 2 * 11 + 15 + 20 + 20 + 25 + 27 + 9);
 }
 
 Denoised denoise(const Image& image, const DenoiseSettings& settings, const std::string& name) {

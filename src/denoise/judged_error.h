@@ -10,7 +10,7 @@ PaddedPlane relative_weight(const ColorPlanes& light, ThreadPool& pool);
 
 /// Sums over the channels, relative to the picture (relative_weight), pooled over neighbours.
 struct JudgedError {
-  PaddedPlane error;     ///< squared; without bias, so it may be negative
+  PaddedPlane error;     ///< squared; without bias for a given filter, so it may be negative
   PaddedPlane chance;    ///< variance of `error`
   PaddedPlane variance;  ///< what of the error the filtered halves do not share: it is no less
 

@@ -57,7 +57,7 @@ void AllLight::add(const Halves& rendered_part, const LightEstimate& filtered_pa
 }
 
 /// What is stated relative to the picture counts by the picture as it ended up: around a bright outline others are too bright.
-/// No pixel is off by more than its own noise and what filters changed.
+/// What is filtered is off by no more than its own noise, or that around it, and what was changed.
 ColorPlanes stated_errors(AllLight light, const PaddedPlane& weight, ThreadPool& pool) {
   pool_variance(light.rendered, kNoise, pool);
   const PaddedPlane expected = expected_error(judge_filtered(light, weight, pool), pool);
@@ -66,9 +66,9 @@ ColorPlanes stated_errors(AllLight light, const PaddedPlane& weight, ThreadPool&
   for (std::size_t c = 0; c < 3; ++c) {
     errors[c] = make_plane(weight.width(), weight.height(), pool, [&](int x, int y) {
       const float filtered = share_of_channel(light.rendered, c, x, y) * expected.at(x, y) / final_weight.at(x, y);
+      const float noise = std::max(light.rendered.variance[c].at(x, y), light.rendered.raw_variance(c, x, y));
       const float apart = light.filtered.values[c].at(x, y) - light.rendered.mean(c, x, y);
-      return std::min(filtered, light.rendered.variance[c].at(x, y) + apart * apart) + light.filtered.mse[c].at(x, y) +
-             light.rare[c].at(x, y);
+      return std::min(filtered, noise + apart * apart) + light.filtered.mse[c].at(x, y) + light.rare[c].at(x, y);
     });
   }
   return errors;

@@ -15,7 +15,8 @@ inline constexpr float kRouletteBelow = 0.01f;
 inline constexpr float kThick = 4.6f;  ///< -ln kRouletteBelow
 /// ... but only once in so many look-ups: it saves time in thick media, and only adds noise to short walks.
 inline constexpr std::uint64_t kRouletteEvery = 16;
-/// Look-ups of one walk after which it is given up and counted. A path through an optical depth of 1e7 needs fewer.
+/// Look-ups of one walk, of one comb where it reads several, after which it is given up and counted. A path through an optical
+/// depth of 1e7 needs fewer.
 inline constexpr std::uint64_t kMaxLookups = std::uint64_t{1} << 26;
 
 inline Rgb absolute(Rgb c) { return {std::abs(c.r), std::abs(c.g), std::abs(c.b)}; }

@@ -98,6 +98,14 @@ TEST_CASE("what is expected of an error: theory until more is known, never less 
   CHECK(expected(-5, 0) == doctest::Approx(2));
   // A region knows to sqrt(0.072 chance) what a pixel knows to sqrt(chance), and each counts as it rises above that.
   CHECK(expected(5, 4) == doctest::Approx(3 + 2 - 4 * 121.0 / 1681 / 2));
+  // 40x40 pixels know of 13 to a deviation of 2, and their region knows nothing: 3 + 10 - 4 * 4 / 10.
+  JudgedError here{plane_of(3, pool), plane_of(1500, pool), plane_of(2, pool)};
+  for (int y = 130; y < 170; ++y)
+    for (int x = 180; x < 220; ++x) here.error.at(x, y) = 13, here.chance.at(x, y) = 4;
+  const PaddedPlane result = expected_error(here, pool);
+  CHECK(result.at(200, 150) > 11.3f);
+  CHECK(result.at(200, 150) < 11.5f);
+  CHECK(result.at(240, 150) < 3.1f);
 }
 
 }  // namespace tyndall
