@@ -15,9 +15,8 @@
 namespace tyndall {
 namespace {
 
-/// Radii over which variance is pooled: outlines are as wide as a pixel.
-constexpr int kNoise = 3, kOutline = 1;
-constexpr float kClear = 0.999f;  ///< transmittance of as good as nothing
+constexpr int kOutlineRadius = 1;  ///< for kNoiseRadius where outlines are as wide as a pixel
+constexpr float kClear = 0.999f;   ///< transmittance of as good as nothing
 
 /// Features without their noise, by half.
 struct CleanFeatures {
@@ -86,7 +85,7 @@ LightEstimate filtered(const Halves& halves, const Component& component, const K
   if (without_noise(halves)) return mean_of(halves, pool);
   const PaddedPlane& clear = known.features.clear;
   const Selection select{.weight = known.weight,
-                         .noise_radius = component.emitters ? kOutline : kNoise,
+                         .noise_radius = component.emitters ? kOutlineRadius : kNoiseRadius,
                          .unfiltered = component.emitters && !clear.empty() ? &clear : nullptr};
   return select(halves, regress(halves, known.features.explaining(component.explained), pool), pool);
 }
@@ -98,7 +97,7 @@ ColorPlanes denoise_component(Halves halves, const Component& component, const K
   const Energy energy(halves);
   std::optional<Fireflies> fireflies;
   if (!component.emitters) fireflies = take_out_fireflies(halves, pool);
-  pool_variance(halves, component.emitters ? kOutline : kNoise, pool);
+  pool_variance(halves, component.emitters ? kOutlineRadius : kNoiseRadius, pool);
   LightEstimate estimate = filtered(halves, component, known, pool);
   if (all) all->add(halves, estimate);
   if (fireflies) fireflies->give_back(estimate.values, all ? &all->rare : nullptr, pool);

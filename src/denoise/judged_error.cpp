@@ -51,11 +51,6 @@ PaddedPlane relative_weight(const ColorPlanes& light, ThreadPool& pool) {
   });
 }
 
-void mix_planes(PaddedPlane& first, const PaddedPlane& second, const PaddedPlane& share, ThreadPool& pool) {
-  first = make_plane(first.width(), first.height(), pool,
-                     [&](int x, int y) { return first.at(x, y) + share.at(x, y) * (second.at(x, y) - first.at(x, y)); });
-}
-
 void JudgedError::mix(const JudgedError& other, const PaddedPlane& share, ThreadPool& pool) {
   mix_planes(error, other.error, share, pool);
   mix_planes(chance, other.chance, share, pool);

@@ -29,7 +29,4 @@ PaddedPlane expected_error(const JudgedError& judged, ThreadPool& pool);
 /// Sum over the channels of `squares`, relative to the picture and pooled as judged errors are.
 PaddedPlane pooled_relative(const ColorPlanes& squares, const PaddedPlane& weight, ThreadPool& pool);
 
-/// `second` in place of `first` as far as `share` says.
-void mix_planes(PaddedPlane& first, const PaddedPlane& second, const PaddedPlane& share, ThreadPool& pool);
-
 }  // namespace tyndall

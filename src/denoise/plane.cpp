@@ -38,4 +38,9 @@ PaddedPlane box_mean(const PaddedPlane& plane, int radius, ThreadPool& pool) {
   });
 }
 
+void mix_planes(PaddedPlane& first, const PaddedPlane& second, const PaddedPlane& share, ThreadPool& pool) {
+  first = make_plane(first.width(), first.height(), pool,
+                     [&](int x, int y) { return first.at(x, y) + share.at(x, y) * (second.at(x, y) - first.at(x, y)); });
+}
+
 }  // namespace tyndall

@@ -70,4 +70,7 @@ PaddedPlane make_plane(int width, int height, ThreadPool& pool, const Value& val
   return plane;
 }
 
+/// `second` in place of `first` as far as `share` says.
+void mix_planes(PaddedPlane& first, const PaddedPlane& second, const PaddedPlane& share, ThreadPool& pool);
+
 }  // namespace tyndall

@@ -15,7 +15,7 @@ struct Candidate {
   JudgedError judged;
 };
 
-Candidate candidate(const Halves& halves, Filtered& even, Filtered& odd, const PaddedPlane& weight, ThreadPool& pool) {
+Candidate candidate(const Halves& halves, Filtered even, Filtered odd, const PaddedPlane& weight, ThreadPool& pool) {
   const auto leverage = [&](int x, int y) {
     return halves.share[0] * even.leverage.at(x, y) + halves.share[1] * odd.leverage.at(x, y);
   };
@@ -94,9 +94,10 @@ LightEstimate combine(const Halves& halves, const Candidate& filtered, const Sel
 }  // namespace
 
 LightEstimate Selection::operator()(const Halves& halves, FilteredHalves filtered, ThreadPool& pool) const {
-  Candidate best = candidate(halves, filtered[0][0], filtered[1][0], weight, pool);
+  Candidate best = candidate(halves, std::move(filtered[0][0]), std::move(filtered[1][0]), weight, pool);
   for (std::size_t k = 1; k < kBandwidths.size(); ++k)
-    best = better_of(std::move(best), candidate(halves, filtered[0][k], filtered[1][k], weight, pool), pool);
+    best =
+        better_of(std::move(best), candidate(halves, std::move(filtered[0][k]), std::move(filtered[1][k]), weight, pool), pool);
   return combine(halves, best, *this, pool);
 }
 

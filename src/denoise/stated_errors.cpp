@@ -8,8 +8,6 @@
 namespace tyndall {
 namespace {
 
-constexpr int kNoise = 3;  ///< radius over which the channels' noise is pooled
-
 /// Of the noise: light of one colour has none in the others.
 float share_of_channel(const Halves& halves, std::size_t c, int x, int y) {
   float sum = 0;
@@ -59,7 +57,7 @@ void AllLight::add(const Halves& rendered_part, const LightEstimate& filtered_pa
 /// What is stated relative to the picture counts by the picture as it ended up: around a bright outline others are too bright.
 /// What is filtered is off by no more than its own noise, or that around it, and what was changed.
 ColorPlanes stated_errors(AllLight light, const PaddedPlane& weight, ThreadPool& pool) {
-  pool_variance(light.rendered, kNoise, pool);
+  pool_variance(light.rendered, kNoiseRadius, pool);
   const PaddedPlane expected = expected_error(judge_filtered(light, weight, pool), pool);
   const PaddedPlane final_weight = relative_weight(light.filtered.values, pool);
   ColorPlanes errors;

@@ -13,7 +13,7 @@ struct AllLight {
   void add(const Halves& rendered_part, const LightEstimate& filtered_part);
 
   Halves rendered;         ///< without fireflies
-  LightEstimate filtered;  ///< but `values`, the picture as it ends up
+  LightEstimate filtered;  ///< as add() has it; its `values` are the picture as it ends up
   ColorPlanes rare;        ///< squared errors of what was taken out
 };
 

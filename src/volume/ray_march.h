@@ -96,9 +96,9 @@ class RayMarch {
   template <typename Walk>
   void read(Comb& comb, int count, Walk& walk, TrackingStats& stats) {
     const double apart = spacing_ / walk.rate();
-    const ExcessSum read = walk.excess_at(Teeth{walk.t() + (comb.tooth - marched_) * apart, apart, count});
-    count_lookups(count, read.largest, walk.rate(), stats);
-    comb.x += read.sum * (spacing_ / walk.rate());
+    const ExcessSum excess = walk.excess_at(Teeth{walk.t() + (comb.tooth - marched_) * apart, apart, count});
+    count_lookups(count, excess.largest, walk.rate(), stats);
+    comb.x += excess.sum * (spacing_ / walk.rate());
     comb.tooth += count;
   }
 
