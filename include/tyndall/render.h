@@ -151,8 +151,9 @@ class RenderJob {
   ~RenderJob();
 
   /// What is left of a pass that is given up. `spoilt`: the job is good for nothing but its report. `undone`: the job is as
-  /// it was before the pass, for which the pass takes twice the film's memory; a first pass, before which there was nothing,
-  /// leaves the pixels it finished, the others black (report().unrendered, and 0 in channel SampleCount).
+  /// it was before the pass, but for samples() that all pixels have got by then; for that the pass takes twice the film's
+  /// memory. A first sample, before which there was nothing, leaves the pixels it finished, the others black
+  /// (report().unrendered, and 0 in channel SampleCount).
   enum class GivenUp { spoilt, undone };
 
   /// `samples` > 0 more for every pixel; with RenderSettings::adaptive their work, on to the end of a step of 8 where it has 8,

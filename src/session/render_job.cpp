@@ -71,10 +71,9 @@ class RenderJob::Impl {
   }
 
   bool advance(int count, const PassWatch& watch, GivenUp if_given_up) {
-    if (!plan_) return run_pass(count, watch, if_given_up);
-    for (int done = 0; done < count && !plan_->is_over(samples_);) {
-      if (plan_->is_open(samples_)) plan_->decide(samples_, block_noise());
-      const int part = plan_->pass_end(samples_, count - done) - samples_;
+    for (int done = 0; done < count && !(plan_ && plan_->is_over(samples_));) {
+      if (plan_ && plan_->is_open(samples_)) plan_->decide(samples_, block_noise());
+      const int part = pass_end(count - done) - samples_;
       PassWatch on_the_whole;
       if (watch) on_the_whole = [&](double samples) { return watch(done + samples); };
       if (!run_pass(part, on_the_whole, if_given_up)) return false;
@@ -83,9 +82,16 @@ class RenderJob::Impl {
     return true;
   }
 
+  /// Of a pass of `most` samples, in all of which the same is decided.
+  int pass_end(int most) const {
+    const int end = plan_ ? plan_->pass_end(samples_, most) : samples_ + most;
+    return pilot_is_ahead() ? std::min(end, samples_before_pilot()) : end;
+  }
+
   bool run_pass(int count, const PassWatch& watch, GivenUp if_given_up) {
     const Timer pass_timer;
     if (!searched_) search_film(watch);
+    if (!piloted_ && !pilot_is_ahead()) send_pilot();
     RenderPass pass(film_.crop(), count, watch);
     if (plan_) pass.samples = plan_->total(samples_ + count) - plan_->total(samples_);
     const std::optional<SamplePlan> plan_before = plan_;
@@ -189,7 +195,7 @@ class RenderJob::Impl {
     if (plan_) std::tie(r.least_samples, r.most_samples) = plan_->range(samples_);
     r.seconds = seconds_;
     if (budget_) report_budget(*budget_, r);
-    if (searched_) report_choices(open_, decided_, r);
+    if (piloted_) report_choices(open_, decided_, r);
     for (const PixelBounds& tile : unrendered_) r.unrendered += static_cast<std::uint64_t>(tile.width()) * tile.height();
     return r;
   }
@@ -206,12 +212,23 @@ class RenderJob::Impl {
     film_points_ = film_points(search);
     film_peaks_ = film_peaks(search);
     film_emitters_ = FilmEmitters(search);
+    searched_ = true;
+    preparing_seconds_ = search_timer.seconds();
+  }
+
+  /// Of those of the picture, of which a slice has some.
+  int samples_before_pilot() const {
+    return settings_.budget == BudgetStrategy::measured ? std::max(kSamplesBeforePilot - first_sample_, 0) : 0;
+  }
+  bool pilot_is_ahead() const { return samples_ < samples_before_pilot(); }
+  void send_pilot() {
+    const Timer pilot_timer;
     const Decision decision = decide(sample_context_, open_, pool_);
     decided_ = decision.settings;
     budget_ = decision.budget;
     if (budget_) sample_context_.budget = &*budget_;
-    searched_ = true;
-    preparing_seconds_ = search_timer.seconds();
+    piloted_ = true;
+    preparing_seconds_ += pilot_timer.seconds();
   }
 
   SampleSpan samples_of(PixelPlace p, int count) const {
@@ -275,7 +292,7 @@ class RenderJob::Impl {
 
   const World::Parts& world_;
   RenderSettings settings_;
-  RenderSettings decided_;  ///< before search_film() as settings_
+  RenderSettings decided_;  ///< before send_pilot() as settings_
   OpenChoices open_;
   const LightSelector& selector_;
   const LightSelector* selector_with_volumes_;
@@ -287,7 +304,7 @@ class RenderJob::Impl {
   std::optional<SamplePlan> plan_;
   std::optional<LightBudget> budget_;
   mutable ThreadPool pool_;
-  bool searched_ = false;
+  bool searched_ = false, piloted_ = false;
   double preparing_seconds_ = 0;
   FilmPoints film_points_;
   FilmPeaks film_peaks_;

@@ -170,6 +170,15 @@ TEST_CASE("a measured budget changes the noise alone") {
   check_agree("smoke among lights", smoky(0.3f, points(40), 3));
 }
 
+/// Those of `part`, which begins at (x0, y0) of `whole`.
+bool same_pixels(const Image& part, const Image& whole, int x0 = 0, int y0 = 0) {
+  bool same = true;
+  for (int y = 0; y < part.height(); ++y) {
+    for (int x = 0; x < part.width(); ++x) same = same && part.rgb(x, y) == whole.rgb(x + x0, y + y0);
+  }
+  return same;
+}
+
 TEST_CASE("a crop, and any number of threads, have the bits of the whole picture with a measured budget") {
   Scene scene = read_scene_text(hall(200, true, fog()), "test.pbrt").scene;
   const Variant one{.threads = 1, .reuse = ReuseStrategy::pixels, .budget = BudgetStrategy::measured};
@@ -178,11 +187,56 @@ TEST_CASE("a crop, and any number of threads, have the bits of the whole picture
   const Image whole = Subject(scene, one).render(2, 1);
   scene.film.crop = {20, 11, 45, 39};
   const Image crop = Subject(scene, two).render(2, 1);
-  bool same = true;
-  for (int y = 0; y < crop.height(); ++y) {
-    for (int x = 0; x < crop.width(); ++x) same = same && crop.rgb(x, y) == whole.rgb(x + 20, y + 11);
+  CHECK(same_pixels(crop, whole, 20, 11));
+}
+
+/// After passes of so many samples, each by a job of its own that takes up what the one before has left, or all by one.
+Image rendered(const World& world, BudgetStrategy budget, std::initializer_list<int> passes, bool handed_on = false) {
+  RenderSettings settings;
+  settings.reuse = ReuseStrategy::pixels;
+  settings.budget = budget;
+  RenderJob job(world, settings);
+  for (const int samples : passes) {
+    if (handed_on && job.samples() > 0) {
+      const std::string left = job.save();
+      job = RenderJob(world, settings);
+      job.restore(left, "left");
+    }
+    job.advance(samples);
   }
-  CHECK(same);
+  return job.image();
+}
+
+// Of 200 lights behind bars, of which the pilot asks other numbers than stand without it.
+TEST_CASE("the first sample comes before the pilot, however the others come") {
+  const World world = world_of(hall(200, true), {});
+  using enum BudgetStrategy;
+  CHECK(same_pixels(rendered(world, measured, {1}), rendered(world, fixed, {1})));
+  const Image three = rendered(world, measured, {3});
+  CHECK_FALSE(same_pixels(three, rendered(world, fixed, {3})));
+  CHECK(same_pixels(three, rendered(world, measured, {1, 2})));
+  CHECK(same_pixels(three, rendered(world, measured, {2, 1})));
+  CHECK(same_pixels(three, rendered(world, measured, {1, 1, 1}, true)));
+}
+
+TEST_CASE("of slices only one has a sample before the pilot") {
+  const World world = world_of(hall(200, true), {});
+  const auto image = [&](std::optional<SliceChoice> slice) {
+    RenderSettings settings{.spp = 32};
+    settings.budget = BudgetStrategy::measured;
+    settings.slice = slice;
+    return render(world, settings).image;
+  };
+  const Image whole = image({}), first = image(SliceChoice{1, 2}), second = image(SliceChoice{2, 2});
+  double most = 0;
+  for (int y = 0; y < whole.height(); ++y) {
+    for (int x = 0; x < whole.width(); ++x) {
+      const float mean = 0.5f * (first.rgb(x, y).g + second.rgb(x, y).g);
+      most = std::max(most, double{std::abs(mean - whole.rgb(x, y).g)} / (double{mean} + 0.01));
+    }
+  }
+  std::printf("  off by %.1e at most\n", most);
+  CHECK(most < 1e-5);
 }
 
 TEST_CASE("a crop has the budget of the whole picture") {
