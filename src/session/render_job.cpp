@@ -221,6 +221,7 @@ class RenderJob::Impl {
     return settings_.budget == BudgetStrategy::measured ? std::max(kSamplesBeforePilot - first_sample_, 0) : 0;
   }
   bool pilot_is_ahead() const { return samples_ < samples_before_pilot(); }
+
   void send_pilot() {
     const Timer pilot_timer;
     const Decision decision = decide(sample_context_, open_, pool_);

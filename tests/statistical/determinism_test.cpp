@@ -7,6 +7,7 @@
 
 #include "report/block_test.h"
 #include "support/measure.h"
+#include "support/same_pixels.h"
 #include "support/sanitized.h"
 #include "support/scene_text.h"
 #include "tyndall/io.h"
@@ -79,11 +80,7 @@ TEST_CASE("a crop has the bits of the whole picture") {
   scene.film.crop = {7, 11, 29, 32};
   const Image crop = Subject(scene, {.emission = EmissionStrategy::lights, .reuse = ReuseStrategy::pixels}).render(4, 1);
   REQUIRE(crop.data == scene.film.crop);
-  bool same = true;
-  for (int y = 0; y < crop.height(); ++y) {
-    for (int x = 0; x < crop.width(); ++x) same = same && crop.rgb(x, y) == whole.rgb(x + 7, y + 11);
-  }
-  CHECK(same);
+  CHECK(same_pixels(crop, whole));
 }
 
 // In even media whose lights are chosen at collisions a ray is traced as far as its collision only, unless they emit: here so

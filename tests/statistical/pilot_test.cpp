@@ -6,10 +6,13 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <initializer_list>
+#include <optional>
 
 #include "report/block_test.h"
 #include "support/block_image.h"
 #include "support/measure.h"
+#include "support/same_pixels.h"
 #include "support/sanitized.h"
 #include "support/scene_text.h"
 #include "support/sphere_scene.h"
@@ -161,35 +164,6 @@ LightBudget budget_of(const std::string& text, std::uint64_t seed = 1, PixelBoun
   return *budget;
 }
 
-}  // namespace
-
-TEST_CASE("a measured budget changes the noise alone") {
-  check_agree("a hall", hall(200, true));
-  check_agree("a hall in fog", hall(200, true, fog()));
-  check_agree("smoke under a sun", smoky(0.1f, sun(), 1));
-  check_agree("smoke among lights", smoky(0.3f, points(40), 3));
-}
-
-/// Those of `part`, which begins at (x0, y0) of `whole`.
-bool same_pixels(const Image& part, const Image& whole, int x0 = 0, int y0 = 0) {
-  bool same = true;
-  for (int y = 0; y < part.height(); ++y) {
-    for (int x = 0; x < part.width(); ++x) same = same && part.rgb(x, y) == whole.rgb(x + x0, y + y0);
-  }
-  return same;
-}
-
-TEST_CASE("a crop, and any number of threads, have the bits of the whole picture with a measured budget") {
-  Scene scene = read_scene_text(hall(200, true, fog()), "test.pbrt").scene;
-  const Variant one{.threads = 1, .reuse = ReuseStrategy::pixels, .budget = BudgetStrategy::measured};
-  Variant two = one;
-  two.threads = 2;
-  const Image whole = Subject(scene, one).render(2, 1);
-  scene.film.crop = {20, 11, 45, 39};
-  const Image crop = Subject(scene, two).render(2, 1);
-  CHECK(same_pixels(crop, whole, 20, 11));
-}
-
 /// After passes of so many samples, each by a job of its own that takes up what the one before has left, or all by one.
 Image rendered(const World& world, BudgetStrategy budget, std::initializer_list<int> passes, bool handed_on = false) {
   RenderSettings settings;
@@ -207,6 +181,26 @@ Image rendered(const World& world, BudgetStrategy budget, std::initializer_list<
   return job.image();
 }
 
+}  // namespace
+
+TEST_CASE("a measured budget changes the noise alone") {
+  check_agree("a hall", hall(200, true));
+  check_agree("a hall in fog", hall(200, true, fog()));
+  check_agree("smoke under a sun", smoky(0.1f, sun(), 1));
+  check_agree("smoke among lights", smoky(0.3f, points(40), 3));
+}
+
+TEST_CASE("a crop, and any number of threads, have the bits of the whole picture with a measured budget") {
+  Scene scene = read_scene_text(hall(200, true, fog()), "test.pbrt").scene;
+  const Variant one{.threads = 1, .reuse = ReuseStrategy::pixels, .budget = BudgetStrategy::measured};
+  Variant two = one;
+  two.threads = 2;
+  const Image whole = Subject(scene, one).render(2, 1);
+  scene.film.crop = {20, 11, 45, 39};
+  const Image crop = Subject(scene, two).render(2, 1);
+  CHECK(same_pixels(crop, whole));
+}
+
 // Of 200 lights behind bars, of which the pilot asks other numbers than stand without it.
 TEST_CASE("the first sample comes before the pilot, however the others come") {
   const World world = world_of(hall(200, true), {});
@@ -219,6 +213,7 @@ TEST_CASE("the first sample comes before the pilot, however the others come") {
   CHECK(same_pixels(three, rendered(world, measured, {1, 1, 1}, true)));
 }
 
+// But for the rounding of floats in two means.
 TEST_CASE("of slices only one has a sample before the pilot") {
   const World world = world_of(hall(200, true), {});
   const auto image = [&](std::optional<SliceChoice> slice) {
