@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "support/same_pixels.h"
 #include "support/sphere_scene.h"
 
 namespace tyndall {
@@ -22,12 +23,6 @@ RenderSettings settings_of(int spp = 1 << 20, int threads = 2) {
   return s;
 }
 
-bool same(const Image& a, const Image& b) {
-  bool equal = a.channels.size() == b.channels.size() && a.attributes == b.attributes;
-  for (std::size_t c = 0; equal && c < a.channels.size(); ++c) equal = a.channels[c].values == b.channels[c].values;
-  return equal;
-}
-
 TEST_CASE("an adaptive picture is the same however its samples are grouped, for any threads, and after a pause in a round") {
   const World w = world();
   RenderJob one(w, settings_of()), many(w, settings_of(1 << 20, 1)), paused(w, settings_of()), resumed(w, settings_of());
@@ -40,8 +35,8 @@ TEST_CASE("an adaptive picture is the same however its samples are grouped, for 
   CHECK(resumed.samples() == 56);
   resumed.advance(56);
   CHECK(one.report().most_samples > one.report().least_samples);
-  CHECK(same(one.image(), many.image()));
-  CHECK(same(one.image(), resumed.image()));
+  CHECK(test::same_bits_and_header(one.image(), many.image()));
+  CHECK(test::same_bits_and_header(one.image(), resumed.image()));
 }
 
 TEST_CASE("a pass that is given up leaves an adaptive job as it was") {
@@ -53,7 +48,7 @@ TEST_CASE("a pass that is given up leaves an adaptive job as it was") {
   CHECK_FALSE(broken.advance(
       10, [&](double) { return ++calls < 4; }, RenderJob::GivenUp::undone));
   broken.advance(100 - broken.samples());
-  CHECK(same(whole.image(), broken.image()));
+  CHECK(test::same_bits_and_header(whole.image(), broken.image()));
   CHECK(whole.report().paths == broken.report().paths);
 }
 
@@ -125,7 +120,7 @@ TEST_CASE("an adaptive job that has all samples it may have stays as it is") {
     const Image image = job.image();
     job.advance(20);
     CHECK(job.samples() == end);
-    CHECK(same(job.image(), image));
+    CHECK(test::same_bits_and_header(job.image(), image));
   }
 }
 

@@ -5,6 +5,7 @@
 #include <thread>
 
 #include "math/rng.h"
+#include "support/same_pixels.h"
 #include "support/sphere_scene.h"
 
 namespace tyndall {
@@ -21,12 +22,6 @@ RenderSettings settings_of(int spp = 8) {
   s.reproducible = true;
   s.aovs = {"Variance", "Z", "SampleCount"};
   return s;
-}
-
-bool same(const Image& a, const Image& b) {
-  bool equal = a.channels.size() == b.channels.size() && a.attributes == b.attributes;
-  for (std::size_t c = 0; equal && c < a.channels.size(); ++c) equal = a.channels[c].values == b.channels[c].values;
-  return equal;
 }
 
 std::string refusal(RenderJob& job, const std::string& bytes) {
@@ -51,7 +46,7 @@ TEST_CASE("a job goes on from another's state as if it had been its own") {
   CHECK(second.samples() == 5);
   CHECK(second.seconds() == first.seconds());
   second.advance(6);
-  CHECK(same(second.image(), whole.image()));
+  CHECK(test::same_bits_and_header(second.image(), whole.image()));
   CHECK(second.report().paths == whole.report().paths);
   CHECK(second.report().shadow_rays == whole.report().shadow_rays);
 }
@@ -97,7 +92,7 @@ TEST_CASE("a state of something else is refused with both values, and changes no
     accepted += refusal(job, damaged) == "none" ? 1 : 0;
   }
   CHECK(accepted == 0);
-  CHECK(same(job.image(), before));
+  CHECK(test::same_bits_and_header(job.image(), before));
   CHECK(refusal(job, bytes) == "none");
   CHECK(job.samples() == 2);
 }
@@ -111,12 +106,12 @@ TEST_CASE("a pass that is given up is undone; a first one leaves what it finishe
   std::atomic<int> calls{0};
   CHECK_FALSE(job.advance(
       1, [&](double) { return ++calls < 10; }, RenderJob::GivenUp::undone));
-  CHECK(same(job.image(), before));
+  CHECK(test::same_bits_and_header(job.image(), before));
   CHECK(job.report().paths == paths);
   job.advance(3);
   RenderJob whole(world, settings_of());
   whole.advance(5);
-  CHECK(same(job.image(), whole.image()));
+  CHECK(test::same_bits_and_header(job.image(), whole.image()));
 
   RenderSettings one_thread = settings_of();
   one_thread.threads = 1;
@@ -171,7 +166,7 @@ TEST_CASE("save is called at its interval and at a stop; begin before the first 
   CHECK(cut.report.samples < 50);
   RenderControl again;
   again.begin = [&](RenderJob& job) { job.restore(kept, "kept"); };
-  CHECK(same(render(world, settings_of(50), again).image, render(world, settings_of(50)).image));
+  CHECK(test::same_bits_and_header(render(world, settings_of(50), again).image, render(world, settings_of(50)).image));
 }
 
 TEST_CASE("a scene that is estimated not to fit is refused before it is built") {

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "support/same_pixels.h"
 #include "support/sphere_scene.h"
 
 namespace tyndall {
@@ -23,21 +24,14 @@ RenderSettings settings_of(int spp) {
   return s;
 }
 
-bool same_pixels(const Image& a, const Image& b) {
-  for (std::size_t c = 0; c < a.channels.size(); ++c) {
-    if (a.channels[c].name != b.channels[c].name || a.channels[c].values != b.channels[c].values) return false;
-  }
-  return a.channels.size() == b.channels.size();
-}
-
 TEST_CASE("a job gives the same picture however it is advanced, and the one that render() gives") {
   const World world = world_of();
   RenderJob one(world, settings_of(1)), many(world, settings_of(1));
   one.advance(11);
   for (const int n : {1, 3, 2, 5}) many.advance(n);
   CHECK(one.samples() == 11);
-  CHECK(same_pixels(one.image(), many.image()));
-  CHECK(same_pixels(one.image(), render(world, settings_of(11)).image));
+  CHECK(test::same_bits(one.image(), many.image()));
+  CHECK(test::same_bits(one.image(), render(world, settings_of(11)).image));
   CHECK(one.seconds() > 0);
   CHECK(one.report().paths == many.report().paths);
 }
@@ -199,7 +193,7 @@ TEST_CASE("checkpoints come at every power of two, and change nothing") {
   const Rendering with =
       render(world, settings_of(21), {.checkpoint = [&](const RenderJob& j) { seen.push_back(j.samples()); }});
   CHECK(seen == std::vector<int>{1, 2, 4, 8, 16});
-  CHECK(same_pixels(with.image, render(world, settings_of(21)).image));
+  CHECK(test::same_bits(with.image, render(world, settings_of(21)).image));
 }
 
 TEST_CASE("every pass end is told of, then the end, and it changes nothing") {
@@ -217,7 +211,7 @@ TEST_CASE("every pass end is told of, then the end, and it changes nothing") {
   CHECK(std::is_sorted(seen.begin(), seen.end()));
   CHECK(seen.back() == 20);
   CHECK(at_end == 20);
-  CHECK(same_pixels(looked_at.image, render(world, settings_of(20)).image));
+  CHECK(test::same_bits(looked_at.image, render(world, settings_of(20)).image));
 }
 
 TEST_CASE("one world serves several light strategies, and refuses those it was not built for") {

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <numeric>
 
+#include "support/same_pixels.h"
 #include "support/sphere_scene.h"
 
 using namespace tyndall;
@@ -38,13 +39,6 @@ std::string refusal(const RenderSettings& settings) {
 Image sorted(Image image) {
   std::sort(image.channels.begin(), image.channels.end(), [](const Channel& a, const Channel& b) { return a.name < b.name; });
   return image;
-}
-
-/// Bit for bit.
-bool same_pixels(const Image& a, const Image& b) {
-  return a.data == b.data && a.display == b.display &&
-         std::equal(a.channels.begin(), a.channels.end(), b.channels.begin(), b.channels.end(),
-                    [](const Channel& x, const Channel& y) { return x.name == y.name && x.values == y.values; });
 }
 
 }  // namespace
@@ -88,7 +82,7 @@ TEST_CASE("the sum of all slices is the render of all samples, bit for bit, in e
   for (const Image& part : parts) sum.add(part, "part");
   CHECK(sum.samples() == 100);
   CHECK(sum.estimated_relmse() == whole.estimated_relmse());
-  CHECK(same_pixels(sorted(sum.image(false)), sorted(whole.image())));
+  CHECK(test::same_bits(sorted(sum.image(false)), sorted(whole.image())));
 }
 
 TEST_CASE("what is there of the slices is the picture of so many samples, with the variance of these") {
@@ -100,7 +94,7 @@ TEST_CASE("what is there of the slices is the picture of so many samples, with t
   sum.add(part, "part");
   RenderSettings half = settings_of(32);
   half.aovs = {"Z", "Variance", "SampleCount"};
-  CHECK(same_pixels(sorted(sum.image(true)), sorted(render(world, half).image)));
+  CHECK(test::same_bits(sorted(sum.image(true)), sorted(render(world, half).image)));
   CHECK(sum.image(false).find("Variance.R") == nullptr);
 }
 
@@ -139,7 +133,7 @@ TEST_CASE("a slice of which one bit has changed is refused, and what was added s
   CHECK_THROWS_WITH_AS(sum.add(bad, "bad.exr"),
                        "bad.exr: is damaged: its sums do not fit their checksum; render the slice again", Error);
   CHECK(sum.samples() == 16);
-  CHECK(same_pixels(sum.image(true), before));
+  CHECK(test::same_bits(sum.image(true), before));
 }
 
 TEST_CASE("slices with a time end at even samples of their own ranges") {
