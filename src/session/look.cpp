@@ -4,7 +4,9 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
+#include <mutex>
 #include <numbers>
+#include <utility>
 
 #include "math/hash.h"
 #include "session/block_grid.h"
@@ -73,8 +75,8 @@ double Look::Block::error(double unit) const {
   return error;
 }
 
-Look::Look(const SampleContext& context, const Decision& decision, ThreadPool& pool)
-    : context_(context), pool_(pool), decision_(decision) {}
+Look::Look(const SampleContext& context, const Decision& decision, ThreadPool& pool, LookWatch watch)
+    : context_(context), pool_(pool), watch_(std::move(watch)), decision_(decision) {}
 
 std::size_t Look::usual_blocks(const Film& film) {
   return std::min(std::max<std::size_t>(BlockGrid(frame_of(film)).size() / kBlocksEach, 1), kMostBlocks);
@@ -88,10 +90,19 @@ void Look::extend(std::size_t blocks) {
   const std::size_t before = blocks_.size();
   if (blocks <= before) return;
   blocks_.resize(blocks);
+  std::mutex mutex;
+  bool given_up = false;
+  const auto goes_on = [&] {
+    const std::scoped_lock lock(mutex);
+    given_up = given_up || (watch_ && !watch_());
+    return !given_up;
+  };
   pool_.for_each(blocks - before, 1, [&](std::size_t i) {
+    if (!goes_on()) return;
     const FlushDenormals guard;
     blocks_[before + i] = try_block(before + i);
   });
+  if (given_up) throw LookGivenUp();
   for (std::size_t i = before; i < blocks; ++i) counters_ += blocks_[i].counters;
 }
 

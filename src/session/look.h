@@ -1,6 +1,7 @@
 /// A look at a few blocks of the picture before it is rendered, for what is decided by measurement.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -17,15 +18,20 @@ struct Decision {
   std::optional<LightBudget> budget;  ///< nothing: no number was measured
 };
 
+/// Asked before each block that is looked at, by one thread at a time: whether to go on. Empty: yes.
+using LookWatch = std::function<bool()>;
+/// Thrown where it says no.
+struct LookGivenUp {};
+
 /// What a few of the frame's blocks would be like, and would cost. A function of the scene, the frame and the decision,
 /// whatever part of the picture is rendered, and by whom; and of no random number that its samples use. Looks at the same frame
 /// have the same pixels and random numbers.
 class Look {
  public:
-  /// Of `context` all but settings and budget; without what only pictures want. Both must outlive it.
-  Look(const SampleContext& context, const Decision& decision, ThreadPool& pool);
+  /// Of `context` all but settings and budget; without what only pictures want. `context` and `pool` must outlive it.
+  Look(const SampleContext& context, const Decision& decision, ThreadPool& pool, LookWatch watch = {});
 
-  /// The first blocks of a sequence, those that are missing until now.
+  /// The first blocks of a sequence, those that are missing until now. Throws LookGivenUp, and is then of no use.
   void extend(std::size_t blocks);
   /// So many suffice for numbers of lights, and are a small share of the frame.
   static std::size_t usual_blocks(const Film& film);
@@ -71,6 +77,7 @@ class Look {
 
   const SampleContext& context_;
   ThreadPool& pool_;
+  LookWatch watch_;
   Decision decision_;
   std::vector<Block> blocks_;
   Counters counters_;  ///< of all

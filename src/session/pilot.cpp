@@ -57,9 +57,10 @@ bool beats(Look& look, Look& other, const Film& film, bool doubted) {
 /// Changes one thing after the other, and keeps what pays.
 class Search {
  public:
-  Search(const SampleContext& context, const Decision& first, ThreadPool& pool)
+  Search(const SampleContext& context, const Decision& first, ThreadPool& pool, const LookWatch& watch)
       : context_(context),
         pool_(pool),
+        watch_(watch),
         film_(context.world.built.scene.film),
         unmeasured_(*first.budget),
         usual_blocks_(Look::usual_blocks(film_)),
@@ -79,7 +80,7 @@ class Search {
     if (used == 0) return;
     Decision other = best_->decision();
     change(other);
-    auto changed = std::make_unique<Look>(context_, other, pool_);
+    auto changed = std::make_unique<Look>(context_, other, pool_, watch_);
     if (beats(*changed, *best_, film_, doubted)) best_ = std::move(changed);
   }
   const Look& best() const { return *best_; }
@@ -96,13 +97,14 @@ class Search {
 
  private:
   std::unique_ptr<Look> look(const Decision& decision) const {
-    auto look = std::make_unique<Look>(context_, decision, pool_);
+    auto look = std::make_unique<Look>(context_, decision, pool_, watch_);
     look->extend(decides_lights(context_, decision.settings) ? usual_blocks_ : kFirstBlocks);
     return look;
   }
 
   const SampleContext& context_;
   ThreadPool& pool_;
+  const LookWatch& watch_;
   const Film& film_;
   LightBudget unmeasured_;
   std::size_t usual_blocks_;
@@ -122,9 +124,7 @@ void lit_at_collisions(Decision& d) {
   d.settings.distance = DistanceStrategy::tracking;
 }
 
-}  // namespace
-
-Decision decide(const SampleContext& context, const OpenChoices& open, ThreadPool& pool) {
+Decision decision(const SampleContext& context, const OpenChoices& open, ThreadPool& pool, const LookWatch& watch) {
   Decision first{context.settings, std::nullopt};
   if (context.settings.budget != BudgetStrategy::measured) return first;
   const bool comparable = Look::usual_blocks(context.world.built.scene.film) >= kLeastToCompare;
@@ -132,7 +132,7 @@ Decision decide(const SampleContext& context, const OpenChoices& open, ThreadPoo
   if (!(decides_lights(context, context.settings) || collisions || compares)) return first;
   first.budget = LightBudget::unmeasured(context.settings);
   if (collisions) first.budget->collisions_shared = true;
-  Search search(context, first, pool);
+  Search search(context, first, pool, watch);
   if (collisions || compares) search.ask_lights();
   const auto used = [&]() -> const Counters& { return search.best().counters(); };
   if (collisions) search.consider(used().connections, collisions_not_shared);
@@ -143,6 +143,17 @@ Decision decide(const SampleContext& context, const OpenChoices& open, ThreadPoo
     if (open.guiding) search.consider(used().guided, unguided);
   }
   return search.result();
+}
+
+}  // namespace
+
+std::optional<Decision> decide(const SampleContext& context, const OpenChoices& open, ThreadPool& pool,
+                               const LookWatch& watch) {
+  try {
+    return decision(context, open, pool, watch);
+  } catch (const LookGivenUp&) {
+    return std::nullopt;
+  }
 }
 
 }  // namespace tyndall

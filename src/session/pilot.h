@@ -11,7 +11,8 @@ inline constexpr int kSamplesBeforePilot = 1;
 
 /// The settings of `context`, with that of what is open which makes variance x cost least in this picture, and how many lights
 /// are best asked. A function of the scene, the frame and the settings, whatever part of the picture is rendered, and by whom;
-/// and of no random number that its samples use.
-Decision decide(const SampleContext& context, const OpenChoices& open, ThreadPool& pool);
+/// and of no random number that its samples use. Nothing: `watch` gave it up.
+std::optional<Decision> decide(const SampleContext& context, const OpenChoices& open, ThreadPool& pool,
+                               const LookWatch& watch = {});
 
 }  // namespace tyndall

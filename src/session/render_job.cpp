@@ -91,8 +91,8 @@ class RenderJob::Impl {
   bool run_pass(int count, const PassWatch& watch, GivenUp if_given_up) {
     const Timer pass_timer;
     if (!searched_) search_film(watch);
-    if (!piloted_ && !pilot_is_ahead()) send_pilot();
     RenderPass pass(film_.crop(), count, watch);
+    if (!piloted_ && !pilot_is_ahead()) pass.given_up = !send_pilot(watch);
     if (plan_) pass.samples = plan_->total(samples_ + count) - plan_->total(samples_);
     const std::optional<SamplePlan> plan_before = plan_;
     const bool first = samples_ == 0, undo = if_given_up == GivenUp::undone;
@@ -222,14 +222,16 @@ class RenderJob::Impl {
   }
   bool pilot_is_ahead() const { return samples_ < samples_before_pilot(); }
 
-  void send_pilot() {
+  /// False: it was given up, and has decided nothing.
+  bool send_pilot(const PassWatch& watch) {
     const Timer pilot_timer;
-    const Decision decision = decide(sample_context_, open_, pool_);
-    decided_ = decision.settings;
-    budget_ = decision.budget;
-    if (budget_) sample_context_.budget = &*budget_;
-    piloted_ = true;
+    const auto decision = decide(sample_context_, open_, pool_, [&] { return !watch || watch(0); });
     preparing_seconds_ += pilot_timer.seconds();
+    if (!decision) return false;
+    decided_ = decision->settings;
+    budget_ = decision->budget;
+    if (budget_) sample_context_.budget = &*budget_;
+    return piloted_ = true;
   }
 
   SampleSpan samples_of(PixelPlace p, int count) const {

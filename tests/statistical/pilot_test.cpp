@@ -153,7 +153,7 @@ auto in_frame_of(const std::string& text, RenderSettings settings, PixelBounds c
 Decision decision_of(const std::string& text, const OpenChoices& open, RenderSettings settings = {},
                      PixelBounds crop = {0, 0, kLooked, kLooked}) {
   return in_frame_of(text, settings, crop,
-                     [&](const SampleContext& context, ThreadPool& pool) { return decide(context, open, pool); });
+                     [&](const SampleContext& context, ThreadPool& pool) { return *decide(context, open, pool); });
 }
 
 LightBudget budget_of(const std::string& text, std::uint64_t seed = 1, PixelBounds crop = {0, 0, kLooked, kLooked}) {
@@ -211,6 +211,32 @@ TEST_CASE("the first sample comes before the pilot, however the others come") {
   CHECK(same_pixels(three, rendered(world, measured, {1, 2})));
   CHECK(same_pixels(three, rendered(world, measured, {2, 1})));
   CHECK(same_pixels(three, rendered(world, measured, {1, 1, 1}, true)));
+}
+
+// All that is told of samples after the first comes from the pass that follows the pilot.
+TEST_CASE("a pilot can be given up like a pass, and the picture goes on as if it had not been sent") {
+  const World world = world_of(hall(200, true), {});
+  RenderSettings settings{.spp = 32};
+  settings.reuse = ReuseStrategy::pixels;
+  settings.budget = BudgetStrategy::measured;
+  const auto while_rendering = [](double samples) { return samples > 0; };
+  for (const int threads : {1, 2}) {
+    settings.threads = threads;
+    RenderJob job(world, settings);
+    CHECK(job.advance(1, while_rendering));
+    const Image one = job.image();
+    CHECK_FALSE(job.advance(2, while_rendering, RenderJob::GivenUp::undone));
+    CHECK(job.samples() == 1);
+    CHECK_FALSE(job.report().at_vertices);
+    CHECK(same_bits(job.image(), one));
+    CHECK(job.advance(2));
+    CHECK(job.report().at_vertices);
+    CHECK(same_pixels(job.image(), rendered(world, BudgetStrategy::measured, {3})));
+  }
+  settings.slice = SliceChoice{2, 2};
+  RenderJob slice(world, settings);
+  CHECK_FALSE(slice.advance(1, while_rendering, RenderJob::GivenUp::undone));
+  CHECK(slice.report().unrendered == static_cast<std::uint64_t>(slice.pixels().size()));
 }
 
 // But for the rounding of floats in two means.
@@ -390,7 +416,7 @@ TEST_CASE("nothing is measured where there is nothing to decide") {
   ThreadPool pool(1);
   const auto decides = [&](const World& w, const RenderSettings& s) {
     return decide({w.parts(), w.parts().built.lights.selector(s.lights), nullptr, s, {.max_depth = s.max_depth}}, {}, pool)
-        .budget.has_value();
+        ->budget.has_value();
   };
   CHECK_FALSE(decides(world, settings));
   const World many = world_of(hall(5, false), {});
