@@ -138,8 +138,9 @@ struct RenderReport {
 /// n samples is the same however they were grouped.
 class RenderJob {
  public:
-  /// Called by one thread at a time while a pass runs, with the samples a pixel that it has done, 0 while the first one looks
-  /// at the film beforehand. Return false to give the pass up. Must not throw.
+  /// Called by one thread at a time while a pass runs, with the samples a pixel that it has done; 0 while the first one looks
+  /// at the film beforehand, which is not given up, and while it is found out what pays (RenderSettings::budget), after which
+  /// the job is as it was. Return false to give the pass up. Must not throw.
   using PassWatch = std::function<bool(double samples)>;
 
   /// `world` must outlive the job. Of `settings`, `spp`, `time` and `error` are the caller's to keep, but `spp` where it is

@@ -55,8 +55,8 @@ bool PassSchedule::complete(const RenderJob& job) const {
 }
 
 int PassSchedule::next_pass(const RenderJob& job) {
-  pass_timer_ = {};
-  if (!begun_) begun_ = Begun{pass_timer_, job.samples(), job.seconds()};
+  pass_ = Begun{{}, job.samples(), job.seconds()};
+  if (!begun_) begun_ = pass_;
   if (complete(job)) return 0;
   const int done = job.samples();
   int pass = std::clamp(done, 1, kLargestPass);
@@ -91,8 +91,10 @@ std::optional<Progress> PassSchedule::progress(const RenderJob& job, double pass
   p.samples_done = job.samples();
   p.preparing = job.samples() == 0 && pass_samples == 0;
   p.seconds = now;
-  // The job's clock stands still until a pass has ended.
-  p.fraction = fraction(p.samples_done + pass_samples, job.seconds() + (pass_samples > 0 ? pass_timer_.seconds() : 0));
+  // The job's clock stands still until a pass has ended; its samples count in the midst of one whose end the pilot comes
+  // before.
+  p.fraction = fraction(std::max<double>(p.samples_done, pass_->samples + pass_samples),
+                        std::max(job.seconds(), pass_->seconds + pass_->timer.seconds()));
   const double here = p.fraction - fraction(begun_->samples, begun_->seconds);  // what a checkpoint restored took no time here
   p.remaining = here > 0 ? now * (1 - p.fraction) / here : 0.0;
   return p;

@@ -40,7 +40,7 @@ class PassSchedule {
   bool is_good_enough(const RenderReport& report) const;
   double fraction(double samples, double seconds) const;
 
-  /// The job as the first pass found it: empty, or resumed.
+  /// The job as a pass found it: the first one empty, or resumed.
   struct Begun {
     Timer timer;
     int samples;
@@ -49,8 +49,7 @@ class PassSchedule {
 
   RenderSettings settings_;
   int samples_wanted_;
-  std::optional<Begun> begun_;
-  Timer pass_timer_;
+  std::optional<Begun> begun_, pass_;  ///< all, and the latest pass
   bool checkpoints_, adaptive_, until_error_;
   double samples_needed_ = 0;  ///< for the errors of the settings, as far as is known; 0: not known
   double last_report_ = -1;

@@ -50,7 +50,7 @@ class RenderLoop {
     const bool slow = first || job_.seconds() / job_.samples() * count > kLongestWait / 2;
     const auto watch = [&](double samples) {
       report_progress(samples);
-      if (!slow || !stop_requested()) return true;
+      if (!(slow || samples == 0) || !stop_requested()) return true;  // 0: it has yet to begin, and is as it was
       return pass_timer.seconds() * (count - samples) <= kLongestWait * samples;
     };
     return job_.advance(count, watch, slow ? RenderJob::GivenUp::undone : RenderJob::GivenUp::spoilt);

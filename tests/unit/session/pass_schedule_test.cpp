@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "support/sphere_scene.h"
+#include "tyndall/timer.h"
 
 namespace tyndall {
 namespace {
@@ -42,7 +43,7 @@ TEST_CASE("the time that a render had before it was resumed counts") {
   CHECK(schedule.next_pass(job) > 0);
   const auto begun = schedule.progress(job, 0);
   REQUIRE(begun);
-  CHECK(begun->fraction == doctest::Approx(0.25));
+  CHECK(begun->fraction >= 0.25);  // the pass that has begun takes time
   settings.time = job.seconds() / 2;
   CHECK(PassSchedule(settings, false).next_pass(job) == 0);
 }
@@ -64,6 +65,32 @@ TEST_CASE("the time that a running pass takes counts before it has ended") {
   CHECK(job.samples() == 1);
   CHECK(during->samples_done == 0);
   CHECK(during->fraction > 1e-3);  // the share of the samples is 1e-6
+}
+
+// The pilot comes before the second sample of one pass.
+TEST_CASE("samples and time count once while a pass finds out what pays") {
+  const World world = test::world_of(test::sphere_scene(16, 16), {.threads = 1});
+  RenderSettings settings{.spp = 8, .threads = 1};
+  settings.time = 1e6;
+  RenderJob job(world, settings);
+  PassSchedule schedule(settings, false);
+  REQUIRE(schedule.next_pass(job) == 1);
+  job.advance(1);
+  const auto at_one = schedule.progress(job, 1);
+  REQUIRE(at_one);
+  CHECK(at_one->samples_done == 1);
+  CHECK(at_one->fraction == doctest::Approx(1.0 / 8));
+
+  settings.time = 100 * job.seconds();
+  PassSchedule timed(settings, false);
+  REQUIRE(timed.next_pass(job) > 0);
+  const Timer timer;
+  while (timer.seconds() < 0.25 * *settings.time) {
+  }
+  const auto waiting = timed.progress(job, 0);
+  REQUIRE(waiting);
+  CHECK(waiting->fraction >= 0.25);
+  CHECK(waiting->remaining > 0);
 }
 
 TEST_CASE("a render that looks at the film before its first sample shows that it does") {
