@@ -91,8 +91,7 @@ std::optional<Progress> PassSchedule::progress(const RenderJob& job, double pass
   p.samples_done = job.samples();
   p.preparing = job.samples() == 0 && pass_samples == 0;
   p.seconds = now;
-  // The job's clock stands still until a pass has ended; its samples count in the midst of one whose end the pilot comes
-  // before.
+  // The job's clock stands still until a pass has ended, and so do its samples, but for those before a pilot in its midst.
   p.fraction = fraction(std::max<double>(p.samples_done, pass_->samples + pass_samples),
                         std::max(job.seconds(), pass_->seconds + pass_->timer.seconds()));
   const double here = p.fraction - fraction(begun_->samples, begun_->seconds);  // what a checkpoint restored took no time here

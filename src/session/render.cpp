@@ -50,7 +50,8 @@ class RenderLoop {
     const bool slow = first || job_.seconds() / job_.samples() * count > kLongestWait / 2;
     const auto watch = [&](double samples) {
       report_progress(samples);
-      if (!(slow || samples == 0) || !stop_requested()) return true;  // 0: it has yet to begin, and is as it was
+      const bool may_end = slow || samples == 0;  // which is before it has begun: there is nothing to undo
+      if (!may_end || !stop_requested()) return true;
       return pass_timer.seconds() * (count - samples) <= kLongestWait * samples;
     };
     return job_.advance(count, watch, slow ? RenderJob::GivenUp::undone : RenderJob::GivenUp::spoilt);
