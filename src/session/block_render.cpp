@@ -5,13 +5,7 @@ namespace tyndall {
 void BlockRender::render(PixelPlace corner, const PixelBounds& tile, SampleSpan samples, const Scratch& scratch) const {
   if (shared_.context.settings.reuse != ReuseStrategy::pixels)
     return render_apart(PixelBlock(corner.x, corner.y, tile), samples, scratch);
-  const Film& film = shared_.context.world.built.scene.film;
-  render_shared(PixelBlock(corner.x, corner.y, {0, 0, film.width, film.height}), samples, scratch);
-}
-
-PixelFilm BlockRender::film_of(PixelPlace p) const {
-  if (!shared_.film.crop().contains(p.x, p.y)) return PixelFilm();
-  return {shared_.points.of(p.x, p.y), shared_.peaks.of(p.x, p.y), shared_.emitters.of(p.x, p.y)};
+  render_shared(PixelBlock(corner.x, corner.y, frame_of(shared_.context.world.built.scene.film)), samples, scratch);
 }
 
 SampleKey BlockRender::key_of(PixelPlace p, int sample) const {
@@ -20,7 +14,7 @@ SampleKey BlockRender::key_of(PixelPlace p, int sample) const {
 
 void BlockRender::render_apart(const PixelBlock& block, SampleSpan samples, const Scratch& scratch) const {
   for (const PixelPlace p : block.pixels()) {
-    const PixelFilm film = film_of(p);
+    const PixelFilm film = shared_.searched.of(p);
     for (int s = samples.begin; s < samples.end; ++s) {
       scratch.group.clear();
       scratch.group.add(shared_.context, key_of(p, s), film, scratch.counters);
@@ -33,7 +27,8 @@ void BlockRender::render_apart(const PixelBlock& block, SampleSpan samples, cons
 void BlockRender::render_shared(const PixelBlock& block, SampleSpan samples, const Scratch& scratch) const {
   for (int s = samples.begin; s < samples.end; ++s) {
     scratch.group.clear();
-    for (const PixelPlace p : block.pixels()) scratch.group.add(shared_.context, key_of(p, s), film_of(p), scratch.counters);
+    for (const PixelPlace p : block.pixels())
+      scratch.group.add(shared_.context, key_of(p, s), shared_.searched.of(p), scratch.counters);
     add_to_film(scratch, samples.share);
   }
 }

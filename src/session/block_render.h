@@ -5,8 +5,7 @@
 #include "session/matte_layers.h"
 #include "session/pixel_block.h"
 #include "session/pixel_sample.h"
-#include "transport/pixel/camera_joint.h"
-#include "transport/pixel/film_emitters.h"
+#include "session/searched_film.h"
 
 namespace tyndall {
 
@@ -22,9 +21,7 @@ class BlockRender {
   struct Shared {
     const SampleContext& context;
     const MatteLayers& mattes;
-    const FilmPoints& points;
-    const FilmPeaks& peaks;
-    const FilmEmitters& emitters;
+    const SearchedFilm& searched;
     int first_sample;  ///< number of the render's first
     FilmBuffer& film;
   };
@@ -39,7 +36,6 @@ class BlockRender {
   void render(PixelPlace corner, const PixelBounds& tile, SampleSpan samples, const Scratch& scratch) const;
 
  private:
-  PixelFilm film_of(PixelPlace p) const;
   SampleKey key_of(PixelPlace p, int sample) const;
   void render_apart(const PixelBlock& block, SampleSpan samples, const Scratch& scratch) const;
   void render_shared(const PixelBlock& block, SampleSpan samples, const Scratch& scratch) const;

@@ -22,6 +22,8 @@ constexpr std::uint64_t kPilotSeed = 0x9110;
 constexpr int kSamples = 4;
 /// One block of so many: a twelfth of a sample of the picture. More than kMostBlocks know no better.
 constexpr std::size_t kBlocksEach = 48, kMostBlocks = 64;
+/// One of so many: a sixty-fourth of a sample.
+constexpr std::size_t kFirstEach = 256;
 /// Blocks that know as much as the numbers that stand without them.
 constexpr double kDoubt = 2;
 /// The more samples, the more strata, which spare much of the variance over a pixel and little of what choices among lights
@@ -43,8 +45,6 @@ PixelPlace spread_place(std::size_t i, const PixelBounds& frame) {
   return {at(kX, frame.x1), at(kY, frame.y1)};
 }
 
-PixelBounds frame_of(const Film& film) { return {0, 0, film.width, film.height}; }
-
 /// What a variance is relative to, as errors are seen, with radiance of the film.
 double unit_of(double mean, const Film& film) {
   return mean * mean + kRelativeEpsilon / (double{film.imaging_ratio} * film.imaging_ratio);
@@ -52,34 +52,42 @@ double unit_of(double mean, const Film& film) {
 
 }  // namespace
 
+double Look::Pixel::sum() const { return double{tyndall::mean(even)} + double{tyndall::mean(odd)}; }
 /// With all that was found: lights that are seldom chosen are seen twice as often.
-double Look::Pixel::mean() const { return (even + odd + 0.5 * light.difference) / kSamples; }
-double Look::Pixel::variance() const { return (squares - (even + odd) * (even + odd) / kSamples) * kSamples / (kSamples - 1); }
-double Look::Pixel::error() const { return (even - odd) * (even - odd); }
+double Look::Pixel::mean() const { return (sum() + 0.5 * light.difference) / kSamples; }
+double Look::Pixel::variance() const { return (squares - sum() * sum() / kSamples) * kSamples / (kSamples - 1); }
+double Look::Pixel::error(int channel) const {
+  const double difference = double{even[channel]} - double{odd[channel]};
+  return difference * difference;
+}
 bool Look::Pixel::is_finite() const { return std::isfinite(squares); }
 
-double Look::Block::mean() const {
-  double found = 0, count = 0;
+Rgb Look::Block::mean() const {
+  Rgb found;
+  float count = 0;
   for (const Pixel& pixel : pixels) {
-    if (pixel.is_finite()) found += pixel.mean(), ++count;
+    if (pixel.is_finite()) found += pixel.even + pixel.odd, count += kSamples;
   }
-  return count > 0 ? found / count : 0.0;
+  return count > 0 ? found * (1 / count) : Rgb();
 }
 
 /// More than 0.
-double Look::Block::error(double unit) const {
+double Look::Block::error(Rgb mean, const Film& film) const {
   double error = 0;
   for (const Pixel& pixel : pixels) {
-    if (pixel.is_finite()) error += (unit > 0 ? pixel.error() / unit : 0.0) + kUnseen;
+    if (!pixel.is_finite()) continue;
+    for (int c = 0; c < 3; ++c) error += pixel.error(c) / (3 * unit_of(double{mean[c]}, film));
+    error += kUnseen;
   }
   return error;
 }
 
-Look::Look(const SampleContext& context, const Decision& decision, ThreadPool& pool, LookWatch watch)
-    : context_(context), pool_(pool), watch_(std::move(watch)), decision_(decision) {}
-
 std::size_t Look::usual_blocks(const Film& film) {
   return std::min(std::max<std::size_t>(BlockGrid(frame_of(film)).size() / kBlocksEach, 1), kMostBlocks);
+}
+
+std::size_t Look::first_blocks(const Film& film) {
+  return std::min(BlockGrid(frame_of(film)).size() / kFirstEach, kMostBlocks);
 }
 
 double Look::samples_of(std::size_t blocks, const Film& film) {
@@ -94,10 +102,10 @@ void Look::extend(std::size_t blocks) {
   bool given_up = false;
   const auto goes_on = [&] {
     const std::scoped_lock lock(mutex);
-    given_up = given_up || (watch_ && !watch_());
+    given_up = given_up || (looks_.watch && !looks_.watch());
     return !given_up;
   };
-  pool_.for_each(blocks - before, 1, [&](std::size_t i) {
+  looks_.pool.for_each(blocks - before, 1, [&](std::size_t i) {
     if (!goes_on()) return;
     const FlushDenormals guard;
     blocks_[before + i] = try_block(before + i);
@@ -106,37 +114,35 @@ void Look::extend(std::size_t blocks) {
   for (std::size_t i = before; i < blocks; ++i) counters_ += blocks_[i].counters;
 }
 
-/// Without the emission that is seen: the film looks for emitters by itself.
 Look::Block Look::try_block(std::size_t number) const {
-  const SampleContext pilot{context_.world,
-                            context_.selector,
-                            context_.selector_with_volumes,
+  const SampleContext& context = looks_.context;
+  const SampleContext pilot{context.world,
+                            context.selector,
+                            context.selector_with_volumes,
                             decision_.settings,
-                            {.max_depth = context_.limits.max_depth},
+                            {.max_depth = context.limits.max_depth},
                             decision_.budget ? &*decision_.budget : nullptr};
-  const Film& film = context_.world.built.scene.film;
-  const PixelPlace place = spread_place(number, frame_of(film));
-  const PixelBlock block(place.x, place.y, frame_of(film));
+  const PixelPlace place = spread_place(number, frame_of(film()));
+  const PixelBlock block(place.x, place.y, frame_of(film()));
   Block tried;
   tried.pixels.resize(block.pixels().size());
   const auto group = std::make_unique<PixelGroup>();
-  const double exposure{film.imaging_ratio};  // trials see light as it is found
+  const float exposure = film().imaging_ratio;  // trials see light as it is found
   for (int s = 0; s < kSamples; ++s) {
     group->clear();
     for (std::size_t i = 0; i < tried.pixels.size(); ++i) {
-      const auto [x, y] = block.pixels()[i];
-      group->add(pilot, {hash(pilot.settings.seed, kPilotSeed), x, y, s}, PixelFilm(), tried.counters);
+      const PixelPlace p = block.pixels()[i];
+      group->add(pilot, {hash(pilot.settings.seed, kPilotSeed), p.x, p.y, s}, looks_.searched.of(p), tried.counters);
       if (Path* path = (*group)[i].path()) path->observe(tried.pixels[i].light);
     }
     group->run(pilot, tried.counters);
     for (std::size_t i = 0; i < tried.pixels.size(); ++i) {
-      const PathRecord record = (*group)[i].record();
-      const auto L = double{mean(record.radiance() - record.emission)} / exposure;
+      const Rgb L = (*group)[i].record().radiance() * ((*group)[i].weight() / exposure);
       (s & 1 ? tried.pixels[i].odd : tried.pixels[i].even) += L;
-      tried.pixels[i].squares += L * L;
+      tried.pixels[i].squares += double{mean(L)} * double{mean(L)};
     }
   }
-  tried.cost = Prices(context_.world.built.lights.size()).of(tried.counters);
+  tried.cost = Prices(context.world.built.lights.size()).of(tried.counters);
   for (const Pixel& pixel : tried.pixels) tried.cost -= pixel.light.repeated;
   return tried;
 }
@@ -153,9 +159,9 @@ Look::Ratio Look::over(const Look& other) const {
   Product my_sum, other_sum;
   for (std::size_t i = 0; i < count; ++i) {
     const Block &my_block = blocks_[i], &other_block = other.blocks_[i];
-    const double unit = unit_of(0.5 * (my_block.mean() + other_block.mean()), context_.world.built.scene.film);
-    my_sum.add(mine.emplace_back(my_block.error(unit), my_block.cost), 1);
-    other_sum.add(others.emplace_back(other_block.error(unit), other_block.cost), 1);
+    const Rgb both = (my_block.mean() + other_block.mean()) * 0.5f;
+    my_sum.add(mine.emplace_back(my_block.error(both, film()), my_block.cost), 1);
+    other_sum.add(others.emplace_back(other_block.error(both, film()), other_block.cost), 1);
   }
   const double log = my_sum.log() - other_sum.log();
   double squares = 0;
@@ -166,7 +172,7 @@ Look::Ratio Look::over(const Look& other) const {
     squares += change * change;
   }
   const auto n = static_cast<double>(count);
-  return {log, std::sqrt(squares * (n - 1) / n)};
+  return {log, std::sqrt(squares * (n - 1) / n), my_sum.cost / other_sum.cost};
 }
 
 double Look::Ratio::expected_loss() const {
@@ -183,10 +189,11 @@ Trials Look::trials(std::size_t blocks) const {
     const Block& block = blocks_[i];
     trials.all_cost += block.cost / looks;
     for (const Pixel& pixel : block.pixels) {
-      const double unit = looks * unit_of(pixel.mean(), context_.world.built.scene.film);
-      if (!(unit > 0) || !pixel.is_finite()) continue;
+      if (!pixel.is_finite()) continue;
+      const double unit = looks * unit_of(pixel.mean(), film());
       trials.all_variance += pixel.variance() / unit;
-      stratified += pixel.error() / unit;
+      const double halves = double{mean(pixel.even)} - double{mean(pixel.odd)};
+      stratified += halves * halves / unit;
       for (std::size_t spent = 0; spent < kSpents; ++spent) {
         trials.variance[spent] += pixel.light.variance[spent] / unit;
         trials.cost[spent] += pixel.light.cost[spent] / looks;

@@ -2,50 +2,56 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <vector>
 
 #include "math/parallel.h"
+#include "session/decision.h"
 #include "session/pixel_block.h"
 #include "session/pixel_sample.h"
+#include "session/searched_film.h"
 #include "transport/budget/light_trial.h"
 
 namespace tyndall {
-
-/// How a picture is rendered: what the options leave open is closed in them.
-struct Decision {
-  RenderSettings settings;
-  std::optional<LightBudget> budget;  ///< nothing: no number was measured
-};
 
 /// Asked before each block that is looked at, by one thread at a time: whether to go on. Empty: yes.
 using LookWatch = std::function<bool()>;
 /// Thrown where it says no.
 struct LookGivenUp {};
 
+/// What all looks of a render share. All that it refers to must outlive them.
+struct Looks {
+  const SampleContext& context;  ///< its settings are those that are decided on
+  const SearchedFilm& searched;  ///< of the whole frame
+  ThreadPool& pool;
+  LookWatch watch{};
+};
+
 /// What a few of the frame's blocks would be like, and would cost. A function of the scene, the frame and the decision,
 /// whatever part of the picture is rendered, and by whom; and of no random number that its samples use. Looks at the same frame
 /// have the same pixels and random numbers.
 class Look {
  public:
-  /// Of `context` all but settings and budget; without what only pictures want. `context` and `pool` must outlive it.
-  Look(const SampleContext& context, const Decision& decision, ThreadPool& pool, LookWatch watch = {});
+  Look(const Looks& looks, const Decision& decision) : looks_(looks), decision_(decision) {}
 
   /// The first blocks of a sequence, those that are missing until now. Throws LookGivenUp, and is then of no use.
   void extend(std::size_t blocks);
   /// So many suffice for numbers of lights, and are a small share of the frame.
   static std::size_t usual_blocks(const Film& film);
+  /// And so many cost next to nothing.
+  static std::size_t first_blocks(const Film& film);
   /// How many samples of the whole frame take as long as a look at so many blocks.
   static double samples_of(std::size_t blocks, const Film& film);
 
   const Decision& decision() const { return decision_; }
+  const Film& film() const { return looks_.context.world.built.scene.film; }
   /// What lights leave to chance in the first of its blocks, for best_budget().
   Trials trials(std::size_t blocks) const;
   const Counters& counters() const { return counters_; }
 
-  /// The logarithm of variance x cost over that of another look, and its standard error by the jackknife over blocks.
+  /// The logarithm of variance x cost over that of another look, its standard error by the jackknife over blocks, and the cost
+  /// over that of the other.
   struct Ratio {
-    double log, deviation;
+    double log, deviation, cost = 1;
 
     /// What choosing by the sign of `log` loses on average, where the truth is normal about it.
     double expected_loss() const;
@@ -56,13 +62,15 @@ class Look {
  private:
   /// One pixel.
   struct Pixel {
-    double even = 0, odd = 0, squares = 0;  ///< of its samples' radiance
+    Rgb even, odd;       ///< sums of its samples' radiance
+    double squares = 0;  ///< of the channels' mean, likewise
     LightTrial light;
 
+    double sum() const;
     double mean() const;
     // Of its samples together, as `light` is.
-    double variance() const;  ///< were they independent
-    double error() const;     ///< as they are: even and odd samples are two sequences
+    double variance() const;          ///< of the channels' mean, were they independent
+    double error(int channel) const;  ///< as they are: even and odd samples are two sequences
     bool is_finite() const;
   };
   struct Block {
@@ -70,14 +78,12 @@ class Look {
     Counters counters;
     double cost = 0;  ///< ns (Prices), without what only LightTrial wants
 
-    double mean() const;
-    double error(double unit) const;
+    Rgb mean() const;
+    double error(Rgb mean, const Film& film) const;
   };
   Block try_block(std::size_t number) const;
 
-  const SampleContext& context_;
-  ThreadPool& pool_;
-  LookWatch watch_;
+  const Looks& looks_;
   Decision decision_;
   std::vector<Block> blocks_;
   Counters counters_;  ///< of all

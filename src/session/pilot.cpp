@@ -6,15 +6,21 @@
 #include <numbers>
 #include <utility>
 
+#include "session/technique.h"
+
 namespace tyndall {
 namespace {
 
 /// Frames that a look usually sees fewer blocks of are too small to tell techniques apart, for what that may cost.
 constexpr std::size_t kLeastToCompare = 4;
+/// Of which errors can be told, before the first sample.
+constexpr std::size_t kLeastFirst = 2;
 /// Two techniques are compared by so many blocks at first: all pixels of one may share what a single path has found.
 constexpr std::size_t kFirstBlocks = 16;
-/// Of the product, what a change has to beat: looks see little of rare light, which is what most techniques are there for.
+/// Of the product, what leaving a technique out has to beat: looks see little of rare light, which is what most are there for.
 constexpr double kWins = 0.9;
+/// Leaving out all, by a standard error: numbers of lights, which are not measured yet, seldom gain more.
+constexpr double kWinsClearly = 0.75;
 /// They are looked at more closely while that pays in a picture of so many samples.
 constexpr double kPictureSamples = 16;
 
@@ -39,121 +45,171 @@ bool pays_to_double(const Look::Ratio& ratio, std::size_t blocks, const Film& fi
   return (1 - 1 / std::numbers::sqrt2) * ratio.expected_loss() * kPictureSamples > 2 * cost && 2 * cost <= 1;
 }
 
-/// Where lights may be close to collisions their variance there has no bound, of which looks see little.
-bool doubts_collisions(const SampleContext& context) { return context.world.built.lights.near_power() > 0; }
-
-/// Whether a look is so much better than another; `doubted`: by a standard error more.
-bool beats(Look& look, Look& other, const Film& film, bool doubted) {
+/// Whether a look has less than `wins` of the product of another; `doubted`: by a standard error more.
+bool beats(Look& look, Look& other, double wins, bool doubted) {
   for (std::size_t blocks = kFirstBlocks;; blocks *= 2) {
     look.extend(blocks);
     other.extend(blocks);
     Look::Ratio ratio = look.over(other);
-    ratio.log -= std::log(kWins);
+    ratio.log -= std::log(wins);
     if (doubted) ratio.log += ratio.deviation;
-    if (!pays_to_double(ratio, blocks, film)) return ratio.log < 0;
+    if (!pays_to_double(ratio, blocks, look.film())) return ratio.log < 0;
   }
 }
 
-/// Changes one thing after the other, and keeps what pays.
+/// Whether it is so much better that no numbers of lights would change that.
+bool clearly_beats(Look& look, Look& other) {
+  look.extend(kFirstBlocks);
+  other.extend(kFirstBlocks);
+  const Look::Ratio ratio = look.over(other);
+  return ratio.log + ratio.deviation < std::log(kWinsClearly);
+}
+
+/// Begins with all techniques or with none, changes one thing after the other, and keeps what pays.
 class Search {
  public:
-  Search(const SampleContext& context, const Decision& first, ThreadPool& pool, const LookWatch& watch)
-      : context_(context),
-        pool_(pool),
-        watch_(watch),
-        film_(context.world.built.scene.film),
-        unmeasured_(*first.budget),
-        usual_blocks_(Look::usual_blocks(film_)),
-        best_(look(first)) {
-    if (decides_lights(context, first.settings)) choices_ = best_->trials(usual_blocks_);
-  }
+  explicit Search(const Looks& looks)
+      : looks_(looks), usual_blocks_(Look::usual_blocks(looks.context.world.built.scene.film)) {}
 
+  void begin(const Decision& decision) {
+    best_ = look(decision);
+    best_->extend(std::min(kFirstBlocks, usual_blocks_));
+  }
+  /// With the other where that is clearly better. Whether it is.
+  bool begin_better(const Decision& other) {
+    return replace_if(look(other), [&](Look& begun, Look& tried) { return clearly_beats(tried, begun); });
+  }
   /// Goes on with the numbers of lights that pay: noise of too few would hide what a change is worth.
   void ask_lights() {
+    unmeasured_ = *best_->decision().budget;
+    if (!decides_lights(looks_.context, best_->decision().settings)) return;
+    best_->extend(usual_blocks_);
+    choices_ = best_->trials(usual_blocks_);
     const Decision asked = result();
-    const LightBudget &now = *best_->decision().budget, &then = *asked.budget;
-    if (now.vertex != then.vertex || now.span != then.span) best_ = look(asked);
+    if (asked.budget->vertex != unmeasured_.vertex || asked.budget->span != unmeasured_.span) begin(asked);
   }
-  /// Where variance x cost is less it stays changed. Nothing is looked at where what it changes is not `used`.
+  /// Leaves out what is used where variance x cost is less without.
   template <typename Change>
-  void consider(std::uint64_t used, const Change& change, bool doubted = false) {
-    if (used == 0) return;
-    Decision other = best_->decision();
-    change(other);
-    auto changed = std::make_unique<Look>(context_, other, pool_, watch_);
-    if (beats(*changed, *best_, film_, doubted)) best_ = std::move(changed);
+  void leave_out(std::uint64_t used, const Change& change, bool doubted = false) {
+    if (used > 0) replace_if(changed(change), [&](Look& with, Look& without) { return beats(without, with, kWins, doubted); });
+  }
+  /// Takes in what is not there, unless that is less without. Nothing more has to be won: rare light that all together should
+  /// have spared was not worth their cost.
+  template <typename Change>
+  void take_in(const Change& change, bool doubted = false) {
+    const auto pays = [&](Look& without, Look& with) { return !beats(without, with, 1, doubted); };
+    if (replace_if(changed(change), pays) && !choices_) ask_lights();
   }
   const Look& best() const { return *best_; }
   /// The best, with the numbers of lights that it makes pay.
   Decision result() const {
     Decision result = best_->decision();
-    if (!decides_lights(context_, result.settings)) return result;
+    if (!choices_ || !decides_lights(looks_.context, result.settings)) return result;
     LightBudget during = unmeasured_;
     during.collisions_shared = result.budget->collisions_shared;
     best_->extend(usual_blocks_);
-    result.budget = best_budget(beside(choices_, best_->trials(usual_blocks_)), during);
+    result.budget = best_budget(beside(*choices_, best_->trials(usual_blocks_)), during);
     return result;
   }
 
  private:
-  std::unique_ptr<Look> look(const Decision& decision) const {
-    auto look = std::make_unique<Look>(context_, decision, pool_, watch_);
-    look->extend(decides_lights(context_, decision.settings) ? usual_blocks_ : kFirstBlocks);
-    return look;
+  std::unique_ptr<Look> look(const Decision& decision) const { return std::make_unique<Look>(looks_, decision); }
+  template <typename Change>
+  std::unique_ptr<Look> changed(const Change& change) const {
+    Decision other = best_->decision();
+    change(other);
+    return look(other);
+  }
+  template <typename IsBetter>
+  bool replace_if(std::unique_ptr<Look> other, const IsBetter& is_better) {
+    const bool better = is_better(*best_, *other);
+    if (better) best_ = std::move(other);
+    return better;
   }
 
-  const SampleContext& context_;
-  ThreadPool& pool_;
-  const LookWatch& watch_;
-  const Film& film_;
-  LightBudget unmeasured_;
+  const Looks& looks_;
   std::size_t usual_blocks_;
   std::unique_ptr<Look> best_;
-  Trials choices_;  ///< as unmeasured numbers show them
+  LightBudget unmeasured_;
+  std::optional<Trials> choices_;  ///< as unmeasured numbers show them; nothing: none was made
 };
 
 void collisions_not_shared(Decision& d) { d.budget->collisions_shared = false; }
-void without_sharing(Decision& d) {
-  d.settings.reuse = ReuseStrategy::off;
-  d.budget->collisions_shared.reset();
-}
-void emission_by_rays(Decision& d) { d.settings.emission = EmissionStrategy::paths; }
-void unguided(Decision& d) { d.settings.guiding = GuidingStrategy::off; }
-void lit_at_collisions(Decision& d) {
-  d.settings.media = MediaStrategy::vertex;
-  d.settings.distance = DistanceStrategy::tracking;
+
+/// Techniques first, then collisions where paths share: the other way round where all begin, as sharing is worth more without
+/// collisions that are better left out.
+void decide_techniques(Search& search, const Decision& all, const Techniques& techniques, bool collisions) {
+  const auto used = [&](auto count) { return search.best().counters().*count; };
+  const auto ask_collisions = [&] {
+    if (collisions && search.best().decision().settings.reuse == ReuseStrategy::pixels)
+      search.leave_out(used(&Counters::connections), collisions_not_shared);
+  };
+  const Decision none = without_open(techniques, all);
+  const auto is_open = [](const Technique& technique) { return technique.open; };
+  const bool from_none = std::any_of(techniques.begin(), techniques.end(), is_open) && search.begin_better(none);
+  search.ask_lights();
+  if (!from_none) ask_collisions();
+  for (const Technique& technique : techniques) {
+    const auto change = [&](Decision& d) { technique.copy(from_none ? all : none, d); };
+    if (technique.open && from_none) search.take_in(change, technique.doubted);
+    if (technique.open && !from_none) search.leave_out(used(technique.use), change, technique.doubted);
+  }
+  if (from_none) ask_collisions();
 }
 
-Decision decision(const SampleContext& context, const OpenChoices& open, ThreadPool& pool, const LookWatch& watch) {
-  Decision first{context.settings, std::nullopt};
-  if (context.settings.budget != BudgetStrategy::measured) return first;
-  const bool comparable = Look::usual_blocks(context.world.built.scene.film) >= kLeastToCompare;
-  const bool collisions = comparable && decides_collisions(context), compares = comparable && open.any();
-  if (!(decides_lights(context, context.settings) || collisions || compares)) return first;
-  first.budget = LightBudget::unmeasured(context.settings);
-  if (collisions) first.budget->collisions_shared = true;
-  Search search(context, first, pool, watch);
-  if (collisions || compares) search.ask_lights();
-  const auto used = [&]() -> const Counters& { return search.best().counters(); };
-  if (collisions) search.consider(used().connections, collisions_not_shared);
-  if (compares) {
-    if (open.sharing) search.consider(used().connections, without_sharing);
-    if (open.emission) search.consider(used().rays, emission_by_rays);
-    if (open.pairs) search.consider(used().segments, lit_at_collisions, doubts_collisions(context));
-    if (open.guiding) search.consider(used().guided, unguided);
+bool comparable(const SampleContext& context) { return Look::usual_blocks(context.world.built.scene.film) >= kLeastToCompare; }
+
+Decision decision(const Looks& looks, const OpenChoices& open) {
+  const SampleContext& context = looks.context;
+  Decision all{context.settings, std::nullopt};
+  if (context.settings.budget != BudgetStrategy::measured) return all;
+  const bool collisions = comparable(context) && decides_collisions(context), compares = comparable(context) && open.any();
+  if (!(decides_lights(context, context.settings) || collisions || compares)) return all;
+  all.budget = LightBudget::unmeasured(context.settings);
+  if (collisions) all.budget->collisions_shared = true;
+  Search search(looks);
+  search.begin(all);
+  if (collisions || compares) {
+    decide_techniques(search, all, techniques(open, context), collisions);
+  } else {
+    search.ask_lights();
   }
   return search.result();
 }
 
-}  // namespace
+/// So few blocks tell little but what techniques cost: they are left out where that is clear. One sample among many of another
+/// kind has its share in the variance and in the cost of all, which add up to what it changes of the product.
+Decision first_decision(const Looks& looks, const OpenChoices& open) {
+  const SampleContext& context = looks.context;
+  const Decision all{context.settings, LightBudget::unmeasured(context.settings)};
+  const std::size_t blocks = Look::first_blocks(context.world.built.scene.film);
+  if (!open.any() || blocks < kLeastFirst) return all;
+  const Decision none = without_open(techniques(open, context), all);
+  Look with(looks, all), without(looks, none);
+  with.extend(blocks);
+  without.extend(blocks);
+  const Look::Ratio ratio = without.over(with);
+  const double variance = std::exp(ratio.log + ratio.deviation) / ratio.cost;
+  return 0.5 * (variance + ratio.cost) < kWins ? none : all;
+}
 
-std::optional<Decision> decide(const SampleContext& context, const OpenChoices& open, ThreadPool& pool,
-                               const LookWatch& watch) {
+template <typename Decide>
+std::optional<Decision> unless_given_up(const Decide& decide) {
   try {
-    return decision(context, open, pool, watch);
+    return decide();
   } catch (const LookGivenUp&) {
     return std::nullopt;
   }
+}
+
+}  // namespace
+
+std::optional<Decision> decide_first(const Looks& looks, const OpenChoices& open) {
+  return unless_given_up([&] { return first_decision(looks, open); });
+}
+
+std::optional<Decision> decide(const Looks& looks, const OpenChoices& open) {
+  return unless_given_up([&] { return decision(looks, open); });
 }
 
 }  // namespace tyndall

@@ -6,13 +6,16 @@
 #include <cstddef>
 #include <span>
 
-#include "tyndall/image.h"
+#include "tyndall/scene.h"
 
 namespace tyndall {
 
 struct PixelPlace {
   int x, y;
 };
+
+/// All pixels, whatever part of them is rendered.
+inline PixelBounds frame_of(const Film& film) { return {0, 0, film.width, film.height}; }
 
 /// Pixels of the frame in one cell of a grid that begins at its origin, whatever part of it is rendered.
 class PixelBlock {

@@ -26,7 +26,7 @@ namespace tyndall {
 namespace {
 
 PixelBounds full_crop(const Scene& scene, const RenderSettings& settings) {
-  const PixelBounds frame{0, 0, scene.film.width, scene.film.height};
+  const PixelBounds frame = frame_of(scene.film);
   const PixelBounds wanted = settings.crop.value_or(scene.film.crop);
   const PixelBounds crop{std::max(wanted.x0, frame.x0), std::max(wanted.y0, frame.y0), std::min(wanted.x1, frame.x1),
                          std::min(wanted.y1, frame.y1)};
@@ -44,7 +44,7 @@ class RenderJob::Impl {
   Impl(const World::Parts& world, const RenderSettings& settings)
       : world_(world),
         settings_(resolved(settings, world)),
-        decided_(settings_),
+        decision_{settings_, std::nullopt},
         open_(open_choices(settings, settings_, world)),
         selector_(world.built.lights.selector(settings.lights, false)),
         selector_with_volumes_(settings_.emission == EmissionStrategy::paths || world.built.volume_lights.empty()
@@ -58,7 +58,7 @@ class RenderJob::Impl {
         sample_context_{world,
                         selector_,
                         selector_with_volumes_,
-                        decided_,
+                        decision_.settings,
                         {.max_depth = settings_.max_depth,
                          .want_transmittance = film_.wants(Aov::transmittance),
                          .want_albedo = film_.wants(Aov::albedo)},
@@ -66,7 +66,7 @@ class RenderJob::Impl {
                         !mattes_.empty(),
                         deep_ ? &deep_->bins : nullptr},
         pool_(settings.threads),
-        blocks_({sample_context_, mattes_, film_points_, film_peaks_, film_emitters_, first_sample_, film_}) {
+        blocks_({sample_context_, mattes_, searched_, first_sample_, film_}) {
     if (*settings_.adaptive) plan_.emplace(film_.crop(), settings_.spp, goal());
   }
 
@@ -90,9 +90,13 @@ class RenderJob::Impl {
 
   bool run_pass(int count, const PassWatch& watch, GivenUp if_given_up) {
     const Timer pass_timer;
-    if (!searched_) search_film(watch);
+    if (!is_searched_) {
+      searched_ = search_film(film_.crop(), watch);
+      is_searched_ = true;
+    }
     RenderPass pass(film_.crop(), count, watch);
-    if (!piloted_ && !pilot_is_ahead()) pass.given_up = !send_pilot(watch);
+    pass.given_up = !decide_next(watch);
+    preparing_seconds_ += pass_timer.seconds();
     if (plan_) pass.samples = plan_->total(samples_ + count) - plan_->total(samples_);
     const std::optional<SamplePlan> plan_before = plan_;
     const bool first = samples_ == 0, undo = if_given_up == GivenUp::undone;
@@ -194,26 +198,20 @@ class RenderJob::Impl {
     r.least_samples = r.most_samples = samples_;
     if (plan_) std::tie(r.least_samples, r.most_samples) = plan_->range(samples_);
     r.seconds = seconds_;
-    if (budget_) report_budget(*budget_, r);
-    if (piloted_) report_choices(open_, decided_, r);
+    if (decision_.budget) report_budget(*decision_.budget, r);
+    if (decided_for_ == Decided::rest) report_choices(open_, decision_.settings, r);
     for (const PixelBounds& tile : unrendered_) r.unrendered += static_cast<std::uint64_t>(tile.width()) * tile.height();
     return r;
   }
 
   /// What depends on no sample.
-  void search_film(const PassWatch& watch) {
-    const Timer search_timer;
+  SearchedFilm search_film(const PixelBounds& pixels, const PassWatch& watch) {
     const auto alive = [&] {
       const std::scoped_lock lock(mutex_);
       if (watch) watch(0);
     };
-    const FilmSearch search{world_.built, settings_, film_.crop(), pool_, alive};
     alive();
-    film_points_ = film_points(search);
-    film_peaks_ = film_peaks(search);
-    film_emitters_ = FilmEmitters(search);
-    searched_ = true;
-    preparing_seconds_ = search_timer.seconds();
+    return SearchedFilm({world_.built, settings_, pixels, pool_, alive});
   }
 
   /// Of those of the picture, of which a slice has some.
@@ -222,16 +220,22 @@ class RenderJob::Impl {
   }
   bool pilot_is_ahead() const { return samples_ < samples_before_pilot(); }
 
-  /// False: it was given up, and has decided nothing.
-  bool send_pilot(const PassWatch& watch) {
-    const Timer pilot_timer;
-    const auto decision = decide(sample_context_, open_, pool_, [&] { return !watch || watch(0); });
-    preparing_seconds_ += pilot_timer.seconds();
+  /// How the samples that come are rendered. False: it was given up, and has decided nothing.
+  bool decide_next(const PassWatch& watch) {
+    const Decided next = pilot_is_ahead() ? Decided::first_sample : Decided::rest;
+    if (decided_for_ == next) return true;
+    const SampleContext undecided{world_, selector_, selector_with_volumes_, settings_, {.max_depth = settings_.max_depth}};
+    const PixelBounds frame = frame_of(world_.built.scene.film);
+    const bool elsewhere = settings_.budget == BudgetStrategy::measured && frame != film_.crop();
+    if (elsewhere && !searched_frame_) searched_frame_ = search_film(frame, watch);
+    const Looks looks{undecided, elsewhere ? *searched_frame_ : searched_, pool_, [&] { return !watch || watch(0); }};
+    const auto decision = next == Decided::rest ? decide(looks, open_) : decide_first(looks, open_);
     if (!decision) return false;
-    decided_ = decision->settings;
-    budget_ = decision->budget;
-    if (budget_) sample_context_.budget = &*budget_;
-    return piloted_ = true;
+    decision_ = *decision;
+    sample_context_.budget = decision_.budget ? &*decision_.budget : nullptr;
+    decided_for_ = next;
+    if (next == Decided::rest) searched_frame_.reset();
+    return true;
   }
 
   SampleSpan samples_of(PixelPlace p, int count) const {
@@ -293,9 +297,11 @@ class RenderJob::Impl {
             {"build", build_id()}};
   }
 
+  enum class Decided { nothing, first_sample, rest };
+
   const World::Parts& world_;
   RenderSettings settings_;
-  RenderSettings decided_;  ///< before send_pilot() as settings_
+  Decision decision_;  ///< before decide_next() settings_
   OpenChoices open_;
   const LightSelector& selector_;
   const LightSelector* selector_with_volumes_;
@@ -305,13 +311,12 @@ class RenderJob::Impl {
   FilmBuffer film_;
   SampleContext sample_context_;
   std::optional<SamplePlan> plan_;
-  std::optional<LightBudget> budget_;
   mutable ThreadPool pool_;
-  bool searched_ = false, piloted_ = false;
+  bool is_searched_ = false;
+  Decided decided_for_ = Decided::nothing;
   double preparing_seconds_ = 0;
-  FilmPoints film_points_;
-  FilmPeaks film_peaks_;
-  FilmEmitters film_emitters_;
+  SearchedFilm searched_;
+  std::optional<SearchedFilm> searched_frame_;  ///< for looks beside what is rendered, until all is decided
   int samples_ = 0;
   double seconds_ = 0;
   BlockRender blocks_;  ///< refers to the above
