@@ -16,7 +16,7 @@ struct Technique {
   /// To a decision with a budget what another one says of it.
   void (*copy)(const Decision& from, Decision& to);
   std::uint64_t Counters::*use;  ///< counts what it does: 0 where it makes no difference
-  bool doubted = false;          ///< whether looks without it see all the noise that it would leave
+  bool doubted = false;          ///< whether looks without it may miss noise that it leaves
 };
 using Techniques = std::array<Technique, 4>;
 
