@@ -166,15 +166,22 @@ Decision decision_of(const std::string& text, const OpenChoices& open, RenderSet
   return in_frame_of(text, settings, crop, [&](const Looks& looks) { return *decide(looks, open); });
 }
 
-/// Of so many seeds those for which the first sample is rendered as `is` says.
-template <typename Is>
-int first_samples(const std::string& text, const OpenChoices& open, int seeds, const Is& is) {
+bool has_pairs(const RenderSettings& s) { return s.media == MediaStrategy::product; }
+bool shares(const RenderSettings& s) { return s.reuse == ReuseStrategy::pixels; }
+bool seeks_emission(const RenderSettings& s) { return s.emission != EmissionStrategy::paths; }
+bool is_guided(const RenderSettings& s) { return s.guiding == GuidingStrategy::media; }
+
+/// Of so many seeds those for which decider(looks, open) says so.
+template <typename Decider>
+int count(int seeds, const Decider& decider, const std::string& text, const OpenChoices& open,
+          bool (*says)(const RenderSettings&)) {
   int count = 0;
   for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(seeds); ++seed) {
     RenderSettings settings;
     settings.seed = seed;
-    const auto decide_it = [&](const Looks& looks) { return *decide_first(looks, open); };
-    count += is(in_frame_of(text, settings, {0, 0, kLooked, kLooked}, decide_it).settings);
+    count += says(in_frame_of(text, settings, {0, 0, kLooked, kLooked}, [&](const Looks& looks) {
+                    return *decider(looks, open);
+                  }).settings);
   }
   return count;
 }
@@ -244,13 +251,14 @@ TEST_CASE("the first sample comes before the pilot, however the others come") {
 }
 
 // By two blocks of a frame of 192 pixels a side: under a sun pairs cost more than all else, and leave the noise on the wall;
-// behind bars sharing has a fifth of it.
+// behind bars sharing does not clearly lose.
 TEST_CASE("the first sample has no technique that clearly costs more than it saves") {
-  const auto pairs = [](const RenderSettings& s) { return s.media == MediaStrategy::product; };
-  const auto shares = [](const RenderSettings& s) { return s.reuse == ReuseStrategy::pixels; };
-  CHECK(first_samples(smoky(0.1f, sun(), 1), {.pairs = true}, 8, pairs) == 0);
-  CHECK(first_samples(smoky(2, points(100), 1), {.pairs = true}, 8, pairs) == 8);
-  CHECK(first_samples(hall(20, true), {.sharing = true}, 8, shares) >= 7);
+  const auto first = [](const std::string& text, const OpenChoices& open, bool (*says)(const RenderSettings&)) {
+    return count(8, decide_first, text, open, says);
+  };
+  CHECK(first(smoky(0.1f, sun(), 1), {.pairs = true}, has_pairs) == 0);
+  CHECK(first(smoky(2, points(100), 1), {.pairs = true}, has_pairs) == 8);
+  CHECK(first(hall(20, true), {.sharing = true}, shares) >= 7);
 }
 
 // All that is told of samples after the first comes from the pass that follows the pilot.
@@ -344,46 +352,41 @@ TEST_CASE("collisions are shared where that pays") {
 // sky is not worth its cost. What paths find behind a grille is spread by sharing, what a sun leaves in smoke that
 // scatters forward is found by guiding. By four seeds each.
 TEST_CASE("what does not pay is left out, and what pays stays") {
-  const auto with = [](const std::string& text, const OpenChoices& open, const auto& is) {
-    int count = 0;
-    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-      RenderSettings settings;
-      settings.seed = seed;
-      count += is(decision_of(text, open, settings).settings);
-    }
-    return count;
+  const auto with = [](const std::string& text, const OpenChoices& open, bool (*says)(const RenderSettings&)) {
+    return count(4, decide, text, open, says);
   };
-  const auto pairs = [](const RenderSettings& s) { return s.media == MediaStrategy::product; };
-  const auto shares = [](const RenderSettings& s) { return s.reuse == ReuseStrategy::pixels; };
-  const auto sought = [](const RenderSettings& s) { return s.emission != EmissionStrategy::paths; };
-  const auto guided = [](const RenderSettings& s) { return s.guiding == GuidingStrategy::media; };
-  CHECK(with(smoky(0.1f, sun(), 1), {.pairs = true}, pairs) == 0);
-  CHECK(with(smoky(2, points(100), 1), {.pairs = true}, pairs) == 4);
-  CHECK(with(smoky(2, points(100), 4), {.pairs = true}, pairs) == 4);
+  CHECK(with(smoky(0.1f, sun(), 1), {.pairs = true}, has_pairs) == 0);
+  CHECK(with(smoky(2, points(100), 1), {.pairs = true}, has_pairs) == 4);
+  CHECK(with(smoky(2, points(100), 4), {.pairs = true}, has_pairs) == 4);
   CHECK(with(hall(20, true), {.sharing = true}, shares) == 4);
-  CHECK(with(burning(100, ""), {.emission = true}, sought) == 4);
-  CHECK(with(burning(0.001f, environment(1)), {.emission = true}, sought) == 0);
-  CHECK(with(smoky(2, sun(), 20, 0.85f), {.guiding = true}, guided) == 4);
+  CHECK(with(burning(100, ""), {.emission = true}, seeks_emission) == 4);
+  CHECK(with(burning(0.001f, environment(1)), {.emission = true}, seeks_emission) == 0);
+  CHECK(with(smoky(2, sun(), 20, 0.85f), {.guiding = true}, is_guided) == 4);
   // Plain path tracing is ahead of all together here, and sharing alone of both.
   const OpenChoices all{.sharing = true, .pairs = true, .guiding = true};
   CHECK(with(smoky(0.06f, sun(), 10), all, shares) == 4);
-  CHECK(with(smoky(0.06f, sun(), 10), all, pairs) == 0);
+  CHECK(with(smoky(0.06f, sun(), 10), all, has_pairs) == 0);
 }
 
-/// Of tracked distances over pairs, in a ball under a sun.
-Look::Ratio tracked_over_pairs(std::uint64_t seed, std::size_t blocks) {
-  RenderSettings settings;
-  settings.seed = seed;
-  return in_frame_of(ball(), settings, {0, 0, kLooked, kLooked}, [&](const Looks& looks) {
+/// Of lights chosen at collisions, whose distances are tracked, over pairs along segments.
+Look::Ratio collisions_over_pairs(const std::string& text, const RenderSettings& settings, std::size_t blocks) {
+  return in_frame_of(text, settings, {0, 0, kLooked, kLooked}, [&](const Looks& looks) {
     Decision decision{looks.context.settings, LightBudget::unmeasured(looks.context.settings)};
     Look pairs(looks, decision);
     decision.settings.media = MediaStrategy::vertex;
     decision.settings.distance = DistanceStrategy::tracking;
-    Look tracked(looks, decision);
+    Look collisions(looks, decision);
     pairs.extend(blocks);
-    tracked.extend(blocks);
-    return tracked.over(pairs);
+    collisions.extend(blocks);
+    return collisions.over(pairs);
   });
+}
+
+/// In a ball under a sun.
+Look::Ratio tracked_over_pairs(std::uint64_t seed, std::size_t blocks) {
+  RenderSettings settings;
+  settings.seed = seed;
+  return collisions_over_pairs(ball(), settings, blocks);
 }
 
 // Of four samples two strata each: tracked distances in a ball under a sun then have 0.34 of the variance x cost of pairs,
@@ -392,26 +395,13 @@ TEST_CASE("looks see what strata spare") {
   for (std::uint64_t seed = 1; seed <= 4; ++seed) CHECK(tracked_over_pairs(seed, 64).log < std::log(0.38));
 }
 
-/// Of lights chosen at collisions over pairs along segments.
-double collisions_over_pairs(const std::string& text) {
-  return in_frame_of(text, {.joint = JointStrategy::off}, {0, 0, kLooked, kLooked}, [](const Looks& looks) {
-    constexpr std::size_t kBlocks = 64;
-    Decision decision{looks.context.settings, LightBudget::unmeasured(looks.context.settings)};
-    Look pairs(looks, decision);
-    decision.settings.media = MediaStrategy::vertex;
-    decision.settings.distance = DistanceStrategy::tracking;
-    Look collisions(looks, decision);
-    pairs.extend(kBlocks);
-    collisions.extend(kBlocks);
-    return collisions.over(pairs).log;
-  });
-}
-
-// Edges of emitters, a few in each block, are noise that neither has a part in: what pairs cost is lost. Seen by no look, they
-// would change 0.42 to 0.64, where it is -1.1.
+// Edges of emitters, a few in each block, are noise that neither has a part in: what pairs cost is lost. The logarithm is
+// 0.42 without them, -1.1 with them, and would be 0.64 by looks that see no emission.
 TEST_CASE("looks see the noise of what the camera sees of emitters") {
   const std::string lit = smoky(0.5f, points(100), 1);
-  const double hidden = collisions_over_pairs(lit), dazzled = collisions_over_pairs(lit + small_emitters());
+  const RenderSettings settings{.joint = JointStrategy::off};
+  const double hidden = collisions_over_pairs(lit, settings, 64).log,
+               dazzled = collisions_over_pairs(lit + small_emitters(), settings, 64).log;
   std::printf("  without pairs over with them: log %.2f, with emitters in the picture %.2f\n", hidden, dazzled);
   CHECK(hidden > 0.2);
   CHECK(dazzled < hidden - 0.7);
