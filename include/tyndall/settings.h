@@ -41,10 +41,10 @@ enum class GuidingStrategy { automatic, off, media };
 /// with what stands for other programs' methods. Not with LightStrategy::exhaustive.
 enum class JointStrategy { automatic, off, points };
 /// Whether paths of neighbouring pixels share the light that they find beyond their first bounce, weighted by MIS: where a ray
-/// meets a diffuse surface after its first bounce or collides in a medium, what is scattered there is seen by up to 64 pixels
-/// of a block of 8 x 8, whose noise is then correlated. `automatic`: they do with MediaStrategy::product, and not
-/// with what stands for other programs' methods, nor with AOV Replicate, which is there for filters. Never in scenes with
-/// alpha, whose surfaces let different rays through.
+/// meets a diffuse surface after its first bounce or collides in a medium, what is scattered there, and where it leaves the
+/// scene, what environments send from there, is seen by up to 64 pixels of a block of 8 x 8, whose noise is then correlated.
+/// `automatic`: they do with MediaStrategy::product, and not with what stands for other programs' methods, nor with AOV
+/// Replicate, which is there for filters. Never in scenes with alpha, whose surfaces let different rays through.
 enum class ReuseStrategy { automatic, off, pixels };
 /// How many lights are asked at a path's first vertex and along its first segment, where `candidates` and `shadow_rays` are not
 /// set: fixed numbers, or those that make variance x cost least as measured in a few blocks of the picture before it is

@@ -6,57 +6,21 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "report/block_test.h"
 #include "report/image_test.h"
-#include "support/block_image.h"
 #include "support/measure.h"
 #include "support/sanitized.h"
-#include "support/scene_text.h"
+#include "support/sharing.h"
 
 using namespace tyndall;
 using namespace tyndall::test;
 
 namespace {
 
-constexpr int kRenders = fewer(24), kSpp = 32, kResolution = 32;
-constexpr int kBlock = 2;  // smaller than what shares, within which light may only have moved
-constexpr double kLevel = 1e-3;
 constexpr Bounds3 kRoom{{-2, -1.8f, -4}, {2, 1.8f, 2}};
 
-/// From inside, near the middle of the open side.
-std::string camera(int max_depth, float fov_degrees = 62) {
-  return view({.eye = {0.2f, 0.1f, -3.8f},
-               .look = {0, -0.3f, 0},
-               .fov_degrees = fov_degrees,
-               .resolution = kResolution,
-               .max_depth = max_depth});
-}
+std::string camera(int max_depth, float fov_degrees = 62) { return sharing_camera(max_depth, fov_degrees); }
 
-/// A closed room of three colours, with a bright corner, things that mirror, refract and let light through, and a block whose
-/// edges are seen by some of the pixels of a block only.
-std::string room_without_lights() {
-  const auto wall = [](const char* rgb, const std::string& points) {
-    return block("Material \"diffuse\" \"rgb reflectance\" [" + std::string(rgb) + "]\nShape \"bilinearmesh\" \"point3 P\" [" +
-                 points + "]\n");
-  };
-  const auto ball = [](const std::string& material, const std::string& at, const std::string& radius) {
-    return block("Material " + material + "\nTranslate " + at + "\nShape \"sphere\" \"float radius\" " + radius + "\n");
-  };
-  return wall("0.6 0.6 0.6", "-2 -1.8 -4  2 -1.8 -4  -2 -1.8 2  2 -1.8 2") +  // floor
-         wall("0.7 0.7 0.7", "-2 1.8 -4  2 1.8 -4  -2 1.8 2  2 1.8 2") +
-         wall("0.8 0.1 0.1", "-2 -1.8 -4  -2 -1.8 2  -2 1.8 -4  -2 1.8 2") +
-         wall("0.1 0.7 0.2", "2 -1.8 -4  2 -1.8 2  2 1.8 -4  2 1.8 2") +
-         wall("0.5 0.5 0.6", "-2 -1.8 2  2 -1.8 2  -2 1.8 2  2 1.8 2") +
-         wall("0.5 0.5 0.5", "-2 -1.8 -4  2 -1.8 -4  -2 1.8 -4  2 1.8 -4") +
-         block("Material \"diffuse\" \"rgb reflectance\" [0.7 0.5 0.2]\nTranslate -0.9 -1.1 0.6\nRotate 25 0 1 0\n" +
-               box_mesh({{-0.5f, -0.7f, -0.5f}, {0.5f, 0.7f, 0.5f}})) +
-         ball("\"conductor\" \"float roughness\" 0.2", "1 -1.3 0.8", "0.5") + ball("\"dielectric\"", "0.1 -1.4 -0.8", "0.35") +
-         ball("\"coateddiffuse\"", "1.4 -1.5 -0.9", "0.3") +
-         block(
-             "Material \"diffusetransmission\"\nShape \"bilinearmesh\" \"point3 P\" [-1.9 -0.4 -1  -1 -0.4 -1.4  -1.9 0.6 -1  "
-             "-1 "
-             "0.6 -1.4]\n");
-}
+std::string room_without_lights() { return sharing_sides() + sharing_end(2) + sharing_end(-4) + sharing_things(); }
 
 std::string room() {
   return room_without_lights() + point_light({-1.7f, 1.2f, 1.7f}, 3) + point_light({1.2f, -1.6f, 1.6f}, 0.4f) +
@@ -68,58 +32,13 @@ std::string soft_room() {
   return room_without_lights() + emitting_square({0.6f, 0.9f, 1.9f}, 0.25f, 9) + emitting_square({-1.2f, 1.2f, 0.5f}, 0.4f, 5);
 }
 
-struct Renders {
-  MeanImage blocks;
-  double pixel_variance = 0;  ///< mean of it, of one render
-};
-
-/// Means over blocks, and their spread between renders.
-Renders renders_of(const std::string& text, const Variant& variant, std::uint64_t seed) {
-  Subject subject(text, variant);
-  MeanImageBuilder blocks, pixels;
-  for (int i = 0; i < kRenders; ++i) {
-    const Image image = subject.render(kSpp, seed + static_cast<std::uint64_t>(i));
-    pixels.add(image);
-    blocks.add(block_image(image, kBlock));
-  }
-  CHECK_MESSAGE(subject.faults().empty(), subject.faults());
-  Renders result{blocks.result(), 0};
-  const MeanImage of_pixels = pixels.result();
-  for (const Estimate& e : of_pixels.channels[1]) result.pixel_variance += e.variance;
-  return result;
-}
-
-/// `worth`: how much less variance sharing has at least. With fixed numbers of lights, to which pilot_test.cpp holds measured
-/// ones: these take half the time.
-void check_agree(const char* name, const std::string& text, Variant variant, double worth) {
-  CAPTURE(name);
-  variant.budget = BudgetStrategy::fixed;
-  Variant sharing = variant;
-  sharing.reuse = ReuseStrategy::pixels;
-  const Renders apart = renders_of(text, variant, 1000), shared = renders_of(text, sharing, 2000);
-  const auto differences = block_test(shared.blocks, apart.blocks);
-  const BlockDifference& w = worst(differences);
-  CAPTURE(w.x);
-  CAPTURE(w.y);
-  CAPTURE(w.channel);
-  CAPTURE(w.welch.t);
-  CHECK(count_below(differences, sidak(kLevel, static_cast<double>(differences.size()))) == 0);
-  const WelchResult mean = mean_test(shared.blocks, apart.blocks, 1);
-  const double gain = apart.pixel_variance / shared.pixel_variance;
-  std::printf("  %s: mean off by %+.3f %% +- %.3f %%, worst block t %.1f, variance %.2f times less\n", name,
-              100 * mean.difference / image_mean(apart.blocks, 1).mean,
-              100 * mean.standard_error / image_mean(apart.blocks, 1).mean, w.welch.t, gain);
-  CHECK(mean.p > kLevel);
-  if (!kSanitized) CHECK(gain > worth);
-}
-
 const Coefficients kThin{.sigma_a = {0.02f, 0.05f, 0.1f}, .sigma_s = {0.3f, 0.15f, 0.05f}, .g = 0.4f};
 
 }  // namespace
 
 TEST_CASE("sharing changes the noise alone: a room without media") {
-  check_agree("two bounces", camera(2) + room(), {}, 1.5);
-  check_agree("eight bounces", camera(8) + room(), {}, 1.5);
+  check_sharing("two bounces", camera(2) + room(), {}, 1.5);
+  check_sharing("eight bounces", camera(8) + room(), {}, 1.5);
 }
 
 // Of neighbours one finds something nearly always and another hardly ever: who found nothing counts all the same. Folds are
@@ -137,7 +56,7 @@ TEST_CASE("sharing changes the noise alone: folds under an open sky") {
   }
   const std::string scene = camera(4) + block("Material \"diffuse\" \"rgb reflectance\" [0.8 0.7 0.6]\n" + folds) +
                             point_light({-1.7f, 1.2f, 0.7f}, 3);
-  check_agree("folds", scene, {}, 1.0);
+  check_sharing("folds", scene, {}, 1.0);
 }
 
 // The camera is in the plane of a sheet: neighbours look at the floor on its lit and on its dark side.
@@ -147,17 +66,17 @@ TEST_CASE("sharing changes the noise alone: two sides of a sheet") {
       "Shape \"bilinearmesh\" \"point3 P\" [-2 -1.8 -4  2 -1.8 -4  -2 -1.8 2  2 -1.8 2]\n";
   const std::string scene =
       camera(4) + block("Material \"diffuse\" \"rgb reflectance\" [0.8 0.7 0.6]\n" + sheet) + point_light({-1.7f, 0.2f, 0}, 3);
-  check_agree("sheet", scene, {}, 1.1);
+  check_sharing("sheet", scene, {}, 1.1);
 }
 
 // Of a fog of three colours every path passes another part; some start or end outside, or pass its boundary twice.
 TEST_CASE("sharing changes the noise alone: homogeneous fog") {
   const std::string fog = homogeneous("m", kThin);
-  check_agree("everywhere", camera(5) + room() + fog + medium_box("m", "", {{-3, -3, -5}, {3, 3, 3}}), {}, 1.5);
-  check_agree("in the middle", camera(5) + room() + fog + medium_box("m", "", {{-1.5f, -1.79f, -1.5f}, {0.3f, 1, 1.5f}}), {},
-              1.5);
-  check_agree("by collisions", camera(5) + room() + fog + medium_box("m", "", {{-3, -3, -5}, {3, 3, 3}}),
-              {.media = MediaStrategy::vertex}, 0.8);  // collisions beside the lights decide, which none share
+  check_sharing("everywhere", camera(5) + room() + fog + medium_box("m", "", {{-3, -3, -5}, {3, 3, 3}}), {}, 1.5);
+  check_sharing("in the middle", camera(5) + room() + fog + medium_box("m", "", {{-1.5f, -1.79f, -1.5f}, {0.3f, 1, 1.5f}}), {},
+                1.5);
+  check_sharing("by collisions", camera(5) + room() + fog + medium_box("m", "", {{-3, -3, -5}, {3, 3, 3}}),
+                {.media = MediaStrategy::vertex}, 0.8);  // collisions beside the lights decide, which none share
 }
 
 // The rays of a block are closer together than light goes between collisions: finds are received all along them, and on what is
@@ -168,17 +87,17 @@ TEST_CASE("sharing changes the noise alone: fog as neighbouring rays see it alik
   const Coefficients colours{.sigma_a = {0.02f, 0.05f, 0.1f}, .sigma_s = {0.25f, 0.15f, 0.4f}, .g = 0.4f};
   const Bounds3 everywhere{{-3, -3, -5}, {3, 3, 3}}, middle{{-1.5f, -1.79f, -2.5f}, {0.3f, 1, 1.5f}};
   const std::string fog = homogeneous("m", colours);
-  check_agree("everywhere", camera(5, kNarrow) + soft_room() + fog + medium_box("m", "", everywhere), {}, 3);
-  check_agree("in the middle", camera(5, kNarrow) + soft_room() + fog + medium_box("m", "", middle), {}, 3);
+  check_sharing("everywhere", camera(5, kNarrow) + soft_room() + fog + medium_box("m", "", everywhere), {}, 3);
+  check_sharing("in the middle", camera(5, kNarrow) + soft_room() + fog + medium_box("m", "", middle), {}, 3);
   const std::string lit = emitting_square({-1.2f, 1.2f, 0.5f}, 0.4f, 5) + environment(0.3f);
-  check_agree("under a sky", camera(4, kNarrow) + lit + fog + medium_box("m", "", middle), {}, 0.8);  // direct light is all
+  check_sharing("under a sky", camera(4, kNarrow) + lit + fog + medium_box("m", "", middle), {}, 0.8);  // direct light is all
 
   Grid grid{{{-0.1f, -0.6f, -1}, {0.4f, 0, 0}}, 4, 4, 4, {}};  // for some rays of a block
   for (int i = 0; i < 64; ++i) grid.density.push_back(2 * float(i % 11));
   const std::string smoke = uniform_grid("s", colours, grid) + medium_box("s", "", grid.bounds);
-  check_agree("a grid in it", camera(3, kNarrow) + soft_room() + fog + medium_box("m", "", everywhere) + smoke, {}, 2);
+  check_sharing("a grid in it", camera(3, kNarrow) + soft_room() + fog + medium_box("m", "", everywhere) + smoke, {}, 2);
   const std::string thick = homogeneous("m", {.sigma_a = Rgb(0.05f), .sigma_s = {0.4f, 0.5f, 0.6f}, .g = -0.3f});
-  check_agree("thick", camera(3, 8) + soft_room() + thick + medium_box("m", "", everywhere), {}, 3);
+  check_sharing("thick", camera(3, 8) + soft_room() + thick + medium_box("m", "", everywhere), {}, 3);
 }
 
 // What mirrors and panes show is shared as what the camera sees: dark mirrors, whose paths roulette may end, bright ones behind
@@ -195,13 +114,13 @@ TEST_CASE("sharing changes the noise alone: mirrors, and a room behind a pane") 
   // Points alone: no light comes to walls by mirrors, where it would be rare and bright.
   const std::string lit = room_without_lights() + point_light({-1.7f, 1.2f, 1.1f}, 3) + point_light({1.2f, -1, 0.6f}, 0.4f);
   const std::string dark = lit + mirror("0.3 0.2 0.25"), bright = lit + mirror("0.9 0.95 1");
-  check_agree("mirror", camera(3, 30) + dark, {}, 1.5);
-  check_agree("pane", camera(6) + dark + pane, {}, 1.3);
+  check_sharing("mirror", camera(3, 30) + dark, {}, 1.5);
+  check_sharing("pane", camera(6) + dark + pane, {}, 1.3);
   const std::string fog = homogeneous("m", kThin) + medium_box("m", "", {{-3, -3, -5}, {3, 3, 3}});
-  check_agree("mirror in fog", camera(4, 30) + bright + fog, {}, 1.5);
+  check_sharing("mirror in fog", camera(4, 30) + bright + fog, {}, 1.5);
   const Coefficients thicker{.sigma_a = Rgb(0.25f), .sigma_s = {0.05f, 0.03f, 0.08f}, .g = 0.4f};
   const std::string alike = homogeneous("m", thicker) + medium_box("m", "", {{-3, -3, -5}, {3, 3, 3}});
-  check_agree("as neighbouring rays see it alike", camera(3, 14) + bright + alike, {}, 1.5);
+  check_sharing("as neighbouring rays see it alike", camera(3, 14) + bright + alike, {}, 1.5);
 }
 
 TEST_CASE("sharing changes the noise alone: smoke that leaves some ways open, from which paths are sent toward it") {
@@ -209,7 +128,7 @@ TEST_CASE("sharing changes the noise alone: smoke that leaves some ways open, fr
   smoke.sigma_s = {3, 2, 1.5f};
   Grid grid{{{-1.5f, -1.7f, -1.5f}, {0.6f, 1, 1.5f}}, 4, 4, 4, {}};
   for (int i = 0; i < 64; ++i) grid.density.push_back(0.1f * float(i % 11));
-  check_agree("smoke", camera(5) + room() + uniform_grid("m", smoke, grid) + medium_box("m", "", grid.bounds), {}, 1.3);
+  check_sharing("smoke", camera(5) + room() + uniform_grid("m", smoke, grid) + medium_box("m", "", grid.bounds), {}, 1.3);
 }
 
 // Finds in media are scattered toward neighbours with the density of the direction that the sun's aureole drew.
@@ -224,7 +143,7 @@ TEST_CASE("sharing changes the noise alone: a fire that scatters its own light")
   const std::string fire =
       camera(5) + room_without_lights() + uniform_grid("fire", burning, flames) + medium_box("fire", "", hearth);
   for (const EmissionStrategy emission : {EmissionStrategy::automatic, EmissionStrategy::paths, EmissionStrategy::lights})
-    check_agree("fire", fire, {.emission = emission}, 1.05);
+    check_sharing("fire", fire, {.emission = emission}, 1.05);
 }
 
 TEST_CASE("sharing changes the noise alone: a cloud under a sun") {
@@ -232,7 +151,7 @@ TEST_CASE("sharing changes the noise alone: a cloud under a sun") {
   Grid grid{{{-1.5f, -1.7f, -1.5f}, {0.6f, 1, 1.5f}}, 4, 4, 4, {}};
   for (int i = 0; i < 64; ++i) grid.density.push_back(0.2f * float(i % 11));
   const std::string light = distant_light({1, -2, 1}, 3) + environment(0.2f);
-  check_agree("cloud", camera(12) + light + uniform_grid("m", drops, grid) + medium_box("m", "", grid.bounds), {}, 0.7);
+  check_sharing("cloud", camera(12) + light + uniform_grid("m", drops, grid) + medium_box("m", "", grid.bounds), {}, 0.7);
 }
 
 // Variances of sums over pixels are bounded by what sharing can make of them: no more false alarms than are stated.

@@ -83,6 +83,7 @@ bool Path::scatter(const Vertex& vertex) {
   const Directions& directions =
       may_offer(vertex) ? offer_.emplace(context_, vertex, beta_).directions : own.emplace(context_, vertex);
   add_estimate(seen, light_at(directions, seen), depth_);
+  if (is_environment_offered()) offer_->sought = sought_;
   if (is_black(beta_) || (is_last_bounce(context_) && !context_.world.rays_find_lights())) return false;
 
   // What is aimed at lights weighs against the directions of this path alone.
@@ -100,7 +101,7 @@ bool Path::scatter(const Vertex& vertex) {
   }
   light_sampled_ = !s->specular && vertex.has_smooth();
   from_ = vertex.p();
-  pdf_ = span_collision_ ? vertex.pdf(s->wi, Rgb(1.0f)) : s->pdf;
+  pdf_ = sought_.pdf(vertex, s->wi, s->pdf);
   if (vertex.has_smooth()) ++context_.smooth_bounces;
   media_ = vertex.media_toward(context_.world.geometry, s->wi);
   ray_ = {vertex.origin(context_.world.geometry, s->wi), s->wi};

@@ -5,9 +5,7 @@
 #include "transport/path/path_offer.h"
 #include "transport/sample/grouped_light.h"
 #include "transport/sample/path_record.h"
-#include "transport/techniques/direct_light.h"
 #include "transport/techniques/joint.h"
-#include "transport/techniques/span_light.h"
 
 namespace tyndall {
 
@@ -83,6 +81,11 @@ class Path {
   bool may_share(const Vertex& first) const;
   const Span& receive_along(Span span, const Trace& trace);
   bool is_offered(const Vertex& second) const;
+  bool has_environment() const;
+  bool is_environment_offered() const;
+  void offer_environment();
+  void take_environment(Rgb factor, Vec3 wi, Received where);
+  Rgb environment_from(const PathOffer& offer, LightId light, Vec3 wi) const;
   bool completes_collision() const;
   std::optional<Vertex> next_vertex();
   std::optional<Vertex> arrive(const Trace& trace);
@@ -131,8 +134,7 @@ class Path {
   Vec3 from_;                                  ///< its position
   float pdf_ = 0;                              ///< of its direction, 1/sr
   std::optional<CollisionJointWeight> joint_;  ///< the ray from it, if it sampled lights jointly; context_ points to it
-  LightSearch search_;
-  std::optional<SpanCollision> span_collision_;  ///< in place of search_ when its lights are chosen along its span
+  SoughtLights sought_;
 
   // The span that the path is in.
   std::optional<bool> lit_at_collisions_;  ///< as decided before the ray was traced; else the span decides

@@ -23,23 +23,18 @@ void Path::add_light(LightId light, Rgb contribution, int bounces) {
 /// Light from emitters that is scattered at the vertex, by a path of throughput `beta`, without what the span's pairs estimate.
 Rgb Path::light_at(const Directions& directions, Rgb beta) {
   const Vertex& vertex = directions.vertex();
-  span_collision_.reset();
+  sought_.collision.reset();
   if (vertex.on_surface() || !span_search_) {
-    search_ = light_search(context_, vertex);
-    return is_black(beta) ? Rgb() : direct_light(context_, directions, search_, beta);
+    sought_.search = light_search(context_, vertex);
+    return is_black(beta) ? Rgb() : direct_light(context_, directions, sought_.search, beta);
   }
-  span_collision_ = SpanCollision{*span_search_, collision_t_, collision_density_};
-  return span_search_->tracked ? collision_light(context_, vertex, *span_collision_, beta) : Rgb();
+  sought_.collision = SpanCollision{*span_search_, collision_t_, collision_density_};
+  return span_search_->tracked ? collision_light(context_, vertex, *sought_.collision, beta) : Rgb();
 }
 
 /// MIS weight of a scattered ray that found light `id`, which next-event estimation samples with `light_pdf`.
 float Path::scattering_mis_weight(LightId id, float light_pdf) const {
-  if (!light_sampled_ || light_pdf == 0) return 1;
-  if (span_collision_) {
-    const SpanDensities others = span_densities(context_, *span_collision_, id);
-    return mis_weight(span_collision_->density * pdf_, others.pair * light_pdf, others.tracked * light_pdf);
-  }
-  return mis_weight(pdf_, search_.among->n_pmf(search_.cut, search_.query, id) * light_pdf);
+  return light_sampled_ ? sought_.scattering_mis_weight(context_, pdf_, id, light_pdf) : 1.0f;
 }
 
 /// What a ray that was scattered from a vertex counts of the emission that it passes.
@@ -80,7 +75,7 @@ void Path::add_volume_emission(const Span& span) {
   if (last == span.parts.begin()) return;
   Rng rng = stream_for_emission();
   const ScatteredEmission gauge(*this);
-  const bool weighs = light_sampled_ && (span_collision_ ? span_collision_->search.volumes : search_.volumes);
+  const bool weighs = light_sampled_ && sought_.volumes();
   DeepSample* const deep = depth_ == 0 ? context_.deep : nullptr;
   const EmissionLook look{weighs ? &gauge : nullptr, depth_ == 0 ? kSeenDensity : 1.0f, deep};
   const int bounces = bounces_of_emission(weighs);
@@ -102,6 +97,7 @@ void Path::add_volume_emission(const Span& span) {
 }
 
 void Path::add_environment() {
+  if (light_sampled_ && is_environment_offered()) return offer_environment();
   const Lights& lights = context_.world.lights;
   const Ray ray{depth_ == 0 ? ray_.o : from_, ray_.d};  // from where lights were sampled, as portals depend on it
   for (const LightId id : lights.infinite()) {

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "transport/vertex/directions.h"
+#include "transport/techniques/sought_lights.h"
 
 namespace tyndall {
 
@@ -12,7 +12,7 @@ namespace tyndall {
 inline constexpr std::size_t kMostSharing = 64;
 
 /// What the path met after its first vertex that spreads light, a diffuse surface or a collision, and the light that is
-/// scattered there.
+/// scattered there; or an environment, where it left the scene.
 struct PathOffer {
   /// For bounce number context.bounce.
   PathOffer(const LightContext& context, const Vertex& vertex, Rgb throughput)
@@ -24,12 +24,17 @@ struct PathOffer {
   Directions directions;  ///< how the path went on from there
   Rgb beta;               ///< throughput before that bounce
 
-  std::optional<Vertex> at;  ///< what was met; nothing: others may still have found something for this path
-  Rgb arrived;               ///< throughput with which the path itself came there
-  Rgb flown;                 ///< the part of it that the flight through media weighs
-  Rng rng{0};                ///< for the connections of others
+  SoughtLights sought;  ///< there; only where an environment may be found
 
-  /// An estimate: of what a surface scatters to all on the side of `first`; of what comes to a collision from `wi`.
+  std::optional<Vertex> at;     ///< what was met; nothing: others may still have found something for this path
+  std::optional<Vec3> escaped;  ///< instead of it: the direction to an environment, a find at infinity
+  bool found() const { return at || escaped; }
+  Rgb arrived;  ///< throughput with which the path itself came there
+  Rgb flown;    ///< the part of it that the flight through media weighs
+  Rng rng{0};   ///< for the connections of others
+
+  /// An estimate: of what a surface scatters to all on the side of `first`; of what comes to a collision from `wi`. Of an
+  /// environment, which all know, what its own path counts.
   Rgb radiance;
   Vec3 wi;                         ///< where the path went on from a collision
   std::optional<Aureole> aureole;  ///< by which that was drawn

@@ -21,8 +21,9 @@ void Path::run_until_offer() {
   ++context_.counters.paths;
   sharing_ = Sharing::offering;
   auto vertex = follow(next_vertex());
-  if (!offer_ || !vertex) return;
-  offer_->at.emplace(std::move(*vertex));
+  if (!offer_) return;
+  if (vertex) offer_->at.emplace(std::move(*vertex));
+  if (!offer_->found()) return;
   offer_->arrived = beta_;
   offer_->flown = flown_;
   context_.sampler.begin_step(kSharingStep);
@@ -56,10 +57,14 @@ PathOffer* Path::behind() {
   const Span& span = segment_->span();
   const Vertex vertex = vertex_at(hit, -span.ray.d, span.end);
   context_.bounce = context_.smooth_bounces = 0;
-  return may_share(vertex) ? &behind_.emplace(context_, vertex, Rgb(1.0f)) : nullptr;
+  if (!may_share(vertex)) return nullptr;
+  behind_.emplace(context_, vertex, Rgb(1.0f));
+  if (has_environment()) behind_->sought.search = light_search(context_, behind_->first);
+  return &*behind_;
 }
 
 void Path::take(Rgb factor, const Path& finder, Received where) {
+  if (finder.offer_->escaped) return take_environment(factor, *finder.offer_->escaped, where);
   (where == Received::on_surface ? record_.surface_indirect : record_.volume_indirect) += factor * finder.offer_->radiance;
   if (context_.groups) GroupedLight::add(factor, finder.context_.groups->find, context_.groups->found);
 }
@@ -67,6 +72,38 @@ void Path::take(Rgb factor, const Path& finder, Received where) {
 void Path::take_at(float t, Rgb factor, const Path& finder) {
   take(factor, finder, Received::in_medium);
   if (context_.deep) context_.deep->scattered(t, factor * finder.offer_->radiance);
+}
+
+bool Path::has_environment() const { return !context_.world.lights.infinite().empty(); }
+bool Path::is_environment_offered() const { return leaves_first() && has_environment(); }
+
+void Path::offer_environment() {
+  offer_->escaped = ray_.d;
+  for (const LightId light : context_.world.lights.infinite()) offer_->radiance += environment_from(*offer_, light, ray_.d);
+}
+
+/// What a direction brings from there, weighted by MIS against next-event estimation as if the path had gone there itself:
+/// which of those that share has chosen it does not matter.
+Rgb Path::environment_from(const PathOffer& offer, LightId light, Vec3 wi) const {
+  const Lights& lights = context_.world.lights;
+  const Ray ray{offer.first.p(), wi};
+  const Rgb L = lights.environment(light, ray);
+  const float pdf = is_black(L) ? 0.0f : lights.environment_pdf(light, ray, true);
+  if (pdf == 0) return L;
+  const float own = offer.sought.pdf(offer.first, wi, offer.directions.pdf(wi, offer.beta));
+  return L * offer.sought.scattering_mis_weight(context_, own, light, pdf);
+}
+
+void Path::take_environment(Rgb factor, Vec3 wi, Received where) {
+  const bool on_surface = where == Received::on_surface, arrived = offer_ && offer_->first.on_surface() == on_surface;
+  const PathOffer& at = arrived ? *offer_ : *behind_;
+  Rgb& direct = on_surface ? record_.surface_direct : record_.volume_direct;
+  Rgb& indirect = on_surface ? record_.surface_indirect : record_.volume_indirect;
+  for (const LightId light : context_.world.lights.infinite()) {
+    const Rgb contribution = factor * environment_from(at, light, wi);
+    (at.bounces == 1 ? direct : indirect) += contribution;
+    if (context_.groups) context_.groups->found[context_.groups->groups().of(light)] += contribution;
+  }
 }
 
 bool Path::completes_collision() const { return sharing_ == Sharing::completing && !offer_->at->on_surface(); }
@@ -85,7 +122,7 @@ bool Path::is_scattered_by_find(int bounces) const { return completes_collision(
 
 /// Not where dispersion has left a single channel: others want them all. Nor where they could not tell how likely the path
 /// went where it did.
-bool Path::may_share(const Vertex& first) const { return limits_.max_depth > 1 && first.has_smooth() && first.has_exact_pdf(); }
+bool Path::may_share(const Vertex& first) const { return first.has_smooth() && first.has_exact_pdf(); }
 
 /// What the surface sends back must not depend on which of the paths looks at it. Of a collision's light only that of the
 /// next bounce and later is shared.

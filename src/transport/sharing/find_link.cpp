@@ -35,6 +35,7 @@ Connection scattered_back(const PathOffer& find, Vec3 w) {
 
 Connection connect(const PathOffer& from, const PathOffer& find) {
   if (from.bounces != find.bounces) return {};
+  if (find.escaped) return {from.first.eval(*find.escaped), from.directions.pdf(*find.escaped, from.beta)};
   const Vec3 v = find.at->p() - from.first.p();
   const float d2 = length_squared(v);
   if (!(d2 > 0)) return {};
@@ -48,16 +49,17 @@ Connection connect(const PathOffer& from, const PathOffer& find) {
 
 Link::Link(const Between& between, const Vertex& from, PathOffer& find, bool own) : between_(between), find_(find), own_(own) {
   const Geometry& geometry = between.world.geometry;
-  const Vec3 w = normalize(find.at->p() - from.p());
+  const Vec3 w = find.escaped ? *find.escaped : normalize(find.at->p() - from.p());
   ray_ = {from.origin(geometry, w), w};
   media_ = from.media_toward(geometry, w);
 }
 
 std::optional<Passage> Link::pass(Rgb throughput) const {
   const BuiltWorld& world = between_.world;
-  const float distance = length(find_.at->p() - ray_.o);
+  const float distance = find_.escaped ? kInfinity : length(find_.at->p() - ray_.o);
   ++between_.counters.shadow_rays;
-  const auto crossings = world.geometry.trace_shadow(ray_, 0, find_.at->on_surface() ? distance * kShadowEnd : distance);
+  const bool on_surface = find_.at && find_.at->on_surface();
+  const auto crossings = world.geometry.trace_shadow(ray_, 0, on_surface ? distance * kShadowEnd : distance);
   if (!crossings) return std::nullopt;
   Passage passage;
   if (own_) passage.weight = find_.flown;

@@ -15,14 +15,14 @@ constexpr double kMostFinds = 16;
 /// Counts what the path has found where it is alone.
 void keep(Path& path) {
   const PathOffer& find = path.offer();
-  if (find.at) path.take(path.own_factor(), path, Path::received_at(find.first));
+  if (find.found()) path.take(path.own_factor(), path, Path::received_at(find.first));
 }
 
 /// What the find brings its own path, which is of the order of what it brings others. Zero: there is nothing to share. What is
 /// not a number stays with its path, where it is counted once.
 float worth_of(Path& path) {
   const PathOffer& find = path.offer();
-  if (!find.at || is_black(find.radiance)) return 0;
+  if (!find.found() || is_black(find.radiance)) return 0;
   const Rgb own = path.own_factor() * find.radiance;
   if (is_finite(own)) return mean(own);
   keep(path);
@@ -65,6 +65,14 @@ void share_among(Shares& shares, std::span<Path* const> finders, std::size_t rec
   }
 }
 
+/// Counts environments with the paths that have found them: they are nowhere that places along rays could be drawn toward.
+/// The other finders.
+std::span<Path* const> keep_environments(std::span<Path*> finders) {
+  const auto middle = std::stable_partition(finders.begin(), finders.end(), [](Path* path) { return !path->offer().escaped; });
+  for (auto escaped = middle; escaped != finders.end(); ++escaped) keep(**escaped);
+  return {finders.begin(), middle};
+}
+
 void share_collisions(const Between& between, std::span<Path* const> finders, std::span<Path* const> paths,
                       std::optional<bool> shared) {
   if (finders.empty()) return;
@@ -85,7 +93,8 @@ void share_suffixes(const Between& between, std::span<Path* const> paths, std::o
   std::array<Path*, kMostSharing> finders;
   auto* const end = std::copy_if(paths.begin(), paths.end(), finders.begin(), [](const Path* path) { return path->offers(); });
   auto* const middle = std::stable_partition(finders.begin(), end, [](Path* path) { return path->offer().first.on_surface(); });
-  const std::span<Path*const> on_surface(finders.begin(), middle), in_medium(middle, end);
+  const std::span<Path* const> on_surface(finders.begin(), middle);
+  const std::span<Path*> in_medium(middle, end);
   VertexShares surfaces(between);
   if (!SegmentShares::pay(paths)) {
     for (Path* path : on_surface) surfaces.add_arrived(*path);
@@ -96,7 +105,7 @@ void share_suffixes(const Between& between, std::span<Path* const> paths, std::o
   for (Path* path : paths) surfaces.add_behind(*path);
   share_among(surfaces, on_surface, paths.size(), kMostFinds / 2);
   SegmentShares segments(between, paths);
-  share_among(segments, in_medium, paths.size(), kMostFinds / 2);
+  share_among(segments, keep_environments(in_medium), paths.size(), kMostFinds / 2);
   segments.hand_out();
 }
 

@@ -1,0 +1,29 @@
+/// Renders whose pixels share what their paths find, against renders whose pixels do not.
+#pragma once
+
+#include <string>
+
+#include "report/block_test.h"
+#include "support/measure.h"
+#include "support/scene_text.h"
+
+namespace tyndall::test {
+
+/// The room of these tests, from -z where the camera is: a back wall at z = 2, sides at x = -2 and 2, and what mirrors,
+/// refracts and lets light through. A block in it has edges that some pixels of a block see.
+inline constexpr int kSharingResolution = 32;
+std::string sharing_camera(int max_depth, float fov_degrees = 62);
+/// A wall of a colour: a bilinear mesh of these four corners.
+std::string sharing_wall(const std::string& rgb, const std::string& corners);
+std::string sharing_sides();       ///< floor, ceiling and the walls at x = -2 and 2
+std::string sharing_end(float z);  ///< a wall across the room
+std::string sharing_things();
+
+/// Holds pictures to each other, block by block and in their means, at a level of 1e-3. Pixels that share are not independent:
+/// errors come from the spread of whole blocks between renders, 12 of 32 samples, at night 24; a bias of 4.5 standard
+/// errors of a block's difference is found in half of all cases, at night the same of 0.7 of that error.
+/// `worth`: how much less variance sharing has at least. With fixed numbers of lights, to which pilot_test.cpp holds measured
+/// ones: these take half the time.
+void check_sharing(const char* name, const std::string& text, Variant variant, double worth);
+
+}  // namespace tyndall::test
