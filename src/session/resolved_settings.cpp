@@ -51,7 +51,7 @@ RenderSettings resolved(RenderSettings settings, const World::Parts& world) {
   const bool filtered = std::find(settings.aovs.begin(), settings.aovs.end(), "Replicate") != settings.aovs.end();
   if (settings.reuse == ReuseStrategy::automatic)
     settings.reuse = ours && !filtered ? ReuseStrategy::pixels : ReuseStrategy::off;
-  const bool finds = settings.max_depth > 1 || !world.built.lights.infinite().empty();
+  const bool finds = settings.max_depth > 1 || (settings.max_depth == 1 && !world.built.lights.infinite().empty());
   if (!finds || !world.built.opaque) settings.reuse = ReuseStrategy::off;
   if (settings.budget == BudgetStrategy::automatic) settings.budget = ours ? BudgetStrategy::measured : BudgetStrategy::fixed;
   if (settings.media == MediaStrategy::vertex) settings.distance = DistanceStrategy::tracking;

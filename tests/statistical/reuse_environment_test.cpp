@@ -1,13 +1,15 @@
 /// Paths that share the directions in which they left the scene, against paths that do not.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <numeric>
+#include <vector>
 
 #include "report/statistics.h"
 #include "support/sanitized.h"
+#include "support/scratch.h"
 #include "support/sharing.h"
 #include "tyndall/io.h"
 
@@ -35,14 +37,13 @@ class SkyMap {
     }
     write_exr(map, path_);
   }
-  ~SkyMap() { std::filesystem::remove(path_); }
-  SkyMap(const SkyMap&) = delete;
   std::string light(const std::string& more = "") const {
     return block("Rotate -90 1 0 0\nLightSource \"infinite\" \"string filename\" \"" + path_ + "\" " + more + "\n");
   }
 
  private:
-  std::string path_ = (std::filesystem::temp_directory_path() / "tyndall_reuse_sky.exr").string();
+  Scratch folder_;
+  std::string path_ = folder_ / "sky.exr";
 };
 
 const Coefficients kSmoke{.sigma_a = {0.02f, 0.05f, 0.1f}, .sigma_s = {1.5f, 1, 0.7f}, .g = 0.3f};
@@ -67,8 +68,9 @@ TEST_CASE("sharing an environment changes the noise alone: maps, beside other li
   check_sharing("map and lights",
                 sharing_camera(3) + open_room() + sky.light() + environment(0.2f) + point_light({1.2f, -1, 0.6f}, 0.4f), {},
                 1.5);
-  check_sharing("portal", sharing_camera(2) + open_room() + sky.light("\"point3 portal\" [0 0 2  0 1.8 2  2 1.8 2  2 0 2]"), {},
-                1);
+  // Of the window's upper half: who leaves by the lower one, or where the camera stands, has found nothing that others see.
+  check_sharing("portal", sharing_camera(2) + open_room() + sky.light("\"point3 portal\" [0 0.9 2  0 1.8 2  2 1.8 2  2 0.9 2]"),
+                {}, 1);
 }
 
 // What collides receives what others have found from where they collided, and what passes on the surface behind.
@@ -77,8 +79,10 @@ TEST_CASE("sharing an environment changes the noise alone: smoke and fog") {
   for (const MediaStrategy media : {MediaStrategy::product, MediaStrategy::vertex})
     check_sharing("smoke", sharing_camera(4) + open_room() + environment(1) + smoke(), {.media = media}, 1.7);
   check_sharing("smoke and a map", sharing_camera(4) + open_room() + sky.light() + smoke(), {}, 1.7);
+  check_sharing("smoke, one bounce", sharing_camera(1) + open_room() + environment(1) + smoke(), {}, 1.2);
   const std::string fog = homogeneous("f", {.sigma_a = {0.02f, 0.05f, 0.1f}, .sigma_s = {0.3f, 0.15f, 0.2f}, .g = 0.4f}) +
                           medium_box("f", "", {{-3, -3, -5}, {3, 3, 3}});
+  check_sharing("fog, one bounce", sharing_camera(1) + open_room() + environment(1) + fog, {}, 0.8);
   check_sharing("fog", sharing_camera(4) + open_room() + environment(1) + fog, {}, 1);
   check_sharing("fog as neighbouring rays see it alike", sharing_camera(4, 16) + open_room() + sky.light() + fog, {}, 1);
 }
@@ -100,7 +104,7 @@ TEST_CASE("a shared environment is direct light") {
   const std::string fog = homogeneous("f", {.sigma_a = Rgb(0.02f), .sigma_s = Rgb(0.25f), .g = 0.4f}) +
                           medium_box("f", "", {{-3, -3, -5}, {3, 3, 3}});
   const std::vector<std::string> parts{"SurfaceDirect", "SurfaceIndirect", "VolumeDirect", "VolumeIndirect"};
-  const int renders = nightly() ? 48 : fewer(16);
+  const int renders = nightly() ? 48 : std::max(2, fewer(16));
   for (const float fov : {62.0f, 12.0f}) {
     CAPTURE(fov);
     const std::string scene = sharing_camera(3, fov) + open_room() + environment(1) + fog;
@@ -119,7 +123,7 @@ TEST_CASE("a shared environment is direct light") {
       CAPTURE(parts[p]);
       const Estimate apart = means[0][p].estimate(), shared = means[1][p].estimate();
       const double error = std::hypot(apart.standard_error(), shared.standard_error());
-      CHECK(error < 0.1 * kCoarser * apart.mean);
+      if (!kSanitized) CHECK(error < 0.1 * apart.mean);
       CHECK(std::abs(apart.mean - shared.mean) < 4.5 * error);
     }
   }

@@ -13,7 +13,6 @@
 namespace tyndall::test {
 namespace {
 
-constexpr int kSpp = 32;
 constexpr int kBlock = 2;  // smaller than what shares, within which light may only have moved
 constexpr double kLevel = 1e-3;
 
@@ -25,10 +24,10 @@ struct Renders {
 /// Means over blocks, and their spread between renders.
 Renders renders_of(const std::string& text, const Variant& variant, std::uint64_t seed) {
   Subject subject(text, variant);
-  const int renders = nightly() ? 24 : fewer(12);
+  const int renders = fewer(24), spp = nightly() ? 32 : 16;
   MeanImageBuilder blocks, pixels;
   for (int i = 0; i < renders; ++i) {
-    const Image image = subject.render(kSpp, seed + static_cast<std::uint64_t>(i));
+    const Image image = subject.render(spp, seed + static_cast<std::uint64_t>(i));
     pixels.add(image);
     blocks.add(block_image(image, kBlock));
   }

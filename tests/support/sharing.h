@@ -3,7 +3,6 @@
 
 #include <string>
 
-#include "report/block_test.h"
 #include "support/measure.h"
 #include "support/scene_text.h"
 
@@ -20,10 +19,10 @@ std::string sharing_end(float z);  ///< a wall across the room
 std::string sharing_things();
 
 /// Holds pictures to each other, block by block and in their means, at a level of 1e-3. Pixels that share are not independent:
-/// errors come from the spread of whole blocks between renders, 12 of 32 samples, at night 24; a bias of 4.5 standard
-/// errors of a block's difference is found in half of all cases, at night the same of 0.7 of that error.
-/// `worth`: how much less variance sharing has at least. With fixed numbers of lights, to which pilot_test.cpp holds measured
-/// ones: these take half the time.
+/// errors come from the spread of whole blocks between 24 renders of 16 samples, at night of 32: fewer, each of more, see too
+/// little of rare light to tell. A bias of 5.6 standard errors of a block's difference is found in half of all cases (768
+/// differences). `worth`: how much less variance sharing has at least. With fixed numbers of lights, to which pilot_test.cpp
+/// holds measured ones: these take half the time.
 void check_sharing(const char* name, const std::string& text, Variant variant, double worth);
 
 }  // namespace tyndall::test

@@ -83,7 +83,7 @@ bool Path::scatter(const Vertex& vertex) {
   const Directions& directions =
       may_offer(vertex) ? offer_.emplace(context_, vertex, beta_).directions : own.emplace(context_, vertex);
   add_estimate(seen, light_at(directions, seen), depth_);
-  if (is_environment_offered()) offer_->sought = sought_;
+  if (is_environment_offered()) offer_->sought = std::make_unique<const SoughtLights>(sought_);
   if (is_black(beta_) || (is_last_bounce(context_) && !context_.world.rays_find_lights())) return false;
 
   // What is aimed at lights weighs against the directions of this path alone.

@@ -31,7 +31,7 @@ class Path {
   void run();
 
   /// In place of run(), where paths share what they find beyond their first vertex that spreads light (suffix_reuse.h): the
-  /// path goes until it ends, or stands at a vertex that others may see as well.
+  /// path goes until it ends, which may be in an environment that others see as well, or stands at a vertex that they do.
   void run_until_offer();
   bool offers() const { return offer_.has_value(); }  ///< else it has nothing to offer
   PathOffer& offer() { return *offer_; }
@@ -40,12 +40,13 @@ class Path {
   /// which a path that remained there has nothing to offer of. Null: there is none.
   CameraSegment* segment() { return segment_ ? &*segment_ : nullptr; }
   PathOffer* behind();
-  /// The rest of a path whose offer has a find: the light that is scattered there. What others may count too counts only as it
+  /// The rest of a path that stands at a vertex: the light that is scattered there. What others may count too counts only as it
   /// is handed out, by take().
   void complete_offer();
   enum class Received { on_surface, in_medium };
   static Received received_at(const Vertex& first) { return first.on_surface() ? Received::on_surface : Received::in_medium; }
-  /// What of a find, its own or another's, the path counts: `factor` times the find's radiance.
+  /// What of a find, its own or another's, the path counts: `factor` times the find's radiance, or times what it sees of an
+  /// environment there itself.
   void take(Rgb factor, const Path& finder, Received where);
   /// The same of one that it receives in a medium at `t` along the camera's ray, wherever the path itself collides.
   void take_at(float t, Rgb factor, const Path& finder);

@@ -142,7 +142,9 @@ std::optional<Vertex> Path::fly(const Span& span, const Trace& trace) {
 void Path::dim(const Span& span) {
   begin(Step::fly);
   const Rng rng = context_.sampler.stream();
-  beta_ *= TransmittanceWalk(span_method(context_), span, rng, context_.counters.tracking).to(span.t_end);
+  const Rgb T = TransmittanceWalk(span_method(context_), span, rng, context_.counters.tracking).to(span.t_end);
+  beta_ *= T;
+  flown_ *= T;
 }
 
 void Path::record_camera_media(const Span& span) {

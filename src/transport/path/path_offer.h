@@ -1,7 +1,9 @@
 /// What a path offers to the paths of neighbouring pixels.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <memory>
 #include <optional>
 
 #include "transport/techniques/sought_lights.h"
@@ -16,7 +18,11 @@ inline constexpr std::size_t kMostSharing = 64;
 struct PathOffer {
   /// For bounce number context.bounce.
   PathOffer(const LightContext& context, const Vertex& vertex, Rgb throughput)
-      : first(vertex), bounces(context.bounce + 1), directions(context, first), beta(throughput) {}
+      : first(vertex),
+        bounces(context.bounce + 1),
+        directions(context, first),
+        beta(throughput),
+        lights(context.world.lights) {}
   PathOffer(const PathOffer&) = delete;  // directions refers to first
 
   Vertex first;           ///< the first that spreads light
@@ -24,14 +30,14 @@ struct PathOffer {
   Directions directions;  ///< how the path went on from there
   Rgb beta;               ///< throughput before that bounce
 
-  SoughtLights sought;  ///< there; only where an environment may be found
+  const Lights& lights;
+  std::unique_ptr<const SoughtLights> sought;  ///< there; where an environment may be found
 
   std::optional<Vertex> at;     ///< what was met; nothing: others may still have found something for this path
   std::optional<Vec3> escaped;  ///< instead of it: the direction to an environment, a find at infinity
-  bool found() const { return at || escaped; }
-  Rgb arrived;  ///< throughput with which the path itself came there
-  Rgb flown;    ///< the part of it that the flight through media weighs
-  Rng rng{0};   ///< for the connections of others
+  Rgb arrived;                  ///< throughput with which the path itself came there
+  Rgb flown;                    ///< the part of it that the flight through media weighs
+  Rng rng{0};                   ///< for the connections of others
 
   /// An estimate: of what a surface scatters to all on the side of `first`; of what comes to a collision from `wi`. Of an
   /// environment, which all know, what its own path counts.
@@ -40,6 +46,15 @@ struct PathOffer {
   std::optional<Aureole> aureole;  ///< by which that was drawn
   Rgb scattered{1.0f};             ///< phase function toward `first`, over its density
   Rgb own;                         ///< light that a collision scatters toward `first` and that only the path itself counts
+
+  bool found() const { return at || escaped; }
+  /// Radiance of an environment that comes from `w`, were nothing in between.
+  Rgb environment(LightId light, Vec3 w) const { return lights.environment(light, {first.p(), w}); }
+  /// Whether there is any: else the path would not have offered that direction, wherever others see something.
+  bool sees_environment(Vec3 w) const {
+    const auto shows = [&](LightId light) { return !is_black(environment(light, w)); };
+    return std::any_of(lights.infinite().begin(), lights.infinite().end(), shows);
+  }
 };
 
 }  // namespace tyndall

@@ -57,10 +57,7 @@ PathOffer* Path::behind() {
   const Span& span = segment_->span();
   const Vertex vertex = vertex_at(hit, -span.ray.d, span.end);
   context_.bounce = context_.smooth_bounces = 0;
-  if (!may_share(vertex)) return nullptr;
-  behind_.emplace(context_, vertex, Rgb(1.0f));
-  if (has_environment()) behind_->sought.search = light_search(context_, behind_->first);
-  return &*behind_;
+  return may_share(vertex) ? &behind_.emplace(context_, vertex, Rgb(1.0f)) : nullptr;
 }
 
 void Path::take(Rgb factor, const Path& finder, Received where) {
@@ -78,6 +75,7 @@ bool Path::has_environment() const { return !context_.world.lights.infinite().em
 bool Path::is_environment_offered() const { return leaves_first() && has_environment(); }
 
 void Path::offer_environment() {
+  if (!offer_->sees_environment(ray_.d)) return;
   offer_->escaped = ray_.d;
   for (const LightId light : context_.world.lights.infinite()) offer_->radiance += environment_from(*offer_, light, ray_.d);
 }
@@ -85,18 +83,17 @@ void Path::offer_environment() {
 /// What a direction brings from there, weighted by MIS against next-event estimation as if the path had gone there itself:
 /// which of those that share has chosen it does not matter.
 Rgb Path::environment_from(const PathOffer& offer, LightId light, Vec3 wi) const {
-  const Lights& lights = context_.world.lights;
-  const Ray ray{offer.first.p(), wi};
-  const Rgb L = lights.environment(light, ray);
-  const float pdf = is_black(L) ? 0.0f : lights.environment_pdf(light, ray, true);
+  const Rgb L = offer.environment(light, wi);
+  const float pdf = is_black(L) ? 0.0f : offer.lights.environment_pdf(light, {offer.first.p(), wi}, true);
   if (pdf == 0) return L;
-  const float own = offer.sought.pdf(offer.first, wi, offer.directions.pdf(wi, offer.beta));
-  return L * offer.sought.scattering_mis_weight(context_, own, light, pdf);
+  const float own = offer.sought->pdf(offer.first, wi, offer.directions.pdf(wi, offer.beta));
+  return L * offer.sought->scattering_mis_weight(context_, own, light, pdf);
 }
 
 void Path::take_environment(Rgb factor, Vec3 wi, Received where) {
   const bool on_surface = where == Received::on_surface, arrived = offer_ && offer_->first.on_surface() == on_surface;
-  const PathOffer& at = arrived ? *offer_ : *behind_;
+  PathOffer& at = arrived ? *offer_ : *behind_;
+  if (!at.sought) at.sought = std::make_unique<const SoughtLights>(SoughtLights{light_search(context_, at.first), {}});
   Rgb& direct = on_surface ? record_.surface_direct : record_.volume_direct;
   Rgb& indirect = on_surface ? record_.surface_indirect : record_.volume_indirect;
   for (const LightId light : context_.world.lights.infinite()) {

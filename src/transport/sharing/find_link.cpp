@@ -33,9 +33,13 @@ Connection scattered_back(const PathOffer& find, Vec3 w) {
   return {Rgb(cosine), cosine};
 }
 
+Connection connect_to_environment(const PathOffer& from, Vec3 w) {
+  return from.sees_environment(w) ? Connection{from.first.eval(w), from.directions.pdf(w, from.beta)} : Connection();
+}
+
 Connection connect(const PathOffer& from, const PathOffer& find) {
   if (from.bounces != find.bounces) return {};
-  if (find.escaped) return {from.first.eval(*find.escaped), from.directions.pdf(*find.escaped, from.beta)};
+  if (find.escaped) return connect_to_environment(from, *find.escaped);
   const Vec3 v = find.at->p() - from.first.p();
   const float d2 = length_squared(v);
   if (!(d2 > 0)) return {};

@@ -23,6 +23,8 @@ struct Connection {
 };
 /// What the find scatters back along `w`, which points to it, and how likely: the factors of a Connection that are the find's.
 Connection scattered_back(const PathOffer& find, Vec3 w);
+/// Of the path of `from` with what comes from the direction `w`, in which another has left the scene.
+Connection connect_to_environment(const PathOffer& from, Vec3 w);
 /// By the path of `from`, from its first vertex; without visibility. Nothing after another number of bounces, which leaves
 /// others of the most that paths have.
 Connection connect(const PathOffer& from, const PathOffer& find);
@@ -32,6 +34,10 @@ struct Passage {
   Rgb weight{1.0f};  ///< the transmittance; of a path's own find, what its flight weighs over its transmittance
   float chance = 1;  ///< of flying through: a proxy in grids, that both sides know; 0: the flight does not tell of all channels
   float likely = 1;  ///< the same for white light, whatever the path's throughput
+
+  /// What the flight weighs over the chance of it; where it does not tell of all channels, which it may weigh by no number,
+  /// nothing.
+  Rgb flight() const { return chance > 0 ? weight * chance : Rgb(); }
 };
 
 /// A ray to a find.

@@ -147,7 +147,7 @@ void SegmentShares::share(Path& finder, float scale) {
     find.made_sum += double{find.made[k]};
     if (!own) continue;
     find.likely = passage->likely;
-    find.flight = passage->weight * passage->chance;
+    find.flight = passage->flight();
   }
   finds_.push_back(find);
 }

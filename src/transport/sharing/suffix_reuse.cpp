@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 
 #include "transport/sharing/segment_shares.h"
 #include "transport/sharing/vertex_shares.h"
 
 namespace tyndall {
 namespace {
+
+Rgb absolute(Rgb c) { return {std::abs(c.r), std::abs(c.g), std::abs(c.b)}; }
 
 /// Finds for each path, at most on average. What is received along its ray and behind it has half of them each.
 constexpr double kMostFinds = 16;
@@ -18,13 +22,14 @@ void keep(Path& path) {
   if (find.found()) path.take(path.own_factor(), path, Path::received_at(find.first));
 }
 
-/// What the find brings its own path, which is of the order of what it brings others. Zero: there is nothing to share. What is
-/// not a number stays with its path, where it is counted once.
+/// What the find brings its own path, which is of the order of what it brings others. Zero: there is nothing to share, for none
+/// of them; what brings its own path alone nothing, by its colour or its weight, is worth next to nothing instead. What is not
+/// a number stays with its path, where it is counted once.
 float worth_of(Path& path) {
   const PathOffer& find = path.offer();
-  if (!find.found() || is_black(find.radiance)) return 0;
+  if (!find.found() || (find.at && is_black(find.radiance))) return 0;
   const Rgb own = path.own_factor() * find.radiance;
-  if (is_finite(own)) return mean(own);
+  if (is_finite(own)) return std::max(mean(absolute(own)), std::numeric_limits<float>::min());
   keep(path);
   return 0;
 }

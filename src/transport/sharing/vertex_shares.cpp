@@ -58,7 +58,7 @@ VertexShares::Linked VertexShares::link(const Receiver& receiver, const Connecti
   linked.own = receiver.passes * connection.pdf * passage->likely;
   if (receiver.arrived) linked.made = connection.pdf * passage->chance;
   if (own) {
-    linked.flight = passage->weight * passage->chance;
+    linked.flight = passage->flight();
   } else {
     linked.f *= passage->weight;
   }

@@ -41,6 +41,7 @@ TEST_CASE("what options leave open and can make a difference is open") {
   once.max_depth = 1;
   const OpenChoices single = open_in(smoke, once);
   CHECK_FALSE(single.sharing);
+  CHECK(open_in(world(test::environment(1) + cloud()), once).sharing);
   CHECK(single.pairs);
   CHECK_FALSE(single.guiding);
   CHECK_FALSE(all.emission);
