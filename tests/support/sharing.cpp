@@ -22,9 +22,9 @@ struct Renders {
 };
 
 /// Means over blocks, and their spread between renders.
-Renders renders_of(const std::string& text, const Variant& variant, std::uint64_t seed) {
+Renders renders_of(const std::string& text, const Variant& variant, int spp, std::uint64_t seed) {
   Subject subject(text, variant);
-  const int renders = fewer(24), spp = nightly() ? 32 : 16;
+  const int renders = fewer(24);
   MeanImageBuilder blocks, pixels;
   for (int i = 0; i < renders; ++i) {
     const Image image = subject.render(spp, seed + static_cast<std::uint64_t>(i));
@@ -81,12 +81,12 @@ std::string sharing_things() {
              "-1  -1 0.6 -1.4]\n");
 }
 
-void check_sharing(const char* name, const std::string& text, Variant variant, double worth) {
+void check_sharing(const char* name, const std::string& text, Variant variant, double worth, int spp) {
   CAPTURE(name);
   variant.budget = BudgetStrategy::fixed;
   Variant sharing = variant;
   sharing.reuse = ReuseStrategy::pixels;
-  const Renders apart = renders_of(text, variant, 1000), shared = renders_of(text, sharing, 2000);
+  const Renders apart = renders_of(text, variant, spp, 1000), shared = renders_of(text, sharing, spp, 2000);
   const auto differences = block_test(shared.blocks, apart.blocks);
   const BlockDifference& w = worst(differences);
   CAPTURE(w.x);

@@ -19,10 +19,9 @@ std::string sharing_end(float z);  ///< a wall across the room
 std::string sharing_things();
 
 /// Holds pictures to each other, block by block and in their means, at a level of 1e-3. Pixels that share are not independent:
-/// errors come from the spread of whole blocks between 24 renders of 16 samples, at night of 32: fewer, each of more, see too
-/// little of rare light to tell. A bias of 5.6 standard errors of a block's difference is found in half of all cases (768
-/// differences). `worth`: how much less variance sharing has at least. With fixed numbers of lights, to which pilot_test.cpp
-/// holds measured ones: these take half the time.
-void check_sharing(const char* name, const std::string& text, Variant variant, double worth);
+/// errors come from the spread of whole blocks between 24 renders: fewer see too little of rare light to tell. A bias of 5.6
+/// standard errors of a block's difference is found in half of all cases (768 differences). `worth`: how much less variance
+/// sharing has at least. With fixed numbers of lights, to which pilot_test.cpp holds measured ones: these take half the time.
+void check_sharing(const char* name, const std::string& text, Variant variant, double worth, int spp = 32);
 
 }  // namespace tyndall::test
