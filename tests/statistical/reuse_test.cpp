@@ -16,8 +16,6 @@ using namespace tyndall::test;
 
 namespace {
 
-constexpr Bounds3 kRoom{{-2, -1.8f, -4}, {2, 1.8f, 2}};
-
 std::string camera(int max_depth, float fov_degrees = 62) { return sharing_camera(max_depth, fov_degrees); }
 
 std::string room_without_lights() { return sharing_sides() + sharing_end(2) + sharing_end(-4) + sharing_things(); }

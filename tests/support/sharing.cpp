@@ -13,6 +13,7 @@
 namespace tyndall::test {
 namespace {
 
+constexpr int kResolution = 32;
 constexpr int kBlock = 2;  // smaller than what shares, within which light may only have moved
 constexpr double kLevel = 1e-3;
 
@@ -49,7 +50,7 @@ std::string sharing_camera(int max_depth, float fov_degrees) {
   return view({.eye = {0.2f, 0.1f, -3.8f},
                .look = {0, -0.3f, 0},
                .fov_degrees = fov_degrees,
-               .resolution = kSharingResolution,
+               .resolution = kResolution,
                .max_depth = max_depth});
 }
 

@@ -10,7 +10,6 @@ namespace tyndall::test {
 
 /// The room of these tests, from -z where the camera is: a back wall at z = 2, sides at x = -2 and 2, and what mirrors,
 /// refracts and lets light through. A block in it has edges that some pixels of a block see.
-inline constexpr int kSharingResolution = 32;
 std::string sharing_camera(int max_depth, float fov_degrees = 62);
 /// A wall of a colour: a bilinear mesh of these four corners.
 std::string sharing_wall(const std::string& rgb, const std::string& corners);
