@@ -13,7 +13,13 @@ constexpr double kEndless = std::numeric_limits<double>::infinity();
 /// Twice the area of abc, positive where it turns left.
 double turn(Point2 a, Point2 b, Point2 c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
 
-Point2 between(Point2 a, Point2 b, double t) { return {a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t}; }
+/// Where a function that is linear is 0, which is `in_a` at `a` and of the other sign at `b`: from the nearer, which the other
+/// may be too far away from to be told from it.
+Point2 between(Point2 a, Point2 b, double in_a, double in_b) {
+  if (std::abs(in_a) > std::abs(in_b)) return between(b, a, in_b, in_a);
+  const double t = in_a / (in_a - in_b);
+  return {a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t};
+}
 
 }  // namespace
 
@@ -36,7 +42,7 @@ ConvexPolygon ConvexPolygon::hull(std::span<const Point2> points) {
   for (std::size_t i = n - 1; i-- > 0;) add(sorted[i], least);
   ConvexPolygon hull;
   if (size < 4) return hull;  // the last is the first again
-  for (std::size_t i = 0; i + 1 < size; ++i) hull.push(chain[i]);
+  for (std::size_t i = 0; i < std::min(size - 1, kCornersOfHull); ++i) hull.push(chain[i]);
   return hull;
 }
 
@@ -71,14 +77,13 @@ double ConvexPolygon::area_below(int axis, double limit) const {
     const Point2 a = corners_[i], b = corners_[i + 1 < size_ ? i + 1 : 0];
     const double in_a = limit - a[axis], in_b = limit - b[axis];
     if (in_a >= 0) add(a);
-    if ((in_a > 0 && in_b < 0) || (in_a < 0 && in_b > 0)) add(between(a, b, in_a / (in_a - in_b)));
+    if ((in_a > 0 && in_b < 0) || (in_a < 0 && in_b > 0)) add(between(a, b, in_a, in_b));
   }
   return std::max(0.5 * sum, 0.0);
 }
 
-/// Of its points those on one side of a line across an axis.
-void ConvexPolygon::keep(int axis, double limit, bool below) {
-  const auto inside = [&](Point2 p) { return below ? limit - p[axis] : p[axis] - limit; };
+template <typename Inside>
+void ConvexPolygon::keep(const Inside& inside) {
   if (std::all_of(corners_.begin(), corners_.begin() + static_cast<std::ptrdiff_t>(size_),
                   [&](Point2 p) { return inside(p) >= 0; }))
     return;
@@ -87,17 +92,26 @@ void ConvexPolygon::keep(int axis, double limit, bool below) {
     const Point2 a = corners_[i], b = corners_[i + 1 < size_ ? i + 1 : 0];
     const double in_a = inside(a), in_b = inside(b);
     if (in_a >= 0) kept.push(a);
-    if ((in_a > 0 && in_b < 0) || (in_a < 0 && in_b > 0)) kept.push(between(a, b, in_a / (in_a - in_b)));
+    if ((in_a > 0 && in_b < 0) || (in_a < 0 && in_b > 0)) kept.push(between(a, b, in_a, in_b));
   }
   *this = kept;
 }
 
 ConvexPolygon ConvexPolygon::cut(const Rectangle& r) const {
   ConvexPolygon part = *this;
-  part.keep(0, r.min.x, false);
-  part.keep(0, r.max.x, true);
-  part.keep(1, r.min.y, false);
-  part.keep(1, r.max.y, true);
+  for (const int axis : {0, 1}) {
+    part.keep([&](Point2 p) { return p[axis] - r.min[axis]; });
+    part.keep([&](Point2 p) { return r.max[axis] - p[axis]; });
+  }
+  return part;
+}
+
+ConvexPolygon ConvexPolygon::cut(const ConvexPolygon& other) const {
+  ConvexPolygon part = other.empty() ? ConvexPolygon() : *this;
+  for (std::size_t i = 0; i < other.size_; ++i) {
+    const Point2 a = other.corners_[i], b = other.corners_[i + 1 < other.size_ ? i + 1 : 0];
+    part.keep([&](Point2 p) { return turn(a, b, p); });
+  }
   return part;
 }
 
@@ -107,13 +121,14 @@ ConvexPolygon ConvexPolygon::moved(Point2 by) const {
   return moved;
 }
 
+bool ConvexPolygon::holds(Point2 p) const {
+  for (std::size_t i = 0; i < size_; ++i) {
+    if (turn(corners_[i], corners_[i + 1 < size_ ? i + 1 : 0], p) < 0) return false;
+  }
+  return size_ >= 3;
+}
+
 bool ConvexPolygon::covers(const Rectangle& r) const {
-  const auto holds = [this](Point2 p) {
-    for (std::size_t i = 0; i < size_; ++i) {
-      if (turn(corners_[i], corners_[i + 1 < size_ ? i + 1 : 0], p) < 0) return false;
-    }
-    return size_ >= 3;
-  };
   return holds(r.min) && holds(r.max) && holds({r.min.x, r.max.y}) && holds({r.max.x, r.min.y});
 }
 

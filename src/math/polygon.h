@@ -22,11 +22,13 @@ struct Rectangle {
 
 class ConvexPolygon {
  public:
-  static constexpr std::size_t kMost = 32;        ///< corners
-  static constexpr std::size_t kMostOfHull = 64;  ///< points
+  static constexpr std::size_t kMost = 40;           ///< corners
+  static constexpr std::size_t kMostOfHull = 64;     ///< points
+  static constexpr std::size_t kCornersOfHull = 32;  ///< at most
 
   ConvexPolygon() {}  // empty, its corners uninitialised
-  /// The convex hull of at most kMostOfHull points [Andrew 1979], with at most 24 corners. Empty where they are on one line.
+  /// The convex hull of at most kMostOfHull points [Andrew 1979]; of more than kCornersOfHull corners the last are left out.
+  /// Empty where the points are on one line.
   static ConvexPolygon hull(std::span<const Point2> points);
 
   std::span<const Point2> corners() const { return {corners_.data(), size_}; }
@@ -38,7 +40,10 @@ class ConvexPolygon {
   /// The part of it in the rectangle [Sutherland and Hodgman 1974]. Each cut adds a corner at most; what would exceed kMost is
   /// never asked for: a hull is cut by three rectangles, one within the other.
   ConvexPolygon cut(const Rectangle& rectangle) const;
+  /// The part of it in another, with at most as many corners as both; what would exceed kMost is never asked for.
+  ConvexPolygon cut(const ConvexPolygon& other) const;
   ConvexPolygon moved(Point2 by) const;
+  bool holds(Point2 p) const;
   bool covers(const Rectangle& rectangle) const;
   /// Uniform in it, `u` in [0, 1)^2; not when empty.
   Point2 sample(Vec2 u) const;
@@ -48,7 +53,9 @@ class ConvexPolygon {
     if (size_ < kMost) corners_[size_++] = p;
   }
 
-  void keep(int axis, double limit, bool below);
+  /// Leaves of it what is on one side of a line: where `inside`, which is linear, is not below 0.
+  template <typename Inside>
+  void keep(const Inside& inside);
 
   std::array<Point2, kMost> corners_;  ///< counterclockwise where y points up
   std::size_t size_ = 0;

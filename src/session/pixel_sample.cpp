@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "math/warp.h"
+
 namespace tyndall {
 namespace {
 
@@ -35,7 +37,7 @@ PixelSample::PixelSample(const SampleContext& sample, const SampleKey& key, Pixe
     of_peaks_ = peak_estimate(context, film_.peaks, center_of(key), sampler_.fork());
   }
   if (!film_.emitters.empty()) {
-    context.emitters = &film_.emitters;
+    context.drawn_emission = &drawn_emission_.emplace(film_.emitters, on_film_, square_to_concentric_disk(lens));
     of_emitters_ = visible_emitters(context, film_.emitters, center_of(key), sampler_.fork());
   }
   if (groups_) groups_->settle(Rgb(1 / offset_.weight), groups_->found);

@@ -70,6 +70,7 @@ class PixelSample {
   Vec2 on_film_;
   CameraJointWeight joint_weight_;
   PeakWeight peak_weight_;
+  std::optional<DrawnEmission> drawn_emission_;
   Rgb of_points_, of_peaks_, of_emitters_;
   float weight_of_ray_ = 1;
   std::optional<GroupedLight> groups_;

@@ -59,9 +59,13 @@ std::size_t plan_film_search(const Scene& scene) {
   const double surfaces = emissive_surfaces_of(scene);
   if (surfaces == 0 || !(radius <= FilmEmitters::kWidestFilter)) return 0;
   const double pixels = pixels_of(scene), pixels_of_surface = (4 * radius + 1) * (4 * radius + 1);
+  const double seen = std::min(surfaces, double{FilmEmitters::kMostSeen});
+  const double frame = static_cast<double>(scene.film.width) * static_cast<double>(scene.film.height);
+  const double blurred = std::min(seen * pixels, FilmEmitters::kMostBlurred * frame);
+  const double listed = scene.camera.lens_radius > 0 ? blurred : seen * pixels_of_surface;
   ByteCount sum;
   sum.add(pixels, 2 * (sizeof(std::uint32_t) + 1));
-  sum.add(std::min(surfaces, double{FilmEmitters::kMostSeen}) * pixels_of_surface, 2 * sizeof(FilmEmitter));
+  sum.add(listed, 2 * sizeof(FilmEmitter));
   return sum.bytes();
 }
 

@@ -40,6 +40,7 @@ Vec3 spherical_direction(Camera::Kind kind, Vec2 uv) {
 
 CameraRays::CameraRays(const Camera& camera, const Film& film)
     : to_world_(camera.to_world),
+      to_camera_(camera.to_world.inverse().matrix()),
       kind_(camera.kind),
       width_(static_cast<float>(film.width)),
       height_(static_cast<float>(film.height)),
@@ -93,25 +94,55 @@ Ray CameraRays::ray(Vec2 p, Vec2 lens) const {
   return {to_world_.point(o), normalize(to_world_.vector(d))};
 }
 
-std::optional<Point2> CameraRays::image_of(Vec3d p) const {
+std::optional<CameraRays::Image> CameraRays::blurred_image_of(Vec3d p) const {
   // In double, and from where rays start: far from the origin the last bit of a float may be more than a pixel.
   const Vec3d d = p - Vec3d(center());
-  const Transform::Matrix m = to_world_.inverse().matrix();
+  const Transform::Matrix& m = to_camera_;
   const auto row = [&](int r) { return m[r][0] * d.x + m[r][1] * d.y + m[r][2] * d.z; };
-  const double z = row(2), depth = kind_ == Camera::Kind::orthographic ? 1 : z;
+  const bool orthographic = kind_ == Camera::Kind::orthographic;
+  const double z = row(2), depth = orthographic ? 1 : z;
   if (!(z > 0)) return std::nullopt;
   const double x = (row(0) / depth - x0_) / (x1_ - x0_), y = (row(1) / depth - y1_) / (y0_ - y1_);
-  return Point2{x * width_, y * height_};
+  // All rays through a place on the screen meet at the focal distance.
+  const double from_focus = orthographic ? z / focal_distance_ - 1 : 1 / double{focal_distance_} - 1 / z;
+  const double by = lens_radius_ > 0 ? lens_radius_ * from_focus : 0;
+  return Image{{x * width_, y * height_}, {by / (x1_ - x0_) * width_, by / (y0_ - y1_) * height_}};
 }
 
-Ray CameraRays::ray_through(Point2 p) const {
-  const double x = x0_ + (double{x1_} - x0_) * (p.x / width_), y = y1_ + (double{y0_} - y1_) * (p.y / height_);
-  const bool orthographic = kind_ == Camera::Kind::orthographic;
-  const Vec3d on_screen = orthographic ? Vec3d{x, y, 0} : Vec3d{}, along = orthographic ? Vec3d{0, 0, 1} : Vec3d{x, y, 1};
+std::optional<Point2> CameraRays::image_of(Vec3d p) const {
+  const auto image = blurred_image_of(p);
+  return image ? std::optional(image->at) : std::nullopt;
+}
+
+Point2 CameraRays::on_screen(Point2 p) const {
+  return {x0_ + (double{x1_} - x0_) * (p.x / width_), y1_ + (double{y0_} - y1_) * (p.y / height_)};
+}
+
+/// Of a vector (w = 0) or a point (w = 1) of camera space.
+Vec3d CameraRays::in_world(Vec3d v, double w) const {
   const Transform::Matrix& m = to_world_.matrix();
-  const auto row = [&](int r, Vec3d v) { return m[r][0] * v.x + m[r][1] * v.y + m[r][2] * v.z; };
-  const Vec3d o{row(0, on_screen) + m[0][3], row(1, on_screen) + m[1][3], row(2, on_screen) + m[2][3]};
-  return {to_vec3(o), to_vec3(normalize(Vec3d{row(0, along), row(1, along), row(2, along)}))};
+  const auto row = [&](int r) { return m[r][0] * v.x + m[r][1] * v.y + m[r][2] * v.z; };
+  return {row(0) + w * m[0][3], row(1) + w * m[1][3], row(2) + w * m[2][3]};
+}
+
+/// Camera space.
+Vec3d CameraRays::focus_on(Point2 screen) const {
+  const double far = focal_distance_, slope = kind_ == Camera::Kind::orthographic ? 1 : far;
+  return {screen.x * slope, screen.y * slope, far};
+}
+
+Vec3d CameraRays::focus_of(Point2 film) const { return in_world(focus_on(on_screen(film)), 1); }
+
+Ray CameraRays::ray_through(Point2 film, Point2 lens) const {
+  const Point2 screen = on_screen(film);
+  const bool orthographic = kind_ == Camera::Kind::orthographic;
+  Vec3d o = orthographic ? Vec3d{screen.x, screen.y, 0} : Vec3d{};
+  Vec3d along = orthographic ? Vec3d{0, 0, 1} : Vec3d{screen.x, screen.y, 1};
+  if (lens_radius_ > 0) {
+    o = o + Vec3d{lens_radius_ * lens.x, lens_radius_ * lens.y, 0};
+    along = focus_on(screen) - o;
+  }
+  return {to_vec3(in_world(o, 1)), to_vec3(normalize(in_world(along, 0)))};
 }
 
 ShapeView CameraRays::view() const {
@@ -168,7 +199,7 @@ float CameraRays::film_rounding() const {
   return kSomeBits * (std::max(width_, height_) + size / length(step));
 }
 
-std::array<float, 16> CameraRays::world_to_camera() const { return to_floats(to_world_.inverse().matrix()); }
+std::array<float, 16> CameraRays::world_to_camera() const { return to_floats(to_camera_); }
 
 std::array<float, 16> CameraRays::world_to_ndc() const {
   // Rows of the projection: x and y to [0,1] over the frame (y downward), z kept, w = z in perspective.
@@ -182,7 +213,7 @@ std::array<float, 16> CameraRays::world_to_ndc() const {
   projection[2] = {0, 0, 1, 0};
   projection[3][divide] = 1;
 
-  const Transform::Matrix view = to_world_.inverse().matrix();
+  const Transform::Matrix& view = to_camera_;
   Transform::Matrix product{};
   for (int r = 0; r < 4; ++r) {
     for (int c = 0; c < 4; ++c) {

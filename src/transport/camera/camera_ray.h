@@ -44,13 +44,25 @@ class CameraRays {
   std::array<Vec3, 2> pixel_steps(Vec3 p, Vec3 n) const;
   /// Whether every point before it is seen at one place of the film: a pinhole, or without perspective, and no lens.
   bool is_sharp() const { return has_projection() && lens_radius_ == 0; }
-  /// That place (pixels of the full frame) of a camera that is_sharp(); nothing for what is not before it.
+  /// Where a camera with a projection sees a point: through a place q on its lens, the unit disk, at `at` + q * `by`, axis by
+  /// axis.
+  struct Image {
+    Point2 at;  ///< pixels of the full frame
+    Point2 by;  ///< pixels, of opposite sign behind what is in focus and before it; 0 where the camera is_sharp()
+    /// The place on the lens through which it is seen at `film`.
+    Point2 on_lens(Point2 film) const { return {(film.x - at.x) / by.x, (film.y - at.y) / by.y}; }
+  };
+  /// Nothing for what is not before it.
+  std::optional<Image> blurred_image_of(Vec3d p) const;
+  /// Through the middle of the lens.
   std::optional<Point2> image_of(Vec3d p) const;
-  /// Its ray through a film position, exact but for the rounding of the ray.
-  Ray ray_through(Point2 p) const;
-  /// From where it sees what it sees; from where it sees `p`.
+  /// Its ray through a film position and a place on the lens, exact but for the rounding of the ray.
+  Ray ray_through(Point2 film, Point2 lens = {0, 0}) const;
+  /// From where it sees what it sees through the middle of the lens; from where it sees `p`.
   ShapeView view() const;
   Vec3 eye_of(Vec3 p) const;
+  /// World position where all rays through a film position meet that come from a lens.
+  Vec3d focus_of(Point2 film) const;
   /// The same of a pinhole.
   std::optional<Vec2> film_position(Vec3 p) const;
   /// Pixels below which film positions and the rays through them do not agree, for all the rounding; of a camera with a
@@ -66,9 +78,13 @@ class CameraRays {
 
  private:
   Transform to_world_;
+  Transform::Matrix to_camera_;
   void look_through(const Lenses& lenses);
   std::array<float, 4> seen_by_film() const;
   std::array<Vec3, 2> steps_across(Vec3 to_p) const;
+  Point2 on_screen(Point2 film) const;
+  Vec3d focus_on(Point2 screen) const;
+  Vec3d in_world(Vec3d v, double w) const;
 
   Camera::Kind kind_;
   float x0_, x1_, y0_, y1_;  ///< screen window, times tan(fov/2) in perspective

@@ -111,7 +111,7 @@ void Path::add_environment() {
 void Path::add_surface_emission(const SurfaceHit& hit) {
   const auto id = context_.world.light_of(hit);
   if (!id) return;
-  if (depth_ == 0 && context_.emitters && context_.emitters->hold(context_.world, *id)) return;
+  if (depth_ == 0 && context_.drawn_emission && context_.drawn_emission->holds(context_.world, *id)) return;
   const Lights& lights = context_.world.lights;
   const EmitterHit emitter{.p = hit.p, .ng = hit.ng, .uv = hit.uv, .distance = hit.t};
   const Rgb L = lights.emitted(*id, emitter, -ray_.d);

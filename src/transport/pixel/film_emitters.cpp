@@ -3,26 +3,30 @@
 #include <algorithm>
 #include <cmath>
 
-#include "transport/pixel/directly_visible.h"
+#include "transport/pixel/emitter_image.h"
+#include "transport/pixel/emitter_looks.h"
+#include "transport/pixel/fibonacci_lattice.h"
 
 namespace tyndall {
 namespace {
 
-/// Film positions a sample where something else ends within an emitter's image (docs/measurements.md).
-constexpr std::uint8_t kPositions = 13;
+/// Film positions a sample where something else ends within an emitter's image: the light has an edge there, which a lens
+/// smooths (docs/measurements.md).
+constexpr std::uint8_t kPositions = FibonacciLattice::kMany, kPositionsBlurred = FibonacciLattice::kFew;
+/// EmitterImage::lit() from which on images have edges.
+constexpr double kSharp = 0.5;
+/// Of emitters that a lens blurs, the brightest that a pixel lists.
+constexpr std::size_t kMostOfPixel = 64;
 /// Looks at the emitters of a pixel, to know of what hides them.
 constexpr std::size_t kLooks = 8;
 /// Emitters that fill a pixel: places along each side of the filter's support where they are looked at.
 constexpr int kLooksAtOne = 2, kLooksAtMany = 4;
-/// Between looks, relative to the brighter: more than emission varies, less than another emitter differs.
-constexpr float kLeastContrast = 0.1f;
-
 /// Pixels. Where rays are off by more, images would be mostly margin.
 constexpr float kLargestRounding = 0.05f;
 
 /// Not where the film limits samples: a mean over several would be limited less.
 bool is_wanted(const BuiltWorld& world, const RenderSettings& settings) {
-  if (world.scene.film.max_component < kInfinity || !world.camera.is_sharp()) return false;
+  if (world.scene.film.max_component < kInfinity || !world.camera.has_projection()) return false;
   if (!(world.camera.film_rounding() < kLargestRounding)) return false;
   const Vec2 radius = world.scene.filter.radius;
   if (!(std::max(radius.x, radius.y) <= FilmEmitters::kWidestFilter)) return false;
@@ -35,24 +39,25 @@ struct SeenEmitter {
   std::uint32_t shape, primitive;
   Rectangle box;     ///< of its image
   float brightness;  ///< radiance that it sends
+  double lit;        ///< EmitterImage::lit()
 };
 
 /// What a pixel's filter sees.
 struct InPixel {
-  std::uint32_t emitter;  ///< of the list of all
-  float mass;             ///< of the filter, that its image covers
-  bool hull;              ///< the polygon is but a hull of what ends there
+  const SeenEmitter* emitter;
+  const EmitterImage* image;
+  float mass;  ///< of the filter, that its image covers
+  bool hull;   ///< the polygon is but a hull of what ends there
+
+  double light() const { return emitter->brightness * static_cast<double>(mass) * emitter->lit; }
 };
 
-/// Places on an emitter's image that were looked at, and those that saw it.
-struct Looks {
-  std::size_t looks, met;
-
-  bool partly() const { return met > 0 && met < looks; }
-  /// What the emitter's light is weighed by in its share: with that of root mean square the estimate of what is found by such
-  /// shares has the least variance, and the mean square of a yes or no is its chance, here by Jeffreys's prior.
-  float weight() const { return std::sqrt((static_cast<float>(met) + 0.5f) / (static_cast<float>(looks) + 1)); }
-};
+/// Leaves the brightest.
+void keep(std::size_t most, std::vector<InPixel>& found) {
+  if (found.size() <= most) return;
+  std::stable_sort(found.begin(), found.end(), [](const InPixel& a, const InPixel& b) { return a.light() > b.light(); });
+  found.resize(most);
+}
 
 /// What the pixels of one row draw, one after the other.
 struct Row {
@@ -63,7 +68,8 @@ struct Row {
 
 class Search {
  public:
-  explicit Search(const FilmSearch& search) : search_(search), world_(search.world), cells_(search.world.filter) {}
+  explicit Search(const FilmSearch& search)
+      : search_(search), world_(search.world), cells_(search.world.filter), looks_(search.world, cells_) {}
 
   std::vector<SeenEmitter> all() const {
     struct Block {
@@ -92,27 +98,43 @@ class Search {
   Row row(int y, const std::vector<SeenEmitter>& all, const std::vector<std::uint32_t>& seen) const {
     const PixelBounds& pixels = search_.pixels;
     std::vector<std::vector<InPixel>> found(static_cast<std::size_t>(pixels.width()));
+    std::vector<EmitterImage> images;
+    images.reserve(seen.size());  // pixels refer to them
     for (const std::uint32_t e : seen) {
-      const auto image = image_of(world_, all[e].shape, all[e].primitive);
+      const EmitterImage& image = images.emplace_back(*EmitterImage::of(world_, all[e].shape, all[e].primitive));
       const auto [begin, end] = columns_of(all[e].box);
       for (int x = begin; x < end; ++x) {
-        const ConvexPolygon about = image->moved({-center(x), -center(y)});
+        const ConvexPolygon about = image.on_film().moved({-center(x), -center(y)});
         const double mass = about.covers(cells_.support()) ? 1 : cells_.mass(about);
         const bool hull = mass < 1 && is_curved(all[e]) && !cells_.support().holds(about.bounds());
-        if (mass > 0) found[static_cast<std::size_t>(x - pixels.x0)].push_back({e, static_cast<float>(mass), hull});
+        if (mass > 0)
+          found[static_cast<std::size_t>(x - pixels.x0)].push_back({&all[e], &image, static_cast<float>(mass), hull});
       }
     }
     Row row;
     for (int x = pixels.x0; x < pixels.x1; ++x) {
       const std::size_t before = row.emitters.size();
-      row.positions.push_back(
-          choose({center(x), center(y)}, all, found[static_cast<std::size_t>(x - pixels.x0)], row.emitters));
+      std::vector<InPixel>& of_pixel = found[static_cast<std::size_t>(x - pixels.x0)];
+      if (!world_.camera.is_sharp()) keep(kMostOfPixel, of_pixel);
+      row.positions.push_back(choose({center(x), center(y)}, of_pixel, row.emitters));
       row.counts.push_back(static_cast<std::uint32_t>(row.emitters.size() - before));
     }
     return row;
   }
 
   const FilterCells& cells() const { return cells_; }
+
+  double pixels_of_frame() const {
+    return static_cast<double>(world_.scene.film.width) * static_cast<double>(world_.scene.film.height);
+  }
+  /// Of the frame, whose filters see a part of a box.
+  double pixels_of(const Rectangle& box) const {
+    const Rectangle& support = cells_.support();
+    const Film& film = world_.scene.film;
+    const auto [left, right] = range(box.min.x + support.min.x, box.max.x + support.max.x, 0, film.width);
+    const auto [top, bottom] = range(box.min.y + support.min.y, box.max.y + support.max.y, 0, film.height);
+    return std::max(right - left, 0) * static_cast<double>(std::max(bottom - top, 0));
+  }
 
   struct Range {
     int begin, end;
@@ -138,100 +160,97 @@ class Search {
 
   std::optional<SeenEmitter> look_for(std::uint32_t shape, std::uint32_t primitive) const {
     const LightId light = world_.first_light[shape] + primitive;
-    const auto image = image_of(world_, shape, primitive);
-    if (!image || image->empty()) return std::nullopt;
-    const Rectangle box = image->bounds();
-    const auto [left, right] = columns_of(box);
-    const auto [top, bottom] = rows_of(box);
-    if (left >= right || top >= bottom) return std::nullopt;
+    const auto image = EmitterImage::of(world_, shape, primitive);
+    if (!image || image->on_film().empty()) return std::nullopt;
+    const Rectangle box = image->on_film().bounds();
+    if (pixels_of(box) == 0) return std::nullopt;
     const auto place = world_.lights.place(light);
     if (!place.center) return std::nullopt;
     const auto sample = world_.lights.sample(light, world_.camera.eye_of(*place.center), {0.5f, 0.5f}, false);
     if (!sample || sample->delta || is_black(sample->L)) return std::nullopt;
-    return SeenEmitter{shape, primitive, box, mean(sample->L)};
+    return SeenEmitter{shape, primitive, box, mean(sample->L), image->lit()};
   }
 
   /// Adds what the pixel draws to `chosen`; how many film positions it draws there.
-  std::uint8_t choose(Point2 center, const std::vector<SeenEmitter>& all, const std::vector<InPixel>& found,
-                      std::vector<FilmEmitter>& chosen) const {
+  std::uint8_t choose(Point2 center, const std::vector<InPixel>& found, std::vector<FilmEmitter>& chosen) const {
     double covered = 0;
-    for (const InPixel& f : found) covered += f.mass;
-    if (found.empty() || (covered >= 1 && looks_even(center, found.size() == 1 ? kLooksAtOne : kLooksAtMany))) return 0;
+    for (const InPixel& f : found) covered += static_cast<double>(f.mass) * f.emitter->lit;
+    if (found.empty() || (covered >= 1 && looks_.even(center, found.size() == 1 ? kLooksAtOne : kLooksAtMany))) return 0;
     const std::size_t before = chosen.size();
-    bool some = false, partly = false;
-    double sum = 0;
+    bool some = false, partly = false, sharp = false;
+    double sum = 0, by_filter = 0;
+    SmallVector<float, 64> least;
     for (const InPixel& f : found) {
-      const SeenEmitter& emitter = all[f.emitter];
-      const Looks looks = look_at(center, emitter, std::max<std::size_t>(kLooks / found.size(), 1));
+      const EmitterLooks::Met looks = looks_.at(center, *f.image, std::max<std::size_t>(kLooks / found.size(), 1));
       some |= looks.met > 0;
-      partly |= looks.partly() || (looks.met > 0 && f.hull);  // few looks do not tell of a narrow rest
-      chosen.push_back({emitter.shape, emitter.primitive, emitter.brightness * f.mass * looks.weight()});
+      // Few looks do not tell of a narrow rest, nor of what the lens blurs that none of them met.
+      const bool in_part = looks.partly() || (looks.met > 0 ? f.hull : f.emitter->lit < 1);
+      partly |= in_part;
+      sharp |= in_part && f.emitter->lit > kSharp;
+      // Of the lens, what is seen in this pixel, which few looks tell roughly, and on average over all of the image.
+      const auto through = static_cast<float>((looks.through + f.emitter->lit) / 2);
+      chosen.push_back({f.emitter->shape, f.emitter->primitive, f.emitter->brightness * f.mass * through * looks.weight()});
       sum += chosen.back().share;
+      least.push_back(f.emitter->lit < 1 ? f.mass * static_cast<float>(looks.through) : 0.0f);
+      by_filter += least.back();
     }
     if (!some || !(sum > 0 && sum < kInfinity)) {
       chosen.resize(before);
       return 0;
     }
-    for (std::size_t i = before; i < chosen.size(); ++i) chosen[i].share = static_cast<float>(chosen[i].share / sum);
-    return partly ? kPositions : 1;
-  }
-
-  Ray ray_through(Point2 film) const { return world_.camera.ray_through(film); }
-
-  /// At an emitter's image in the pixel.
-  Looks look_at(Point2 center, const SeenEmitter& emitter, std::size_t count) const {
-    const ConvexPolygon image = image_of(world_, emitter.shape, emitter.primitive)->moved({-center.x, -center.y});
-    const LightId light = world_.first_light[emitter.shape] + emitter.primitive;
-    Looks looks{count, 0};
-    for (std::size_t i = 0; i < count; ++i) {
-      const float along = (static_cast<float>(i) + 0.5f) / static_cast<float>(count),
-                  across = 0.5f + 0.618034f * static_cast<float>(i);
-      const auto place = cells_.sample(image, {along, across - std::floor(across)});
-      const Ray ray = ray_through({center.x + place.at.x, center.y + place.at.y});
-      const auto seen = place.pdf > 0 ? directly_visible(world_, ray) : std::nullopt;
-      looks.met += seen && seen->light == light && attenuated_roughly(world_, ray, *seen) > 0;
+    const std::uint8_t positions = sharp ? kPositions : partly ? kPositionsBlurred : 1;
+    // Looks tell little of what a lens blurs: half of the draws at most see to it that none of it is met less than by the
+    // filter.
+    const double defence = std::min(1.0 / positions, by_filter > 0 ? 0.5 / by_filter : 0.0);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      float& share = chosen[before + i].share;
+      share = static_cast<float>((1 - defence * by_filter) * share / sum + defence * least[i]);
     }
-    return looks;
-  }
-
-  /// Whether places spread over the filter are about as bright.
-  bool looks_even(Point2 center, int looks) const {
-    float least = kInfinity, most = 0;
-    const auto place = [&](int i) { return (static_cast<float>(i) + 0.5f) / static_cast<float>(looks); };
-    for (int i = 0; i < looks * looks; ++i) {
-      const Vec2 offset = world_.filter.sample({place(i % looks), place(i / looks)}).p;
-      const Ray ray = ray_through({center.x + offset.x, center.y + offset.y});
-      const auto seen = directly_visible(world_, ray);
-      const float brightness = seen ? mean(seen->L) * attenuated_roughly(world_, ray, *seen) : 0.0f;
-      least = std::min(least, brightness);
-      most = std::max(most, brightness);
-    }
-    return most - least <= kLeastContrast * most;
+    return positions;
   }
 
   const FilmSearch& search_;
   const BuiltWorld& world_;
   FilterCells cells_;
+  EmitterLooks looks_;
 };
+
+/// Leaves as many as may be listed. Hit or missed, an emitter adds the square of its radiance times the area of its image to
+/// the variance of all pixels, however they are spread.
+void leave_dimmest(std::vector<SeenEmitter>& all, const Search& search) {
+  struct Worth {
+    double noise, pixels;  ///< noise: for each of the pixels
+    std::size_t emitter;
+  };
+  std::vector<Worth> worth;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Rectangle& box = all[i].box;
+    const double area = (box.max.x - box.min.x) * (box.max.y - box.min.y) * all[i].lit, pixels = search.pixels_of(box);
+    worth.push_back({double{all[i].brightness} * all[i].brightness * area / pixels, pixels, i});
+  }
+  std::stable_sort(worth.begin(), worth.end(), [](const Worth& a, const Worth& b) { return a.noise > b.noise; });
+  double left = FilmEmitters::kMostBlurred * search.pixels_of_frame();
+  std::vector<std::uint8_t> kept(all.size(), 0);
+  for (const Worth& w : worth) {
+    if (w.pixels > left) continue;
+    left -= w.pixels;
+    kept[w.emitter] = 1;
+  }
+  std::vector<SeenEmitter> rest;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (kept[i]) rest.push_back(all[i]);
+  }
+  all = std::move(rest);
+}
 
 }  // namespace
 
-std::optional<ConvexPolygon> image_of(const BuiltWorld& world, std::uint32_t shape, std::uint32_t primitive) {
-  // Wider than what rays through the film are rounded by: those that miss for it are made up for by those that hit.
-  const double margin = world.camera.film_rounding();
-  SmallVector<Point2, 64> corners;
-  for (const Vec3d& p : world.geometry.outline(shape, primitive, world.camera.view())) {
-    const auto at = world.camera.image_of(p);
-    if (!at) return std::nullopt;
-    for (const double dx : {-margin, margin}) {
-      for (const double dy : {-margin, margin}) corners.push_back({at->x + dx, at->y + dy});
-    }
-  }
-  return ConvexPolygon::hull({corners.data(), corners.size()});
-}
-
-bool PixelEmitters::hold(const BuiltWorld& world, LightId light) const {
-  return std::any_of(emitters.begin(), emitters.end(), [&](const FilmEmitter& e) { return e.light(world) == light; });
+bool DrawnEmission::holds(const BuiltWorld& world, LightId light) const {
+  return std::any_of(emitters_.emitters.begin(), emitters_.emitters.end(), [&](const FilmEmitter& e) {
+    if (e.light(world) != light) return false;
+    const auto image = EmitterImage::of(world, e.shape, e.primitive);
+    return image && image->holds({film_.x, film_.y}, {lens_.x, lens_.y});
+  });
 }
 
 const FilmEmitter& PixelEmitters::draw(float& u) const {
@@ -245,8 +264,9 @@ const FilmEmitter& PixelEmitters::draw(float& u) const {
 FilmEmitters::FilmEmitters(const FilmSearch& search) {
   if (!is_wanted(search.world, search.settings)) return;
   const Search in(search);
-  const std::vector<SeenEmitter> all = in.all();
+  std::vector<SeenEmitter> all = in.all();
   if (all.empty() || all.size() > kMostSeen) return;
+  if (!search.world.camera.is_sharp()) leave_dimmest(all, in);
   const auto height = static_cast<std::size_t>(search.pixels.height());
   std::vector<std::vector<std::uint32_t>> seen(height);
   for (std::uint32_t e = 0; e < all.size(); ++e) {

@@ -10,7 +10,6 @@
 #include <span>
 #include <vector>
 
-#include "math/polygon.h"
 #include "transport/pixel/film_search.h"
 #include "transport/pixel/filter_cells.h"
 #include "tyndall/image.h"
@@ -25,20 +24,29 @@ struct FilmEmitter {
   LightId light(const BuiltWorld& world) const { return world.first_light[shape] + primitive; }
 };
 
-/// A convex polygon on the film (pixels of the full frame) that holds the image of a primitive, and is little larger. Nothing
-/// where it is not all before the camera, or the camera does not see it sharply.
-std::optional<ConvexPolygon> image_of(const BuiltWorld& world, std::uint32_t shape, std::uint32_t primitive);
-
-/// The emitters that a pixel draws: all of the directly visible emission of these, and of no other, is found that way.
+/// The emitters that a pixel draws: all of the directly visible emission of these, and of no other, is found that way where
+/// their images hold the ray.
 struct PixelEmitters {
   std::span<const FilmEmitter> emitters;  ///< shares add up to 1
   int positions = 0;                      ///< film positions a sample
   const FilterCells* cells = nullptr;     ///< by which they are drawn; outlive this
 
   bool empty() const { return emitters.empty(); }
-  bool hold(const BuiltWorld& world, LightId light) const;
   /// One by its share; `u` in [0, 1) is made anew of what is left of it. Not when empty.
   const FilmEmitter& draw(float& u) const;
+};
+
+/// The camera's own ray, which counts nothing of what is drawn instead.
+class DrawnEmission {
+ public:
+  /// `lens`: in the unit disk. What is referred to outlives this.
+  DrawnEmission(const PixelEmitters& emitters, Vec2 film, Vec2 lens) : emitters_(emitters), film_(film), lens_(lens) {}
+  /// Whether what it sees of a light is.
+  bool holds(const BuiltWorld& world, LightId light) const;
+
+ private:
+  const PixelEmitters& emitters_;
+  Vec2 film_, lens_;
 };
 
 class FilmEmitters {
@@ -47,6 +55,9 @@ class FilmEmitters {
   static constexpr float kWidestFilter = 4;
   /// In the picture. More would take seconds to process, and are triangles of larger things rather than bulbs.
   static constexpr std::size_t kMostSeen = 1'000'000;
+  /// Pixels of the frame that they are listed in, over all pixels, where a lens blurs them. Which are left to the filter: those
+  /// that add the least noise for each.
+  static constexpr double kMostBlurred = 8;
 
   FilmEmitters() = default;
   /// Of the pixels that are rendered: none where settings or the camera rule it out, or no emitter ends in any.

@@ -1,64 +1,88 @@
 #include "transport/pixel/visible_emitters.h"
 
-#include <cmath>
+#include <optional>
 
 #include "transport/pixel/directly_visible.h"
+#include "transport/pixel/emitter_image.h"
+#include "transport/pixel/fibonacci_lattice.h"
 #include "transport/sample/deep_sample.h"
 #include "transport/sample/grouped_light.h"
 
 namespace tyndall {
 namespace {
 
-/// Of a Fibonacci lattice of 13 points: spread evenly in the square and along both of its sides.
-constexpr int kLatticeStep = 8;
+/// How many points farther the lens is for the film's next: so that any two of the four coordinates are spread evenly.
+int lens_step(int count) { return count == FibonacciLattice::kFew ? 2 : 4; }
 
-float wrapped(float u) { return std::min(u - std::floor(u), kOneMinusEpsilon); }
+/// Random numbers for a place on an emitter's image, and one on the lens.
+struct PlaceNumbers {
+  Vec2 film, lens;
+};
 
-/// `count` points, moved within one cell of their lattice, between its two shortest vectors: so the lattices of all samples
-/// together are as even as the points that move them. A single point is its own lattice.
-class Lattice {
+/// What the rays through places on emitters' images, from places on the lens that they are seen from there, find for a pixel.
+class Finder {
  public:
-  Lattice(int count, Vec2 u) : count_(count), shift_(u) {
-    if (count > 1) shift_ = {(2 * u.x + 3 * u.y) / static_cast<float>(count), (3 * u.x - 2 * u.y) / static_cast<float>(count)};
-  }
-  Vec2 operator[](int i) const {
-    const float spacing = 1 / static_cast<float>(count_);
-    const int row = i * kLatticeStep % count_;
-    return {wrapped(shift_.x + static_cast<float>(i) * spacing), wrapped(shift_.y + static_cast<float>(row) * spacing)};
+  Finder(const LightContext& context, const PixelEmitters& emitters, Vec2 center, Sampler& sampler)
+      : context_(context), emitters_(emitters), middle_{center.x, center.y}, sampler_(sampler) {}
+
+  Rgb find(PlaceNumbers u) {
+    const BuiltWorld& world = context_.world;
+    const FilmEmitter& emitter = emitters_.draw(u.film.x);
+    const EmitterImage& image = image_of(emitter);
+    const auto place = emitters_.cells->sample(image.on_film().moved({-middle_.x, -middle_.y}), u.film);
+    const auto filter = world.filter.at({static_cast<float>(place.at.x), static_cast<float>(place.at.y)});
+    if (!(place.pdf > 0) || !(filter.pdf > 0)) return {};
+    const Point2 film{middle_.x + place.at.x, middle_.y + place.at.y};
+    const LensPart part = image.on_lens(film);
+    const auto lens = part.sample(u.lens);
+    if (!lens) return {};
+    const auto pdf = static_cast<float>(place.pdf / part.share()) * emitter.share;
+    return seen(emitter.light(world), world.camera.ray_through(film, *lens),
+                filter.weight * filter.pdf / (pdf * static_cast<float>(emitters_.positions)));
   }
 
  private:
-  int count_;
-  Vec2 shift_;
-};
+  /// That of the one before, where it is the same emitter.
+  const EmitterImage& image_of(const FilmEmitter& emitter) {
+    if (&emitter != before_) image_ = EmitterImage::of(context_.world, emitter.shape, emitter.primitive);
+    before_ = &emitter;
+    return *image_;
+  }
 
-/// By the ray through a place on an emitter's image, drawn by `u`.
-Rgb found_at(const LightContext& context, const PixelEmitters& emitters, Vec2 center, Vec2 u, Sampler& sampler) {
-  const BuiltWorld& world = context.world;
-  const FilmEmitter& emitter = emitters.draw(u.x);
-  const Point2 middle{center.x, center.y};
-  const auto image = image_of(world, emitter.shape, emitter.primitive);
-  const auto place = emitters.cells->sample(image->moved({-middle.x, -middle.y}), u);
-  const auto filter = world.filter.at({static_cast<float>(place.at.x), static_cast<float>(place.at.y)});
-  if (!(place.pdf > 0) || !(filter.pdf > 0)) return {};
-  const Ray ray = world.camera.ray_through({middle.x + place.at.x, middle.y + place.at.y});
-  ++context.counters.rays;
-  const auto seen = directly_visible(world, ray);
-  if (!seen || seen->light != emitter.light(world)) return {};
-  const auto pdf = static_cast<float>(place.pdf) * emitter.share;
-  const Rgb light = seen->L * attenuated(context, ray, *seen, sampler) *
-                    (filter.weight * filter.pdf / (pdf * static_cast<float>(emitters.positions)));
-  if (context.groups) context.groups->estimate(seen->light, light);
-  if (context.deep) context.deep->from_surface(world.camera.depth(seen->hit.p), light);
-  return light;
-}
+  /// What a ray sees of a light, times `weight`.
+  Rgb seen(LightId light, const Ray& ray, float weight) {
+    ++context_.counters.rays;
+    const auto seen = directly_visible(context_.world, ray);
+    if (!seen || seen->light != light) return {};
+    const Rgb found = seen->L * attenuated(context_, ray, *seen, sampler_) * weight;
+    if (context_.groups) context_.groups->estimate(light, found);
+    if (context_.deep) context_.deep->from_surface(context_.world.camera.depth(seen->hit.p), found);
+    return found;
+  }
+
+  const LightContext& context_;
+  const PixelEmitters& emitters_;
+  Point2 middle_;
+  Sampler& sampler_;
+  const FilmEmitter* before_ = nullptr;
+  std::optional<EmitterImage> image_;
+};
 
 }  // namespace
 
 Rgb visible_emitters(const LightContext& context, const PixelEmitters& emitters, Vec2 center, Sampler sampler) {
-  const Lattice lattice(emitters.positions, sampler.next_2d());
+  const int count = emitters.positions;
+  const FibonacciLattice on_film(count, sampler.next_2d());
+  Finder finder(context, emitters, center, sampler);
   Rgb sum;
-  for (int i = 0; i < emitters.positions; ++i) sum += found_at(context, emitters, center, lattice[i], sampler);
+  if (context.world.camera.is_sharp()) {
+    for (int i = 0; i < count; ++i) sum += finder.find({on_film[i], {}});
+    return sum;
+  }
+  const FibonacciLattice on_lens(count, sampler.next_2d());
+  // Points of lattices stay in cells of their own: which go together is left to chance.
+  const int first = static_cast<int>(sampler.next_1d() * static_cast<float>(count));
+  for (int i = 0; i < count; ++i) sum += finder.find({on_film[i], on_lens[(first + i * lens_step(count)) % count]});
   return sum;
 }
 

@@ -7,7 +7,7 @@
 namespace tyndall {
 
 /// Unbiased estimate, for the pixel at `center`, of that light from `emitters`, which must not be empty. The camera's own ray
-/// counts nothing of them (PixelEmitters::hold).
+/// counts nothing of them (DrawnEmission).
 Rgb visible_emitters(const LightContext& context, const PixelEmitters& emitters, Vec2 center, Sampler sampler);
 
 }  // namespace tyndall

@@ -8,7 +8,7 @@
 namespace tyndall {
 
 class JointWeight;
-struct PixelEmitters;
+class DrawnEmission;
 class GroupedLight;
 class CameraMatte;
 class DeepSample;
@@ -32,8 +32,8 @@ struct LightContext {
   /// The same for what the surface scatters that the camera's ray meets, where film positions were drawn for lights close to it
   /// (pixel/camera_peaks.h).
   const JointWeight* joint_at_surface = nullptr;
-  /// Emitters whose directly visible emission is found otherwise (visible_emitters.h).
-  const PixelEmitters* emitters = nullptr;
+  /// Directly visible emission that is found otherwise (visible_emitters.h).
+  const DrawnEmission* drawn_emission = nullptr;
   /// Where the scene has light groups (grouped_light.h).
   GroupedLight* groups = nullptr;
   /// Where the film has mattes (camera_matte.h), and where a deep image is made (deep_sample.h).

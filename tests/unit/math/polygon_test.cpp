@@ -79,6 +79,21 @@ TEST_CASE("what is cut off lies outside, and the parts' areas add up") {
   }
 }
 
+TEST_CASE("what two polygons share is in both, and as large from either side") {
+  Rng rng(4);
+  for (int i = 0; i < 2000; ++i) {
+    const ConvexPolygon a = ConvexPolygon::hull(random_points(8, rng)), b = ConvexPolygon::hull(random_points(8, rng));
+    const ConvexPolygon part = a.cut(b);
+    REQUIRE(part.area() == doctest::Approx(b.cut(a).area()).epsilon(1e-9));
+    for (const Point2& p : part.corners()) REQUIRE((holds(a, p, 1e-12) && holds(b, p, 1e-12)));
+    for (int k = 0; k < 20; ++k) {
+      const Point2 p{2.0 * rng.uniform() - 1, 3.0 * rng.uniform() - 1};
+      REQUIRE(part.holds(p) == (a.holds(p) && b.holds(p)));
+    }
+  }
+  CHECK(ConvexPolygon::hull(random_points(8, rng)).cut(ConvexPolygon()).empty());
+}
+
 TEST_CASE("a polygon's places are uniform in it") {
   Rng rng(3);
   constexpr int kPolygons = 5, kDraws = 100'000, kCells = 12;

@@ -9,89 +9,17 @@
 
 #include "math/rng.h"
 #include "session/world_parts.h"
+#include "support/emitter_scene.h"
 #include "support/sphere_scene.h"
 #include "transport/pixel/directly_visible.h"
+#include "transport/pixel/emitter_image.h"
 
 namespace tyndall {
 namespace {
 
-std::string emitter(const std::string& where, const std::string& shape) {
-  return "AttributeBegin\n" + where + "\nAreaLightSource \"diffuse\" \"rgb L\" [3 2 1] \"bool twosided\" true\n" + shape +
-         "AttributeEnd\n";
-}
-
-/// One of each shape, whole and cut, some beyond the frame, one behind the camera.
-std::string emitters() {
-  return emitter("Translate -0.6 0.3 0", "Shape \"sphere\" \"float radius\" 0.2\n") +
-         emitter("Translate 0.5 0.4 0 Scale 1 0.5 1", "Shape \"sphere\" \"float radius\" 0.3 \"float zmax\" 0.1\n") +
-         emitter("Translate 0.1 -0.6 0 Rotate 40 1 1 0", "Shape \"disk\" \"float radius\" 0.3\n") +
-         emitter("Translate 0.9 -0.4 0 Rotate 70 1 0.3 0", "Shape \"cylinder\" \"float radius\" 0.1\n") +
-         emitter("Translate -0.9 -0.5 0", "Shape \"bilinearmesh\" \"point3 P\" [0 0 0  0.4 0 0.1  0 0.3 0.2  0.35 0.4 0]\n") +
-         emitter("Translate -0.3 -0.1 0",
-                 "Shape \"trianglemesh\" \"point3 P\" [0 0 0  0.3 0 0.1  0 0.2 0  0.4 0.3 0] "
-                 "\"integer indices\" [0 2 1 1 2 3]\n") +
-         emitter("Translate 0 0 -9", "Shape \"sphere\" \"float radius\" 0.2\n");
-}
-
-std::string scene(const std::string& camera) {
-  return "Film \"rgb\" \"integer xresolution\" 24 \"integer yresolution\" 18\nPixelFilter \"gaussian\"\n"
-         "LookAt 0.1 0.2 -3  0 0 0  0 1 0\n" +
-         camera + "\nWorldBegin\n" + emitters();
-}
-
-bool holds(const ConvexPolygon& polygon, Point2 p) { return polygon.covers({p, p}); }
-
-const std::string kPerspective = "Camera \"perspective\" \"float fov\" 34";
-const std::string kOrthographic = "Camera \"orthographic\" \"float screenwindow\" [-1.2 1.2 -0.9 0.9]";
-
-TEST_CASE("what a ray meets of an emitter is in its image, and most of the image is of the emitter") {
-  for (const std::string& camera : {kPerspective, kOrthographic}) {
-    const World world = test::world_of(scene(camera), {});
-    const BuiltWorld& built = world.parts().built;
-    Rng rng(5);
-    // Met, and within the image, by shape. The polygon around a round one is 2 to 5 % larger; what is cut is held whole.
-    std::array<double, 7> met{}, in_image{}, least{0.95, 0.4, 0.93, 0.75, 0.5, 0.98, 0};
-    for (int i = 0; i < 40'000; ++i) {
-      const Point2 film{24.0 * rng.uniform(), 18.0 * rng.uniform()};
-      const auto seen = directly_visible(built, built.camera.ray_through(film));
-      for (std::uint32_t shape = 0; shape < built.first_light.size(); ++shape) {
-        for (std::uint32_t k = 0; k < primitives_of(*built.geometry.placed()[shape].shape); ++k) {
-          const auto image = image_of(built, shape, k);
-          if (shape == 6 && camera == kPerspective) REQUIRE_FALSE(image);  // behind the camera
-          if (!image) continue;
-          const bool meets = seen && seen->light == built.first_light[shape] + k, holds_it = holds(*image, film);
-          if (meets) REQUIRE(holds_it);
-          met[shape] += meets;
-          in_image[shape] += holds_it;
-        }
-      }
-    }
-    for (std::size_t shape = 0; shape < 6; ++shape) {
-      CAPTURE(shape);
-      CHECK(in_image[shape] > 300);
-      CHECK(met[shape] >= least[shape] * in_image[shape]);
-    }
-  }
-}
-
-TEST_CASE("a ray goes through the film where the camera sees its points") {
-  for (const std::string& camera : {kPerspective, kOrthographic}) {
-    const World world = test::world_of(scene(camera), {});
-    const CameraRays& rays = world.parts().built.camera;
-    Rng rng(6);
-    for (int i = 0; i < 1000; ++i) {
-      const Point2 film{24.0 * rng.uniform(), 18.0 * rng.uniform()};
-      const Ray ray = rays.ray_through(film);
-      const auto at = rays.image_of(Vec3d(ray.o) + Vec3d(ray.d) * (0.1 + rng.uniform()));
-      REQUIRE(at);
-      CHECK(at->x == doctest::Approx(film.x).epsilon(1e-5));
-      CHECK(at->y == doctest::Approx(film.y).epsilon(1e-5));
-      const Ray plain = rays.ray({static_cast<float>(film.x), static_cast<float>(film.y)}, {0.5f, 0.5f});
-      CHECK(length(plain.d - ray.d) < 1e-6);
-      CHECK(length(plain.o - ray.o) < 1e-6);
-    }
-  }
-}
+using test::emitter;
+using test::kOrthographic;
+using test::kPerspective;
 
 FilmEmitters search(const World& world, const RenderSettings& settings, const PixelBounds& pixels) {
   ThreadPool pool(1);
@@ -104,11 +32,19 @@ RenderSettings with_points() {
   return settings;
 }
 
+void require_same(const PixelEmitters& a, const PixelEmitters& b) {
+  const auto same = [](const FilmEmitter& x, const FilmEmitter& y) {
+    return x.shape == y.shape && x.primitive == y.primitive && x.share == y.share;
+  };
+  REQUIRE(std::equal(a.emitters.begin(), a.emitters.end(), b.emitters.begin(), b.emitters.end(), same));
+  REQUIRE(a.positions == b.positions);
+}
+
 TEST_CASE("pixels draw the emitters that end in them, in crops too; none where one fills all") {
   const std::string wall =
       "Translate 0 0 2 AreaLightSource \"diffuse\" \"rgb L\" [1 1 1] \"bool twosided\" true\nShape \"disk\" \"float radius\" "
       "9\n";
-  const World world = test::world_of(scene(kPerspective) + wall, {});
+  const World world = test::world_of(test::emitter_scene(kPerspective) + wall, {});
   const BuiltWorld& built = world.parts().built;
   const FilterCells cells(built.filter);
   const PixelBounds whole{0, 0, 24, 18}, part{5, 3, 12, 18};
@@ -117,13 +53,13 @@ TEST_CASE("pixels draw the emitters that end in them, in crops too; none where o
   for (int y = 0; y < 18; ++y) {
     for (int x = 0; x < 24; ++x) {
       const PixelEmitters emitters = all.of(x, y);
-      if (part.contains(x, y)) REQUIRE(some.of(x, y).emitters.size() == emitters.emitters.size());
+      if (part.contains(x, y)) require_same(some.of(x, y), emitters);
       // The disk is behind all; with no other emitter in the filter's support a pixel looks even.
       bool others = false;
       for (std::uint32_t shape = 0; shape < 6; ++shape) {
         for (std::uint32_t k = 0; k < primitives_of(*built.geometry.placed()[shape].shape); ++k) {
-          const auto image = image_of(built, shape, k);
-          others |= image && cells.mass(image->moved({-x - 0.5, -y - 0.5})) > 0;
+          const auto image = EmitterImage::of(built, shape, k);
+          others |= image && cells.mass(image->on_film().moved({-x - 0.5, -y - 0.5})) > 0;
         }
       }
       if (!others) REQUIRE(emitters.empty());
@@ -198,7 +134,7 @@ TEST_CASE("one look at each of many emitters leaves little more to chance than t
     REQUIRE(emitters.emitters.size() >= 16);
     double roots = 0;
     for (const FilmEmitter& e : emitters.emitters) {
-      const ConvexPolygon image = image_of(built, e.shape, e.primitive)->moved({-center.x, -center.y});
+      const ConvexPolygon image = EmitterImage::of(built, e.shape, e.primitive)->on_film().moved({-center.x, -center.y});
       const double mass = cells.mass(image);
       double seen = 0;
       for (int k = 0; k < 200; ++k) {
@@ -213,6 +149,57 @@ TEST_CASE("one look at each of many emitters leaves little more to chance than t
   }
   MESSAGE("mean square ", chosen / best, " of the least");
   CHECK(chosen < 1.2 * best);
+}
+
+/// 100 emitters, the first five brightest, that a lens blurs over all of the frame.
+std::string blurred_bulbs() {
+  std::string bulbs;
+  for (int i = 0; i < 100; ++i) {
+    const std::string x = std::to_string(-0.2 + 0.04 * (i % 10)), y = std::to_string(-0.2 + 0.04 * (i / 10));
+    bulbs += "AttributeBegin\nTranslate " + x + " " + y + " 0\nAreaLightSource \"diffuse\" \"rgb L\" [1 1 1] \"float scale\" " +
+             std::to_string(i < 5 ? 9 : 1) + "\nShape \"sphere\" \"float radius\" 0.01\nAttributeEnd\n";
+  }
+  return "Film \"rgb\" \"integer xresolution\" 24 \"integer yresolution\" 18\nPixelFilter \"box\"\n"
+         "LookAt 0 0 -3  0 0 0  0 1 0\n" +
+         kPerspective + " \"float lensradius\" 1 \"float focaldistance\" 1\nWorldBegin\n" + bulbs;
+}
+
+TEST_CASE("of many emitters that a lens blurs the brightest are listed, as many as there is room for, in crops the same") {
+  const World world = test::world_of(blurred_bulbs(), {});
+  const PixelBounds whole{0, 0, 24, 18}, part{5, 3, 12, 10};
+  const FilmEmitters all = search(world, with_points(), whole), some = search(world, with_points(), part);
+  std::size_t listed = 0;
+  for (int y = 0; y < 18; ++y) {
+    for (int x = 0; x < 24; ++x) {
+      const PixelEmitters of_pixel = all.of(x, y);
+      const auto emitters = of_pixel.emitters;
+      listed += emitters.size();
+      for (std::uint32_t shape = 0; shape < 5; ++shape) {
+        CHECK(std::any_of(emitters.begin(), emitters.end(), [&](const FilmEmitter& e) { return e.shape == shape; }));
+      }
+      if (part.contains(x, y)) require_same(some.of(x, y), of_pixel);
+    }
+  }
+  CHECK(listed > 6 * 24 * 18);
+  CHECK(listed <= static_cast<std::size_t>(FilmEmitters::kMostBlurred) * 24 * 18);
+}
+
+TEST_CASE("a bulb out of focus has few places in a pixel, one in focus many") {
+  const auto most_places = [](const std::string& focus) {
+    const World world = test::world_of(
+        "Film \"rgb\" \"integer xresolution\" 24 \"integer yresolution\" 18\nPixelFilter \"box\"\n"
+        "LookAt 0 0 -3  0 0 0  0 1 0\n" +
+            kPerspective + " \"float lensradius\" 0.1 \"float focaldistance\" " + focus + "\nWorldBegin\n" +
+            emitter("", "Shape \"sphere\" \"float radius\" 0.15\n"),
+        {});
+    const FilmEmitters all = search(world, with_points(), {0, 0, 24, 18});
+    int most = 0;
+    for (int i = 0; i < 24 * 18; ++i)
+      most = std::max(most, all.of(i % 24, i / 24).empty() ? 0 : all.of(i % 24, i / 24).positions);
+    return most;
+  };
+  CHECK(most_places("3") == 13);
+  CHECK(most_places("1") == 5);
 }
 
 TEST_CASE("emitters are drawn with their shares") {
@@ -236,7 +223,7 @@ TEST_CASE("emitters are drawn with their shares") {
   CHECK(&emitters.draw(last) == &list[3]);
 }
 
-TEST_CASE("no emitters are drawn through a lens, by wide filters, and where settings or the film forbid it") {
+TEST_CASE("no emitters are drawn by wide filters, and where camera, settings or the film forbid it") {
   const auto draws_any = [](const std::string& text, const RenderSettings& settings) {
     const World world = test::world_of(text, {});
     const FilmEmitters all = search(world, settings, {0, 0, 24, 18});
@@ -250,14 +237,15 @@ TEST_CASE("no emitters are drawn through a lens, by wide filters, and where sett
   const auto replaced = [](std::string text, const std::string& from, const std::string& to) {
     return text.replace(text.find(from), from.size(), to);
   };
-  const std::string plain = scene(kPerspective);
+  const std::string plain = test::emitter_scene(kPerspective);
   RenderSettings off = with_points(), exhaustive = with_points();
   off.joint = JointStrategy::off;
   exhaustive.lights = LightStrategy::exhaustive;
   CHECK(draws_any(plain, with_points()));
-  CHECK(draws_any(scene(kOrthographic), with_points()));
+  CHECK(draws_any(test::emitter_scene(kOrthographic), with_points()));
   CHECK_FALSE(draws_any(plain, off));
-  CHECK_FALSE(draws_any(scene(kPerspective + " \"float lensradius\" 0.1 \"float focaldistance\" 3"), with_points()));
+  CHECK(draws_any(test::emitter_scene(kPerspective + " \"float lensradius\" 0.1 \"float focaldistance\" 3"), with_points()));
+  CHECK(draws_any(test::emitter_scene(kOrthographic + " \"float lensradius\" 0.1 \"float focaldistance\" 3"), with_points()));
   CHECK_FALSE(
       draws_any(replaced(plain, "\"gaussian\"", "\"gaussian\" \"float xradius\" 5 \"float yradius\" 5"), with_points()));
   CHECK_FALSE(draws_any(replaced(plain, "\"rgb\"", "\"rgb\" \"float maxcomponentvalue\" 9"), with_points()));
