@@ -1,6 +1,6 @@
-/// "Agrees at d": the standard error of the difference is at most d/6.5 (with sanitizers kCoarser times that), and the
-/// difference is below 4 standard errors. A bias of d is then found with power 0.99, and a correct value is refused 6 times
-/// in 100,000.
+/// "Agrees at d": the standard error of the difference is at most d/5.65, nightly d/6.5 (with sanitizers kCoarser times that),
+/// and the difference is below 4 standard errors. A bias of d is then found with power 0.95, nightly 0.99, and a correct value
+/// is refused 6 times in 100,000.
 #pragma once
 
 #include <array>
