@@ -65,10 +65,10 @@ std::vector<std::string> scene_names() {
 constexpr std::array kDeparted{"material_coateddiffuse"};
 constexpr double kDeparture = 0.005;
 
-/// Variance of our image mean relative to pbrt's (2048 samples a pixel): at most 1 is wanted nightly, for each channel; else 2,
-/// a standard error of the difference 1.22 times as large for half of the samples, for all channels together, since pbrt's red
-/// and blue have the noise of its wavelengths on top, and ours have not.
-double relative_variance(const MeanImage& ours, const MeanImage& pbrt) {
+/// Variance of our image mean over what is wanted of it: nightly pbrt's (2048 samples a pixel), for each channel; else twice
+/// that, a standard error of the difference 1.22 times as large for half of the samples, for all channels together, since
+/// pbrt's red and blue have the noise of its wavelengths on top, and ours have not.
+double excess_variance(const MeanImage& ours, const MeanImage& pbrt) {
   double sum_ours = 0, sum_pbrt = 0, largest = 0;
   for (int k = 0; k < 3; ++k) {
     const double a = image_mean(ours, k).variance, b = image_mean(pbrt, k).variance;
@@ -108,7 +108,7 @@ Verdict compare_with_pbrt(const std::string& name, double block_level) {
   Subject subject(read_scene(kFolder + "/" + name + ".pbrt").scene, {});
   Verdict v{.scene = name};
   v.tyndall =
-      measure(subject, {.excess = [&](const MeanImage& image) { return relative_variance(block_means(image, kBlock), pbrt); },
+      measure(subject, {.excess = [&](const MeanImage& image) { return excess_variance(block_means(image, kBlock), pbrt); },
                         .seconds = nightly() ? 1200.0 : 120.0,
                         .stream = stream_of(name)});
 

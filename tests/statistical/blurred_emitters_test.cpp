@@ -6,50 +6,32 @@
 #include <vector>
 
 #include "report/block_test.h"
-#include "support/block_image.h"
+#include "support/block_renders.h"
 #include "support/chi_squared.h"
 #include "support/emitter_scene.h"
-#include "support/measure.h"
 #include "support/sanitized.h"
 
 namespace tyndall::test {
 namespace {
 
 constexpr double kLevel = 1e-3;
-constexpr int kRenders = 24, kSpp = 16;
-constexpr int kBlock = 3;          // pixels: nearly normal means
-constexpr double kDarkest = 0.01;  // of the picture's mean; darker ones are far from normal
+constexpr int kSpp = 16, kMore = 8;  // of what is drawn, and how many times as many of the filter's
+constexpr int kBlock = 3;            // pixels: nearly normal means
+constexpr double kDarkest = 0.01;    // of the picture's mean; darker ones are far from normal
 
-struct Renders {
-  MeanImage blocks;
-  double variance = 0;  ///< sum over pixels, of one render
-};
-
-Renders renders_of(const std::string& text, JointStrategy joint, int spp, std::uint64_t seed) {
+BlockRenders renders_of(const std::string& text, JointStrategy joint, int spp, std::uint64_t seed) {
   Variant variant;
   variant.joint = joint;
   variant.budget = BudgetStrategy::fixed;
-  Subject subject(text, variant);
-  MeanImageBuilder blocks, pixels;
-  for (int i = 0; i < fewer(kRenders); ++i) {
-    const Image image = subject.render(spp, seed + static_cast<std::uint64_t>(i));
-    pixels.add(image);
-    blocks.add(block_image(image, kBlock));
-  }
-  CHECK_MESSAGE(subject.faults().empty(), subject.faults());
-  Renders result{blocks.result(), 0};
-  const MeanImage of_pixels = pixels.result();
-  for (const Estimate& e : of_pixels.channels[1]) result.variance += e.variance;
-  return result;
+  return block_renders(Subject(text, variant), kBlock, spp, seed);
 }
 
-/// Block by block and in the mean, the filter with `more` times the samples; `worth`: how much less variance a drawn sample has
+/// Block by block and in the mean, the filter with kMore times the samples; `worth`: how much less variance a drawn sample has
 /// at least. A bias of 5 standard errors of a block's difference is found in half of all cases (144 differences).
 void check_drawn(const char* name, const std::string& text, double worth) {
   CAPTURE(name);
-  constexpr int kMore = 8;
-  const Renders drawn = renders_of(text, JointStrategy::points, kSpp, 1000),
-                found = renders_of(text, JointStrategy::off, kMore * kSpp, 2000);
+  const BlockRenders drawn = renders_of(text, JointStrategy::points, kSpp, 1000),
+                     found = renders_of(text, JointStrategy::off, kMore * kSpp, 2000);
   const double mean_found = image_mean(found.blocks, 1).mean;
   std::vector<BlockDifference> differences;
   for (const BlockDifference& d : block_test(drawn.blocks, found.blocks)) {
@@ -59,7 +41,7 @@ void check_drawn(const char* name, const std::string& text, double worth) {
   }
   const BlockDifference& w = worst(differences);
   const WelchResult mean = mean_test(drawn.blocks, found.blocks, 1);
-  const double gain = kMore * found.variance / drawn.variance;
+  const double gain = kMore * found.pixel_variance / drawn.pixel_variance;
   std::printf("  %s: mean off by %+.3f %% +- %.3f %%, worst of %zu blocks %d %d t %.1f, variance %.2f times less\n", name,
               100 * mean.difference / mean_found, 100 * mean.standard_error / mean_found, differences.size(), w.x, w.y,
               w.welch.t, gain);
@@ -88,9 +70,7 @@ TEST_CASE("emitters that a lens blurs are drawn as bright as the filter finds th
 std::string bulb(const std::string& where) { return emitter("Translate " + where, "Shape \"sphere\" \"float radius\" 0.05\n"); }
 
 std::string before_lens(const std::string& focus, const std::string& things) {
-  return "Integrator \"volpath\" \"integer maxdepth\" 0\nFilm \"rgb\" \"integer xresolution\" 24 \"integer yresolution\" 18\n"
-         "PixelFilter \"box\"\nLookAt 0 0 -3  0 0 0  0 1 0\n" +
-         kPerspective + kLens + focus + "\nWorldBegin\n" + things;
+  return "Integrator \"volpath\" \"integer maxdepth\" 0\n" + before_camera(kPerspective + kLens + focus, things);
 }
 
 // What share of the lens sees an emitter differs between pixels, and from what its middle sees: rare and heavy finds, if shares

@@ -13,6 +13,13 @@ inline std::string emitter(const std::string& where, const std::string& shape) {
          "AttributeEnd\n";
 }
 
+/// In the middle of a small picture with a box filter, by a camera at distance 3.
+inline std::string before_camera(const std::string& camera, const std::string& things) {
+  return "Film \"rgb\" \"integer xresolution\" 24 \"integer yresolution\" 18\nPixelFilter \"box\"\n"
+         "LookAt 0 0 -3  0 0 0  0 1 0\n" +
+         camera + "\nWorldBegin\n" + things;
+}
+
 /// One of each shape, whole and cut, some beyond the frame, one behind the camera.
 inline std::string emitters() {
   return emitter("Translate -0.6 0.3 0", "Shape \"sphere\" \"float radius\" 0.2\n") +

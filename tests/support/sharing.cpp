@@ -6,8 +6,7 @@
 
 #include "report/block_test.h"
 #include "report/image_test.h"
-#include "support/block_image.h"
-#include "support/measure.h"
+#include "support/block_renders.h"
 #include "support/sanitized.h"
 
 namespace tyndall::test {
@@ -16,28 +15,6 @@ namespace {
 constexpr int kResolution = 32;
 constexpr int kBlock = 2;  // smaller than what shares, within which light may only have moved
 constexpr double kLevel = 1e-3;
-
-struct Renders {
-  MeanImage blocks;
-  double pixel_variance = 0;  ///< mean of it, of one render
-};
-
-/// Means over blocks, and their spread between renders.
-Renders renders_of(const std::string& text, const Variant& variant, int spp, std::uint64_t seed) {
-  Subject subject(text, variant);
-  const int renders = fewer(24);
-  MeanImageBuilder blocks, pixels;
-  for (int i = 0; i < renders; ++i) {
-    const Image image = subject.render(spp, seed + static_cast<std::uint64_t>(i));
-    pixels.add(image);
-    blocks.add(block_image(image, kBlock));
-  }
-  CHECK_MESSAGE(subject.faults().empty(), subject.faults());
-  Renders result{blocks.result(), 0};
-  const MeanImage of_pixels = pixels.result();
-  for (const Estimate& e : of_pixels.channels[1]) result.pixel_variance += e.variance;
-  return result;
-}
 
 std::string ball(const std::string& material, const std::string& at, const std::string& radius) {
   return block("Material " + material + "\nTranslate " + at + "\nShape \"sphere\" \"float radius\" " + radius + "\n");
@@ -87,7 +64,8 @@ void check_sharing(const char* name, const std::string& text, Variant variant, d
   variant.budget = BudgetStrategy::fixed;
   Variant sharing = variant;
   sharing.reuse = ReuseStrategy::pixels;
-  const Renders apart = renders_of(text, variant, spp, 1000), shared = renders_of(text, sharing, spp, 2000);
+  const BlockRenders apart = block_renders(Subject(text, variant), kBlock, spp, 1000),
+                     shared = block_renders(Subject(text, sharing), kBlock, spp, 2000);
   const auto differences = block_test(shared.blocks, apart.blocks);
   const BlockDifference& w = worst(differences);
   CAPTURE(w.x);

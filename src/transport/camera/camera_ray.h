@@ -56,6 +56,8 @@ class CameraRays {
   std::optional<Image> blurred_image_of(Vec3d p) const;
   /// Through the middle of the lens.
   std::optional<Point2> image_of(Vec3d p) const;
+  /// The same in single precision.
+  std::optional<Vec2> film_position(Vec3 p) const;
   /// Its ray through a film position and a place on the lens, exact but for the rounding of the ray.
   Ray ray_through(Point2 film, Point2 lens = {0, 0}) const;
   /// From where it sees what it sees through the middle of the lens; from where it sees `p`.
@@ -63,8 +65,6 @@ class CameraRays {
   Vec3 eye_of(Vec3 p) const;
   /// World position where all rays through a film position meet that come from a lens.
   Vec3d focus_of(Point2 film) const;
-  /// The same of a pinhole.
-  std::optional<Vec2> film_position(Vec3 p) const;
   /// Pixels below which film positions and the rays through them do not agree, for all the rounding; of a camera with a
   /// projection.
   float film_rounding() const;

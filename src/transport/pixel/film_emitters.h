@@ -55,8 +55,8 @@ class FilmEmitters {
   static constexpr float kWidestFilter = 4;
   /// In the picture. More would take seconds to process, and are triangles of larger things rather than bulbs.
   static constexpr std::size_t kMostSeen = 1'000'000;
-  /// Pixels of the frame that they are listed in, over all pixels, where a lens blurs them. Which are left to the filter: those
-  /// that add the least noise for each.
+  /// Of a frame that a lens blurs, entries of all lists for each of its pixels. Emitters that add the least noise for each of
+  /// theirs are left to the filter.
   static constexpr double kMostBlurred = 8;
 
   FilmEmitters() = default;

@@ -159,9 +159,7 @@ std::string blurred_bulbs() {
     bulbs += "AttributeBegin\nTranslate " + x + " " + y + " 0\nAreaLightSource \"diffuse\" \"rgb L\" [1 1 1] \"float scale\" " +
              std::to_string(i < 5 ? 9 : 1) + "\nShape \"sphere\" \"float radius\" 0.01\nAttributeEnd\n";
   }
-  return "Film \"rgb\" \"integer xresolution\" 24 \"integer yresolution\" 18\nPixelFilter \"box\"\n"
-         "LookAt 0 0 -3  0 0 0  0 1 0\n" +
-         kPerspective + " \"float lensradius\" 1 \"float focaldistance\" 1\nWorldBegin\n" + bulbs;
+  return test::before_camera(kPerspective + " \"float lensradius\" 1 \"float focaldistance\" 1", bulbs);
 }
 
 TEST_CASE("of many emitters that a lens blurs the brightest are listed, as many as there is room for, in crops the same") {
@@ -186,12 +184,10 @@ TEST_CASE("of many emitters that a lens blurs the brightest are listed, as many 
 
 TEST_CASE("a bulb out of focus has few places in a pixel, one in focus many") {
   const auto most_places = [](const std::string& focus) {
-    const World world = test::world_of(
-        "Film \"rgb\" \"integer xresolution\" 24 \"integer yresolution\" 18\nPixelFilter \"box\"\n"
-        "LookAt 0 0 -3  0 0 0  0 1 0\n" +
-            kPerspective + " \"float lensradius\" 0.1 \"float focaldistance\" " + focus + "\nWorldBegin\n" +
-            emitter("", "Shape \"sphere\" \"float radius\" 0.15\n"),
-        {});
+    const World world =
+        test::world_of(test::before_camera(kPerspective + " \"float lensradius\" 0.1 \"float focaldistance\" " + focus,
+                                           emitter("", "Shape \"sphere\" \"float radius\" 0.15\n")),
+                       {});
     const FilmEmitters all = search(world, with_points(), {0, 0, 24, 18});
     int most = 0;
     for (int i = 0; i < 24 * 18; ++i)
