@@ -18,6 +18,17 @@ struct RoundedPoint {
   RoundedPoint(Vec3d p, double r) : at(p), reach(r) {}
 };
 
+/// A point of a surface is off it by half a last digit in each coordinate: by less than this, times RoundedPoint::reach.
+inline constexpr double kRounding = 0x1p-21;
+
+/// The observer lies in the plane through `to_plane` with normal `n` (any length > 0), as far as floats can tell: on the
+/// emitter itself perhaps, which may be `off_plane` by so much. There it shows only its edge, and at heights of rounding it
+/// would seem to fill half the sky of its own points.
+inline bool in_plane(const RoundedPoint& p, const Vec3d& to_plane, const Vec3d& n, double off_plane = 0) {
+  const double height = dot(to_plane, n), least = kRounding * p.reach + off_plane;
+  return height * height <= least * least * dot(n, n);
+}
+
 struct EmitterSample {
   Vec3 wi;         ///< unit, toward the emitter
   float distance;  ///< of the point on the emitter

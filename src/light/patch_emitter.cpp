@@ -102,6 +102,7 @@ Vec2 PatchEmitter::uv(std::uint32_t i, double u, double v) const {
 std::optional<EmitterSample> PatchEmitter::sample(std::uint32_t i, const RoundedPoint& p, Vec2 u) const {
   const Form f = form(i, p.at);
   if (rectangle_[i]) {
+    if (f.is_seen_edge_on(p)) return std::nullopt;
     const SphericalRectangle rectangle(f.p00, f.eu, f.ev);
     if (rectangle.solid_angle() > kSmallest) {
       const auto [x, st] = rectangle.sample(u);
@@ -127,6 +128,7 @@ std::optional<EmitterSample> PatchEmitter::sample(std::uint32_t i, const Rounded
 float PatchEmitter::pdf(std::uint32_t i, const RoundedPoint& p, const RoundedPoint& hit) const {
   const Form f = form(i, p.at);
   if (rectangle_[i]) {
+    if (f.is_seen_edge_on(p)) return 0;
     const SphericalRectangle rectangle(f.p00, f.eu, f.ev);
     if (rectangle.solid_angle() > kSmallest) return static_cast<float>(1 / rectangle.solid_angle());
   }

@@ -34,6 +34,8 @@ class PatchEmitter {
     Vec3d point(double u, double v) const { return p00 + eu * u + ev * v + euv * (u * v); }
     /// dP/du x dP/dv: not normalised, and affine in u and v, because euv x euv = 0.
     Vec3d normal(double u, double v) const { return cross(eu + euv * v, ev + euv * u); }
+    /// Of a rectangle: the observer, who is at `p`, is in its plane.
+    bool is_seen_edge_on(const RoundedPoint& p) const { return in_plane(p, p00, cross(eu, ev), length(euv)); }
     /// (u, v) of a point on the patch.
     std::array<double, 2> invert(Vec3d p) const;
   };

@@ -129,9 +129,13 @@ Vec2 QuadricEmitter::uv(Vec3d p) const {
   return {static_cast<float>(phi / phi_max_), static_cast<float>(v)};
 }
 
-std::optional<double> QuadricEmitter::cone_height(Vec3d to_center) const {
+// Points of the sphere itself, some of which are rounded outward, are left to areas: from inside they would seem to lie before
+// it.
+std::optional<double> QuadricEmitter::cone_height(const RoundedPoint& p) const {
   if (!(cone_radius_ > 0)) return std::nullopt;
-  return sphere_cone_height(length(to_center), cone_radius_);
+  const double distance = length(to_world({0, 0, 0}) - p.at);
+  if (distance <= cone_radius_ + kRounding * p.reach) return std::nullopt;
+  return sphere_cone_height(distance, cone_radius_);
 }
 
 EmitterSample QuadricEmitter::cone_sample(Vec3d to_center, double h, Vec3d p, Vec2 u) const {
@@ -149,8 +153,7 @@ EmitterSample QuadricEmitter::cone_sample(Vec3d to_center, double h, Vec3d p, Ve
 }
 
 std::optional<EmitterSample> QuadricEmitter::sample(const RoundedPoint& p, Vec2 u) const {
-  const Vec3d to_center = to_world({0, 0, 0}) - p.at;
-  if (const auto h = cone_height(to_center)) return cone_sample(to_center, *h, p.at, u);
+  if (const auto h = cone_height(p)) return cone_sample(to_world({0, 0, 0}) - p.at, *h, p.at, u);
 
   if (!(object_area_ > 0)) return std::nullopt;
   const ObjectPoint point = object_sample(u);
@@ -161,7 +164,7 @@ std::optional<EmitterSample> QuadricEmitter::sample(const RoundedPoint& p, Vec2 
 }
 
 float QuadricEmitter::pdf(const RoundedPoint& p, const RoundedPoint& hit) const {
-  if (const auto h = cone_height(to_world({0, 0, 0}) - p.at)) return static_cast<float>(1 / (kTau * *h));
+  if (const auto h = cone_height(p)) return static_cast<float>(1 / (kTau * *h));
   if (!(object_area_ > 0)) return 0;
   const Vec3d object_n = object_normal(to_object(hit.at));
   const double pdf_area = 1 / (object_area_ * world_area_scale(object_n));

@@ -1,8 +1,6 @@
 /// Emissive spheres, disks and cylinders, whole or cut, under any affine transform.
 #pragma once
 
-#include <cstdint>
-
 #include "light/emitter_sample.h"
 #include "light/light_place.h"
 #include "tyndall/scene.h"
@@ -39,7 +37,7 @@ class QuadricEmitter {
   Vec3d to_object(Vec3d p) const;
   Vec3d world_normal(Vec3d n) const;              ///< by the inverse transpose, not normalised
   double world_area_scale(Vec3d object_n) const;  ///< world area per object area
-  std::optional<double> cone_height(Vec3d to_center) const;
+  std::optional<double> cone_height(const RoundedPoint& p) const;
   EmitterSample cone_sample(Vec3d to_center, double h, Vec3d p, Vec2 u) const;
   double measure_area() const;
 

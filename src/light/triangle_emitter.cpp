@@ -9,14 +9,6 @@ namespace {
 /// triangle's plane.
 constexpr double kSmallest = 1e-9, kLargest = 6.2831;
 
-/// The observer lies in the triangle's plane as far as floats can tell, on the triangle itself perhaps: a point of a
-/// surface is off by half a last digit in each coordinate. There a triangle shows only its edge, and at heights of
-/// rounding it would seem to fill half the sky of its own points.
-bool in_plane(const RoundedPoint& p, const Vec3d& a, const Vec3d& n, double n2) {
-  const double height = dot(a, n), least = 0x1p-21 * p.reach;
-  return height * height <= least * least * n2;
-}
-
 /// Seen from so far that points uniform in area are nearly uniform in solid angle: the angle under which its longest edges are
 /// seen is below a fifth. Spherical geometry is much more expensive and would gain nothing (docs/measurements.md).
 bool far_off(const Vec3d& a, const Vec3d& e1, const Vec3d& e2) { return std::max(dot(e1, e1), dot(e2, e2)) < 0.04 * dot(a, a); }
@@ -87,7 +79,7 @@ std::optional<EmitterSample> TriangleEmitter::sample(std::uint32_t i, const Roun
   const Vec3d a = vertex(i, 0) - p.at, b = vertex(i, 1) - p.at, c = vertex(i, 2) - p.at;
   const Vec3d e1 = b - a, e2 = c - a, n = cross(e1, e2);
   const double n2 = dot(n, n);
-  if (!(n2 > 0) || in_plane(p, a, n, n2)) return std::nullopt;
+  if (!(n2 > 0) || in_plane(p, a, n)) return std::nullopt;
   if (far_off(a, e1, e2)) return sample_area(i, a, e1, e2, u);
   const SphericalTriangle triangle(a, b, c);
 
@@ -120,8 +112,7 @@ std::optional<EmitterSample> TriangleEmitter::sample_area(std::uint32_t i, const
 float TriangleEmitter::pdf(std::uint32_t i, const RoundedPoint& p, const RoundedPoint& hit) const {
   const Vec3d a = vertex(i, 0) - p.at, b = vertex(i, 1) - p.at, c = vertex(i, 2) - p.at;
   const Vec3d e1 = b - a, e2 = c - a, n = cross(e1, e2);
-  const double n2 = dot(n, n);
-  if (!(n2 > 0) || in_plane(p, a, n, n2)) return 0;
+  if (!(dot(n, n) > 0) || in_plane(p, a, n)) return 0;
   if (far_off(a, e1, e2)) return area_density(hit.at - p.at, n).value_or(0.0f);
   const SphericalTriangle triangle(a, b, c);
   if (by_solid_angle(triangle.solid_angle())) return static_cast<float>(1 / triangle.solid_angle());

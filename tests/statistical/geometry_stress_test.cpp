@@ -2,6 +2,7 @@
 /// coordinates a million away. Each gives the picture of its harmless version.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "support/agreement.h"
@@ -138,4 +139,34 @@ TEST_CASE("a world written with coordinates a million away looks as it does here
            uniform_grid("m", {.sigma_a = Rgb(0.02f), .sigma_s = Rgb(0.15f), .g = 0.5f}, lumps) + medium_box("m", "", box);
   };
   check_same("a million away", {{"here", scene(0, 0)}, {"there", scene(1'048'576, -1'048'576)}}, coarse());
+}
+
+// Turned, so that points of their surfaces are rounded to both sides of them. Emitters elsewhere in these tests reflect
+// nothing.
+TEST_CASE("no flat or convex emitter lights itself, and none its dark side") {
+  const auto brightest = [](const std::string& shape, Vec3 eye, bool two_sided) {
+    const std::string emitter =
+        block("AreaLightSource \"diffuse\" \"rgb L\" [1 1 1] \"bool twosided\" " + std::string(two_sided ? "true" : "false") +
+              "\nMaterial \"diffuse\" \"rgb reflectance\" [0.5 0.5 0.5]\nRotate 31.7 0.3 1 0.2\nTranslate 0.123 0.311 0.777\n" +
+              shape + "\n");
+    const View from{.eye = eye, .look = {}, .fov_degrees = 12, .resolution = 16, .max_depth = 3};
+    const Image image = Subject(view(from) + emitter).render(16, 1);
+    float most = 0;
+    for (const char* name : {"R", "G", "B"}) {
+      for (const float v : image.find(name)->values) most = std::max(most, v);
+    }
+    return most;
+  };
+  const std::string rectangle = "Shape \"bilinearmesh\" \"point3 P\" [-1 -1 0  1 -1 0  -1 1 0  1 1 0]",
+                    kite = "Shape \"bilinearmesh\" \"point3 P\" [-1 -1 0  1.3 -1 0  -1 1.1 0  1 1 0]",
+                    triangle = "Shape \"trianglemesh\" \"point3 P\" [-2 -1 0  2 -1 0  0 2 0] \"integer indices\" [0 1 2]",
+                    disk = "Shape \"disk\" \"float radius\" 1.2", sphere = "Shape \"sphere\"",
+                    cylinder = "Rotate 90 1 0 0 Shape \"cylinder\" \"float radius\" 0.7";
+  for (const std::string& shape : {rectangle, kite, triangle, disk, sphere, cylinder}) {
+    CAPTURE(shape);
+    for (const float z : {-6.0f, 6.0f}) CHECK(brightest(shape, {0, 0, z}, true) == doctest::Approx(1).epsilon(1e-5));
+  }
+  for (const std::string& shape : {rectangle, kite, triangle, disk})
+    CHECK(brightest(shape, {0, 0, -6}, false) < 1e-6f);                             // but for rounding
+  CHECK(brightest("Shape \"sphere\" \"float radius\" 8", {0, 0, -6}, false) == 0);  // from within
 }

@@ -137,5 +137,23 @@ TEST_CASE("a triangle gives no light to points of its own plane, where rounding 
   }
 }
 
+// Turned in every direction, so that all corners of some lie in no plane of floats.
+TEST_CASE("a rectangle gives no light to points of its own plane, where rounding has put them") {
+  Rng rng(22);
+  for (int i = 0; i < 2000; ++i) {
+    const auto number = [&] { return 20 * rng.uniform() - 10; };
+    const Transform t =
+        Transform::translate(number(), number(), number()) * Transform::rotate(18 * number(), number(), number(), number());
+    const BilinearMesh mesh{{{-1, -2, 0}, {1, -2, 0}, {-1, 2, 0}, {1, 2, 0}}, {}, {}, {0, 1, 2, 3}};
+    const PatchEmitter e(mesh, t, false, false);
+    const auto on_plane = [&](float u, float v) { return t.point(Vec3{2 * u - 1, 4 * v - 2, 0}); };
+    const Vec3 q = on_plane(i % 2 == 0 ? rng.uniform() : 1.2f, rng.uniform());
+    REQUIRE(!e.sample(0, q, {rng.uniform(), rng.uniform()}));
+    REQUIRE(e.pdf(0, q, on_plane(0.4f, 0.3f)) == 0);
+    const Vec3 above = q + e.extent(0).normals.axis * 1e-3f;
+    REQUIRE(e.sample(0, above, {rng.uniform(), rng.uniform()}));
+  }
+}
+
 }  // namespace
 }  // namespace tyndall

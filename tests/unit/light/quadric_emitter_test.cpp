@@ -80,6 +80,18 @@ TEST_CASE("spheres seen from inside, cut, or stretched are sampled by area") {
   }
 }
 
+TEST_CASE("a sphere shows its outside to none of its own points, where rounding has put them") {
+  Rng rng(23);
+  for (int i = 0; i < 2000; ++i) {
+    const auto number = [&] { return 20 * rng.uniform() - 10; };
+    const Vec3 at{number(), number(), number()};
+    const QuadricEmitter e(shape_of(Sphere{3, -3, 3, 360}), Transform::translate(at.x, at.y, at.z), true);
+    const Vec3 p = at + normalize(Vec3{number(), number(), number()}) * 3;
+    const auto s = e.sample(p, {rng.uniform(), rng.uniform()});
+    if (s) REQUIRE(dot(s->ng, s->wi) > -1e-2f);
+  }
+}
+
 TEST_CASE("disks and cylinders are sampled by area, under any transform") {
   const Disk disk{0.2f, 1, 0.3f, 300}, whole{};
   const Cylinder cylinder{0.7f, -0.5f, 0.9f, 250};
