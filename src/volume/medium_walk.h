@@ -1,10 +1,10 @@
 /// One medium along one ray: pieces of constant majorant, and coefficients at points of them.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <tuple>
 
 #include "volume/brick_reader.h"
 #include "volume/medium_data.h"
@@ -27,11 +27,14 @@ class MediumWalk {
     }
     top_sigma_ = max_component(medium.optics.sigma_a + medium.optics.sigma_s);
     local_ = GridRay(medium.density.to_local, ray);
-    std::tie(inside_begin_, inside_end_) = local_.clip(medium.clip, t0, t1);
-    if (medium.kind == MediumData::Kind::grid && inside_begin_ < inside_end_) {
-      local_.enter(medium.density.grid, medium.clip, inside_begin_);
-      max_steps_ += local_.most_steps();
-    }
+    const auto [begin, end] = local_.clip(medium.clip, t0, kSameForAllEnds ? kInf : t1);
+    if (!(begin < std::min(end, t1))) return;
+    inside_begin_ = begin;
+    inside_end_ = std::min(end, t1);
+    split_end_ = end;
+    if (medium.kind != MediumData::Kind::grid) return;
+    local_.enter(medium.density.grid, medium.clip, begin);
+    max_steps_ += local_.most_steps();
   }
 
   /// Move to the next piece; false at the end.
@@ -101,6 +104,8 @@ class MediumWalk {
 
  private:
   static constexpr double kInf = std::numeric_limits<double>::infinity();
+  /// Flights by the same numbers collide alike wherever they must end: nodes are split as if they went on.
+  static constexpr bool kSameForAllEnds = Mode == WalkMode::majorant;
   static constexpr float kScale = Mode == WalkMode::residual ? kOversampling : 1;
 
   bool pass(double until) {
@@ -125,7 +130,7 @@ class MediumWalk {
     const BrickGrid& grid = medium_->density.grid;
     double exit = local_.exit(t_);
     while (local_.node() != BrickGrid::kNone && !grid.node(local_.node()).is_leaf() &&
-           variation(grid.ranges(local_.node())) * (std::min(exit, inside_end_) - t_) > kRefineDepth<Mode>) {
+           variation(grid.ranges(local_.node())) * (std::min(exit, split_end_) - t_) > kRefineDepth<Mode>) {
       local_.descend(grid);
       exit = local_.exit(t_);
     }
@@ -262,6 +267,7 @@ class MediumWalk {
   const Ray* ray_;
   double t_, t_end_, limit_;
   double inside_begin_ = -kInf, inside_end_ = -kInf;  // where the medium can be anything but empty
+  double split_end_ = -kInf;                          // the end by which nodes are split
   float rate_ = 0, top_sigma_ = 0;
   Rgb control_, last_sigma_s_;
   std::uint64_t steps_ = 0, max_steps_ = 16;

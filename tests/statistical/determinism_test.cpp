@@ -72,18 +72,12 @@ TEST_CASE("a crop has the bits of the whole picture") {
   CHECK(same_pixels(crop, whole));
 }
 
-// In even media whose lights are chosen at collisions a ray is traced as far as its collision only, unless they emit: here so
-// faintly that nothing is left of it in a float, but in pixels that are black without it.
-TEST_CASE("rays that end at their collision make the picture that rays traced to their end make") {
-  const auto scene = [](float Le) {
-    const Coefficients thin{.sigma_a = {0.2f, 0, 0.1f}, .sigma_s = {2, 1, 0.6f}, .g = 0.5f, .Le = Rgb(Le)};
-    const Coefficients dense{.sigma_a = {0.1f, 0, 1}, .sigma_s = {20, 12, 30}, .g = -0.3f, .Le = Rgb(Le)};
-    return view(camera(40)) + environment(0.3f) + distant_light({1, 2, -1}, 3) + diffuse_plane(1.8f, 4, 0.6f) +
-           block("Material \"dielectric\"\nShape \"sphere\" \"float radius\" 0.4\n") + homogeneous("thin", thin) +
-           homogeneous("dense", dense) + medium_box("thin", "", kBox) +
-           medium_box("dense", "thin", {{-0.9f, -0.9f, -0.9f}, {0.3f, 0.5f, 0.9f}}) +
-           medium_box("dense", "", {{0.2f, -1.4f, -0.5f}, {1.4f, 0.4f, 0.5f}});
-  };
+namespace {
+
+/// The same picture of scene(0), whose rays in media are traced as far as their collision only, and of scene(Le), which emits
+/// so faintly that nothing is left of it in a float, but in pixels that are black without it: its rays are traced to their end.
+template <typename Scene>
+void check_same_traced(const Scene& scene) {
   constexpr int kSpp = kSanitized ? 2 : 16;
   const Variant vertex{.media = MediaStrategy::vertex};  // no choice that could go by how far a ray was traced
   Subject ended(scene(0), vertex), traced(scene(1e-30f), vertex);
@@ -97,6 +91,32 @@ TEST_CASE("rays that end at their collision make the picture that rays traced to
   }
   CHECK(same);
   CHECK(ended.faults() + traced.faults() == "");
+}
+
+}  // namespace
+
+TEST_CASE("rays that end at their collision make the picture that rays traced to their end make") {
+  check_same_traced([](float Le) {
+    const Coefficients thin{.sigma_a = {0.2f, 0, 0.1f}, .sigma_s = {2, 1, 0.6f}, .g = 0.5f, .Le = Rgb(Le)};
+    const Coefficients dense{.sigma_a = {0.1f, 0, 1}, .sigma_s = {20, 12, 30}, .g = -0.3f, .Le = Rgb(Le)};
+    return view(camera(40)) + environment(0.3f) + distant_light({1, 2, -1}, 3) + diffuse_plane(1.8f, 4, 0.6f) +
+           block("Material \"dielectric\"\nShape \"sphere\" \"float radius\" 0.4\n") + homogeneous("thin", thin) +
+           homogeneous("dense", dense) + medium_box("thin", "", kBox) +
+           medium_box("dense", "thin", {{-0.9f, -0.9f, -0.9f}, {0.3f, 0.5f, 0.9f}}) +
+           medium_box("dense", "", {{0.2f, -1.4f, -0.5f}, {1.4f, 0.4f, 0.5f}});
+  });
+}
+
+// Of many bricks, some of which are split where a ray passes far through them: by as much whether a surface ends it or not.
+TEST_CASE("rays in a grid end at their collision as if they had been traced past the surfaces in it") {
+  check_same_traced([](float Le) {
+    Grid grid{kBox, 40, 40, 40, {}};
+    for (std::uint32_t i = 0; i < 64'000; ++i) grid.density.push_back((i * 2654435761u >> 20) % 499 == 0 ? 4.0f : 1.0f);
+    const Coefficients smoke{.sigma_a = {0.1f, 0, 0.05f}, .sigma_s = {6, 5, 4}, .g = 0.5f, .Le = Rgb(Le)};
+    return view(camera(40)) + environment(0.3f) + distant_light({1, 2, -1}, 3) +
+           block("Material \"diffuse\"\nTranslate 0.1 0.2 0.1\nShape \"sphere\" \"float radius\" 0.4\n") +
+           uniform_grid("smoke", smoke, grid) + medium_box("smoke", "", kBox);
+  });
 }
 
 // All the statistics of these tests rest on it: pixels, and renders with different seeds, are independent.
