@@ -25,10 +25,12 @@ void BlockRender::render_apart(const PixelBlock& block, SampleSpan samples, cons
 
 /// Whoever shares with a pixel that is rendered has its path as well, so that a crop has the same bits.
 void BlockRender::render_shared(const PixelBlock& block, SampleSpan samples, const Scratch& scratch) const {
+  const auto pixels = block.pixels();
+  const std::vector<PixelFilm> films = shared_.searched.of(block);
   for (int s = samples.begin; s < samples.end; ++s) {
     scratch.group.clear();
-    for (const PixelPlace p : block.pixels())
-      scratch.group.add(shared_.context, key_of(p, s), shared_.searched.of(p), scratch.counters);
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+      scratch.group.add(shared_.context, key_of(pixels[i], s), films[i], scratch.counters);
     add_to_film(scratch, samples.share);
   }
 }

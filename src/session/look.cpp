@@ -6,7 +6,6 @@
 #include <memory>
 #include <mutex>
 #include <numbers>
-#include <utility>
 
 #include "math/hash.h"
 #include "session/block_grid.h"
@@ -127,12 +126,13 @@ Look::Block Look::try_block(std::size_t number) const {
   Block tried;
   tried.pixels.resize(block.pixels().size());
   const auto group = std::make_unique<PixelGroup>();
+  const std::vector<PixelFilm> films = looks_.searched.of(block);
   const float exposure = film().imaging_ratio;  // trials see light as it is found
   for (int s = 0; s < kSamples; ++s) {
     group->clear();
     for (std::size_t i = 0; i < tried.pixels.size(); ++i) {
       const PixelPlace p = block.pixels()[i];
-      group->add(pilot, {hash(pilot.settings.seed, kPilotSeed), p.x, p.y, s}, looks_.searched.of(p), tried.counters);
+      group->add(pilot, {hash(pilot.settings.seed, kPilotSeed), p.x, p.y, s}, films[i], tried.counters);
       if (Path* path = (*group)[i].path()) path->observe(tried.pixels[i].light);
     }
     group->run(pilot, tried.counters);

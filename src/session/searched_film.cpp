@@ -10,4 +10,11 @@ PixelFilm SearchedFilm::of(PixelPlace p) const {
   return {points_.of(p.x, p.y), peaks_.of(p.x, p.y), emitters_.of(p.x, p.y)};
 }
 
+std::vector<PixelFilm> SearchedFilm::of(const PixelBlock& block) const {
+  std::vector<PixelFilm> films;
+  films.reserve(block.pixels().size());
+  for (const PixelPlace p : block.pixels()) films.push_back(of(p));
+  return films;
+}
+
 }  // namespace tyndall

@@ -1,6 +1,8 @@
 /// What is searched for on the film before the first sample.
 #pragma once
 
+#include <vector>
+
 #include "session/pixel_block.h"
 #include "session/pixel_sample.h"
 #include "transport/pixel/film_emitters.h"
@@ -17,6 +19,8 @@ class SearchedFilm {
 
   /// Nothing outside of the pixels that were searched.
   PixelFilm of(PixelPlace p) const;
+  /// Of a block's pixels, in their order.
+  std::vector<PixelFilm> of(const PixelBlock& block) const;
 
  private:
   PixelBounds pixels_{};
