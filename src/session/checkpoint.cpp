@@ -10,7 +10,7 @@
 namespace tyndall {
 namespace {
 
-constexpr std::string_view kMagic = "Tyndall checkpoint 2\n";
+constexpr std::string_view kMagic = "Tyndall checkpoint 3\n";
 constexpr std::size_t kHashSize = sizeof(std::uint64_t);
 
 std::uint64_t hash_of(std::string_view bytes) {
@@ -67,18 +67,10 @@ class Reader {
   const std::string& name_;
 };
 
-/// The numbers of `counters`, in the order of the file; one list for reading and writing.
-template <typename C>
-auto numbers_of(C& c) {
-  auto& t = c.tracking;
-  return std::tie(c.paths, c.rays, c.shadow_rays, c.non_finite, c.parity_errors, t.lookups, t.segments, t.majorant_violations,
-                  t.caps_hit);
-}
-
 void put_state(Writer& out, const CheckpointState& state) {
   out.put(state.samples);
   out.put(state.seconds);
-  std::apply([&](const auto&... n) { (out.put(static_cast<std::uint64_t>(n)), ...); }, numbers_of(state.counters));
+  std::apply([&](const auto&... n) { (out.put(static_cast<std::uint64_t>(n)), ...); }, Counters::numbers_of(state.counters));
   out.put(static_cast<std::uint64_t>(state.counters.bad_samples.size()));
   for (const BadSample& bad : state.counters.bad_samples) {
     for (const int n : {bad.x, bad.y, bad.sample}) out.put(n);
@@ -90,7 +82,7 @@ CheckpointState get_state(Reader& in) {
   state.samples = in.get<int>();
   state.seconds = in.get<double>();
   if (state.samples < 1 || !(state.seconds >= 0) || !std::isfinite(state.seconds)) in.fail("is a checkpoint of nothing");
-  std::apply([&](auto&... n) { ((n = in.get<std::uint64_t>()), ...); }, numbers_of(state.counters));
+  std::apply([&](auto&... n) { ((n = in.get<std::uint64_t>()), ...); }, Counters::numbers_of(state.counters));
   const auto bad = in.get<std::uint64_t>();
   if (bad > kBadSamplesKept) in.fail("is a damaged checkpoint; remove it to begin anew");
   for (std::uint64_t i = 0; i < bad; ++i) {

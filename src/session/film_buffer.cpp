@@ -16,6 +16,9 @@ constexpr std::size_t kSumsOfMatte = 1;  ///< its coverage
 /// Relative to the light of a sample. More that groups differ from it by is no rounding, and must show.
 constexpr double kMostRounding = 1e-3;
 
+/// Counts are sums of shares, which may be below 1.
+float mean_of(double sum, double count) { return count > 0 ? static_cast<float>(sum / count) : 0.0f; }
+
 std::size_t sums_of(Aov aov) {
   switch (aov) {
     case Aov::variance:
@@ -211,11 +214,10 @@ void FilmBuffer::store_aov(Image& image, Aov aov, std::size_t offset, const Mean
     if (aov == Aov::sample_count) {
       image.channels[first].values[i] = static_cast<float>(means.paths_of(i));
     } else if (vector) {
-      const double count = aov == Aov::n ? means.count() : std::max(s(3), 1.0);
-      for (int k = 0; k < 3; ++k)
-        image.channels[first + k].values[i] = static_cast<float>(s(static_cast<std::size_t>(k)) / count);
+      const double count = aov == Aov::n ? means.count() : s(3);
+      for (std::size_t k = 0; k < 3; ++k) image.channels[first + k].values[i] = mean_of(s(k), count);
     } else {
-      image.channels[first].values[i] = static_cast<float>(s(0) / std::max(s(1), 1.0));
+      image.channels[first].values[i] = mean_of(s(0), s(1));
     }
   }
 }

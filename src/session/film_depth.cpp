@@ -1,6 +1,5 @@
 /// From sums by depth to the samples of a deep image.
 #include <algorithm>
-#include <cmath>
 
 #include "session/film_buffer.h"
 

@@ -33,6 +33,14 @@ struct Counters {
     if (bad_samples.size() > kBadSamplesKept) bad_samples.resize(kBadSamplesKept);
   }
 
+  /// All numbers of `c`, in the order of checkpoints.
+  template <typename C>
+  static auto numbers_of(C& c) {
+    auto& t = c.tracking;
+    return std::tie(c.paths, c.rays, c.shadow_rays, c.choices, c.candidates, c.segments, c.places, c.connections, c.guided,
+                    c.non_finite, c.parity_errors, t.lookups, t.noise_lookups, t.segments, t.majorant_violations, t.caps_hit);
+  }
+
   Counters& operator+=(const Counters& other) {
     choices += other.choices;
     candidates += other.candidates;

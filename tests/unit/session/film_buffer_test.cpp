@@ -50,6 +50,18 @@ TEST_CASE("the mean of the samples, split into its parts, over a crop") {
   CHECK(image.find("VolumeCount") == nullptr);
 }
 
+TEST_CASE("depths are means over what was hit, however small a sample's share") {
+  FilmBuffer buffer(Film(), {0, 0, 1, 1}, {parse_aovs({"P", "Z"})});
+  PathRecord record = grey(1);
+  record.hit_surface = true;
+  record.p = {1, 2, 3};
+  record.z = 5;
+  buffer.add({0, 0, 0, 0.125f}, record, 1);
+  const Image image = buffer.image(1);
+  CHECK(image.find("Z")->values[0] == 5);
+  CHECK(image.find("P.Y")->values[0] == 2);
+}
+
 TEST_CASE("replicates are the means over the even samples, of what was asked for") {
   Film film;
   film.width = 2;
