@@ -203,24 +203,22 @@ void Builder::count(const SelectionInput& input) {
   stats.infinite = parts_->infinite.size();
   stats.points = parts_->points.size() + parts_->spots.size() + parts_->profiles.size() + parts_->distants.size();
   for (const Emitter& e : parts_->emitters) stats.emitters += e.size();
-  for (const double power : input.power) {
-    stats.power += power;
-    if (!(power > 0)) ++stats.dark;
-  }
-  double far = 0;
-  for (LightId id = 0; id < parts_->lights.size(); ++id) {
+  double far = 0, near = 0;  // of their difference from the sum nothing might be left
+  for (LightId id = 0; id < input.power.size(); ++id) {
     const Kind kind = parts_->lights[id].kind;
-    if (kind == Kind::distant || kind == Kind::environment) far += input.power[id];
+    (kind == Kind::distant || kind == Kind::environment ? far : near) += input.power[id];
+    if (!(input.power[id] > 0)) ++stats.dark;
   }
   stats.shared = parts_->instanced_lights;
   stats.emitters += stats.shared;
   for (const LightInstance& i : input.instances) {
     for (const double power : input.objects[i.object].power) {
-      stats.power += power * i.growth;
+      near += power * i.growth;
       if (!(power > 0)) ++stats.dark;
     }
   }
-  parts_->near_power = stats.power - far;
+  stats.power = far + near;
+  parts_->near_power = near;
 }
 
 void Builder::enclose() {

@@ -3,13 +3,13 @@
 #include <algorithm>
 
 #include "light/tree_cut.h"
+#include "math/below_one.h"
 
 namespace tyndall {
 namespace {
 
 /// Of the tree as a whole: a cell's few questions may find nothing where some point of it has light.
 constexpr double kDefensiveShare = 0.25;
-constexpr double kLastBelowOne = 0x1.fffffffffffffp-1;
 
 }  // namespace
 
@@ -21,7 +21,7 @@ std::optional<LightId> CellSelector::choose_in(Clusters clusters, const PointQue
   const auto chosen = std::upper_bound(clusters.begin(), clusters.end() - 1, u,
                                        [](double x, const CellDensities::Cluster& c) { return x < double{c.below}; });
   const double before = chosen == clusters.begin() ? 0 : double{(chosen - 1)->below};
-  const double rest = std::min((u - before) / (double{chosen->below} - before), kLastBelowOne);
+  const double rest = std::min((u - before) / (double{chosen->below} - before), kBelowOne);
   if (chosen->node == CellDensities::kLightsAtInfinity) {
     const auto choice = far().select(query, rest);
     return choice ? std::optional(choice->light) : std::nullopt;

@@ -6,12 +6,6 @@
 namespace tyndall {
 namespace {
 
-std::size_t primitives_of(const Shape& shape) {
-  if (const auto* mesh = std::get_if<TriangleMesh>(&shape.kind)) return mesh->indices.size() / 3;
-  if (const auto* mesh = std::get_if<BilinearMesh>(&shape.kind)) return mesh->indices.size() / 4;
-  return 1;
-}
-
 /// Whether the lights of one instance can stand for those of all.
 bool worth_sharing(std::span<const EmitterShape> shapes) {
   std::size_t lights = 0;

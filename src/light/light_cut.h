@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "math/below_one.h"
 #include "math/small_vector.h"
 
 namespace tyndall {
@@ -38,7 +39,6 @@ inline int candidates_of(const LightCut& cut) {
 /// so that they spread. Gives the cluster, and a number in [0, 1) to go on with.
 template <typename F>
 void for_each_candidate(const LightCut& cut, double u, const F& f) {
-  constexpr double kBelowOne = 0x1.fffffffffffffp-1;
   const int n = candidates_of(cut);
   double sum = 0;
   for (const LightCluster& c : cut) sum += c.candidates;

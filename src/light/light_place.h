@@ -14,7 +14,6 @@ struct LightPlace {
   /// Unit normal of a flat light, whose plane `center` is in; zero: it is not flat. It emits to that side, or to both.
   Vec3 normal{};
   bool two_sided = false;
-  bool opening = false;  ///< what light from infinity comes through: no ray ends there
   /// The beam of a light without extent.
   DirectionCone beam = DirectionCone::everything();
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "light/tree_cut.h"
+#include "math/below_one.h"
 #include "math/rng.h"
 
 namespace tyndall {
@@ -35,7 +36,7 @@ std::vector<std::uint32_t> choose_representatives(const LightTree& tree) {
 double spread(double u, std::size_t k) {
   constexpr double kGolden = 0.6180339887498949;
   const double x = u + static_cast<double>(k) * kGolden;
-  return std::min(x - std::floor(x), 0x1.fffffffffffffp-1);
+  return std::min(x - std::floor(x), kBelowOne);
 }
 
 }  // namespace

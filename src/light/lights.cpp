@@ -26,6 +26,12 @@ std::optional<LightSample> surface_sample(const std::optional<Emitter::Sample>& 
 
 }  // namespace
 
+std::size_t primitives_of(const Shape& shape) {
+  if (const auto* mesh = std::get_if<TriangleMesh>(&shape.kind)) return mesh->indices.size() / 3;
+  if (const auto* mesh = std::get_if<BilinearMesh>(&shape.kind)) return mesh->indices.size() / 4;
+  return 1;
+}
+
 double Lights::Parts::power(LightId light) const {
   const Reference r = find(light);
   const double disk = kPi * scene_radius * scene_radius;

@@ -6,7 +6,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -47,6 +46,9 @@ struct EmitterShape {
   Transform to_world;
   const Instance* instance = nullptr;  ///< whose shape it is; those of one instance follow each other
 };
+
+/// Triangles or patches of a mesh; 1 of other shapes.
+std::size_t primitives_of(const Shape& shape);
 
 struct LightBuildOptions {
   std::vector<LightStrategy> strategies{LightStrategy::tree};  ///< a selector is built for each

@@ -124,10 +124,6 @@ LightBounds Portal::bounds() const {
   return bounds;
 }
 
-LightPlace Portal::place() const {
-  LightPlace place = flat_place(corners(), to_vec3(z_ * -1.0));
-  place.opening = true;
-  return place;
-}
+LightPlace Portal::place() const { return flat_place(corners(), to_vec3(z_ * -1.0)); }
 
 }  // namespace tyndall

@@ -1,9 +1,8 @@
 #include "light/light_tree.h"
+#include "math/below_one.h"
 
 namespace tyndall {
 namespace {
-
-constexpr double kBelowOne = 0x1.fffffffffffffp-1;
 
 /// A child with any importance keeps at least this chance, so that no light becomes unreachable by rounding.
 constexpr double kLeastChance = 1e-9;

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 
+#include "math/below_one.h"
+
 namespace tyndall {
 namespace {
 
 /// Neither the tree nor the lights at infinity get less than this while they have any importance: the root's bound
 /// says little about the lights near a point inside it.
 constexpr double kLeastShare = 0.1;
-constexpr double kBelowOne = 0x1.fffffffffffffp-1;
 
 }  // namespace
 

@@ -1,7 +1,6 @@
 #include "light/wide_selector.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "light/near_cut.h"
 #include "light/wide_cut.h"

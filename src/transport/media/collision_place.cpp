@@ -1,7 +1,6 @@
 #include "transport/media/collision_place.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace tyndall {
 namespace {

@@ -26,8 +26,8 @@ float distance_outside(const Bounds3& box, Vec3 p);
 /// How far `ray` goes until it has left `box` for good: infinite where the box is.
 float exit_distance(const Bounds3& box, const Ray& ray);
 
-/// The path's place among the media, carried from vertex to vertex. DESIGN 4 "Membership": per group the signed
-/// crossings are summed, and the point is inside while the sum is positive.
+/// The path's place among the media, carried from vertex to vertex. docs/methods.md, "Membership of media": per group the
+/// signed crossings are summed, and the point is inside while the sum is positive.
 class MediaState {
  public:
   MediaState() = default;

@@ -1,6 +1,5 @@
 #include "transport/media/span.h"
 
-#include <algorithm>
 #include <cassert>
 
 #include "volume/phase/phase.h"

@@ -1,7 +1,6 @@
 #include "transport/path/path.h"
 
 #include <cmath>
-#include <utility>
 
 #include "transport/sample/camera_matte.h"
 #include "transport/sample/deep_sample.h"
@@ -73,7 +72,8 @@ Rng Path::stream_for_emission() {
 /// Next-event estimation, then the direction of the next ray. False ends the path.
 bool Path::scatter(const Vertex& vertex) {
   context_.bounce = depth_ - 1;
-  context_.guided_weight = 1 / guided_pdf_ratio_;
+  // How likely others had scattered toward what is shared must not depend on how the path came there.
+  context_.guided_weight = is_scattered_by_find(depth_) ? 1 : 1 / guided_pdf_ratio_;
   // On the ray it was about what media scatter.
   if (vertex.on_surface()) context_.joint = depth_ == 1 ? context_.joint_at_surface : nullptr;
   begin(Step::light);

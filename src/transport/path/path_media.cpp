@@ -1,6 +1,5 @@
 /// A path through media: free flight, collisions, and what lies behind.
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "transport/budget/collisions_suffice.h"

@@ -31,7 +31,7 @@ bool is_finite_box(const Bounds3& box) { return is_finite(box.min) && is_finite(
 
 Depths depths_of_media(const BuiltWorld& world) {
   Depths depths;
-  const auto unbounded = world.scene.camera.medium;
+  const auto unbounded = world.camera_media.unbounded();
   for (MediumId id = 0; id < world.media.size(); ++id) {
     Bounds3 box = overlap(reach_of(id, world.geometry.groups(), unbounded), world.media[id].bounds());
     if (box.empty()) continue;

@@ -1,7 +1,6 @@
 /// The random numbers of one sample of one pixel.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 
 #include "math/hash.h"

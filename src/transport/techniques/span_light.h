@@ -26,10 +26,9 @@ struct SpanSearch {
 std::optional<SpanSearch> span_search(const LightContext& context, const Span& span);
 
 /// Unbiased estimate of the light that is scattered once along the span toward its origin, weighted by MIS against paths that
-/// collide there and hit the light by themselves. Pairs of a light and a distance are chosen (`--media`, `--distance`), some
-/// lights with more than one distance, evaluated without visibility, and resampled; for the survivors transmittance is
-/// estimated (light_counts.h says how many). Multiply by the throughput `beta` at the origin, which is passed for weighting
-/// only.
+/// collide there and hit the light by themselves. Pairs of a light and a distance are chosen (`--media`, `--distance`),
+/// evaluated without visibility, and resampled; for the survivors transmittance is estimated (light_counts.h says how many).
+/// Multiply by the throughput `beta` at the origin, which is passed for weighting only.
 Rgb span_light(const LightContext& context, const Span& span, const SpanSearch& search, Rgb beta);
 
 /// Density of colliding at `t`, by the profile: 1/length. An approximation of the tracked one, used on both sides of MIS.

@@ -1,7 +1,6 @@
 #include "transport/vertex/directions.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "volume/coarse.h"
 

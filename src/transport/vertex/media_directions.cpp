@@ -1,6 +1,5 @@
 #include "transport/vertex/media_directions.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "math/frame.h"

@@ -95,12 +95,6 @@ Bounds3 scene_bounds(const Geometry& geometry, const std::vector<ParticipatingMe
 
 }  // namespace
 
-std::size_t primitives_of(const Shape& shape) {
-  if (const auto* mesh = std::get_if<TriangleMesh>(&shape.kind)) return mesh->indices.size() / 3;
-  if (const auto* mesh = std::get_if<BilinearMesh>(&shape.kind)) return mesh->indices.size() / 4;
-  return 1;
-}
-
 /// It is known at the center; what lies between that and the origin is crossed first.
 MediaState BuiltWorld::media_at_start(Vec3 origin) const {
   MediaState state = camera_media;
@@ -117,10 +111,11 @@ BuiltWorld::BuiltWorld(Scene unit_scene, const BuildSettings& settings, std::siz
       materials(scene, textures),
       geometry(build_geometry(scene, textures, settings.threads, summary)),
       media(build_media(scene, settings, volume_memory, summary)),
-      volume_lights(settings.volume_lights ? VolumeLights(media, geometry, scene.camera.medium) : VolumeLights()),
-      has_volume_lights(settings.volume_lights),
       camera(scene.camera, scene.film),
-      filter(scene.filter) {
+      filter(scene.filter),
+      camera_media(find_camera_media(scene.camera.medium, camera.center(), geometry)),
+      volume_lights(settings.volume_lights ? VolumeLights(media, geometry, camera_media.unbounded()) : VolumeLights()),
+      has_volume_lights(settings.volume_lights) {
   const auto all_opaque = [](const std::vector<Shape>& shapes) {
     return std::none_of(shapes.begin(), shapes.end(), [](const Shape& s) { return s.alpha.has_value(); });
   };
@@ -137,9 +132,9 @@ BuiltWorld::BuiltWorld(Scene unit_scene, const BuildSettings& settings, std::siz
                          .volumes = volumes,
                          .kept = settings.kept});
   volume_lights.set_first(lights.first_volume());
-  light_distances = tyndall::light_distances(media, geometry.groups(), scene.camera.medium, lights, volume_lights);
+  light_distances = tyndall::light_distances(media, geometry.groups(), camera_media.unbounded(), lights, volume_lights);
   bright_media =
-      BrightMedia(media, {geometry.groups(), scene.camera.medium, lights, volume_lights, scene_bounds(geometry, media)});
+      BrightMedia(media, {geometry.groups(), camera_media.unbounded(), lights, volume_lights, scene_bounds(geometry, media)});
   if (!media.empty()) suns = Suns(lights);
   for (std::string& note : volume_lights.notes(scene.media)) summary.notes.push_back(std::move(note));
   light_groups = light_groups_of(*this, emitters.shapes);
@@ -149,7 +144,6 @@ BuiltWorld::BuiltWorld(Scene unit_scene, const BuildSettings& settings, std::siz
   for (const SelectorStats& s : lights.selectors()) summary.light_strategies.push_back({s.strategy, s.seconds, s.memory_bytes});
   summary.light_bytes = lights.memory_bytes() + volume_lights.memory_bytes();
   summary.light_seconds = watch.seconds();
-  camera_media = find_camera_media(scene.camera.medium, camera.center(), geometry);
 }
 
 }  // namespace tyndall

@@ -21,9 +21,6 @@
 
 namespace tyndall {
 
-/// Triangles or patches of a mesh; 1 of other shapes.
-std::size_t primitives_of(const Shape& shape);
-
 /// Everything that a path may meet, in the units of the scene it was made from.
 struct BuiltWorld {
   /// `volume_memory`: bytes that volume files may take. Fills its part of `summary`. Throws Error for what is wrong with the
@@ -36,6 +33,9 @@ struct BuiltWorld {
   Materials materials;
   Geometry geometry;
   std::vector<ParticipatingMedium> media;
+  CameraRays camera;
+  FilterSampler filter;
+  MediaState camera_media;     ///< what holds the camera's center, and what is unbounded
   VolumeLights volume_lights;  ///< empty unless asked for
   bool has_volume_lights;      ///< whether they were asked for
   Lights lights;
@@ -44,9 +44,6 @@ struct BuiltWorld {
   Suns suns;                         ///< empty where the scene has no sun
   LightGroups light_groups;          ///< empty where the scene names none
   std::vector<LightId> first_light;  ///< by placed shape; kNone where it does not emit
-  CameraRays camera;
-  FilterSampler filter;
-  MediaState camera_media;  ///< what holds the camera's center
 
   SpanWalk::Context media_context() const { return {geometry.groups(), media}; }
   /// Membership where a ray of the camera begins, which is not the center of a lens or screen.

@@ -140,6 +140,13 @@ TEST_CASE("suns come the brightest first, and apart from the sky's even light") 
   CHECK(Lights().far().suns.empty());
 }
 
+TEST_CASE("the power of near lights does not vanish beside a sun's") {
+  Scene scene;
+  scene.lights = {{DistantLight{{0, 0, -1}, Rgb(1e20f)}, {}}, {PointLight{{0, 0, 5}, Rgb(1)}, {}}};
+  const Lights lights = build_lights(scene, {}, {{-1, -1, -1}, {1, 1, 1}});
+  CHECK(lights.near_power() == doctest::Approx(4 * kPi));
+}
+
 TEST_CASE("one-sided emitters emit to the side of their normal, two-sided ones on both") {
   std::vector<Shape> shapes{emissive(quad(1, 0), Rgb(1))};
   const Vec3 above{0.1f, 0.2f, 1}, below{0.1f, 0.2f, -1};

@@ -6,6 +6,9 @@
 #include <algorithm>
 
 #include "math/rng.h"
+#include "session/world_parts.h"
+#include "support/scene_text.h"
+#include "support/sphere_scene.h"
 
 namespace tyndall {
 namespace {
@@ -48,6 +51,22 @@ TEST_CASE("without lights the distance is infinite, within one it is 0") {
   CHECK(LightDistances(box, {}).distance({0.5f, 0.5f, 0.5f}) == kInfinity);
   CHECK(LightDistances(box, {{{0, 0, 0}, 5}}).distance({0.5f, 0.5f, 0.5f}) == 0);
   CHECK(LightDistances().empty());
+}
+
+// As pbrt's scenes have it: the camera's medium is that of the box around it.
+TEST_CASE("fog in a box that holds the camera is as large as the box") {
+  const auto world_with = [](const std::string& declared) {
+    return test::world_of("MakeNamedMedium \"fog\" \"string type\" \"homogeneous\"\n" + declared +
+                              "LookAt 0 0 -1  0 0 0  0 1 0\nCamera \"perspective\"\nWorldBegin\n" +
+                              test::point_light({0.5f, 0.5f, 0.5f}, 1) + test::medium_box("fog", "", {{-2, -2, -2}, {2, 2, 2}}),
+                          {});
+  };
+  const World inside = world_with("MediumInterface \"\" \"fog\"\n"), told_nothing = world_with("");
+  for (const World* world : {&inside, &told_nothing}) {
+    const BuiltWorld& built = world->parts().built;
+    CHECK_FALSE(built.camera_media.unbounded());
+    CHECK_FALSE(built.light_distances.empty());
+  }
 }
 
 }  // namespace
