@@ -28,7 +28,8 @@ constexpr const char* kFooter =
 void write_picture(const DiffOptions& options, const Image& image, const Image& reference, const ImageDiff& diff) {
   if (options.picture.empty()) return;
   if (diff.channels.empty()) {
-    log("tyndall: {}: no error picture is made; the images have no pixels and channels in common\n", options.picture);
+    log("tyndall: {}: no error picture is made; the images have other data windows, or no channels in common\n",
+        options.picture);
     return;
   }
   std::vector<std::string> channels;
@@ -58,7 +59,7 @@ void declare(CLI::App& command, DiffOptions& o) {
   command.add_option("reference", o.reference, "image it is held against")->required();
   command.add_option("-o,--output", o.picture,
                      "error picture, a PNG: relative squared error, black up to 1e-4, pale yellow from 10; not made when the "
-                     "images have no pixels in common; -o error.png");
+                     "images have other data windows, or no channels in common; -o error.png");
   command.add_flag("--json", o.json, "as JSON on stdout");
   command
       .add_option("--channels", o.settings.channels, "look at these only: channels (Z) or groups (RGB, Albedo); example: RGB,Z")

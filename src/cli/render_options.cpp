@@ -173,7 +173,7 @@ void declare_task(CLI::App& command, RenderOptions& o) {
   declare(command, o.picture);
   declare(command, o.methods);
   command.add_option("--aov", o.aovs,
-                     "extra channels, comma-separated: " + join(aov_names(), ", ") +
+                     "extra channels of an .exr image, comma-separated: " + join(aov_names(), ", ") +
                          "; Denoise: all that tyndall denoise takes; Cryptomatte: all mattes [none]; --aov Albedo,N");
   command
       .add_option_function<std::string>("--light-group",
@@ -338,6 +338,8 @@ std::string output_path(const RenderOptions& options, const Scene& scene) {
   }
   require_image_name(path, "output");
   image_format(options.image, path);  // throws for what does not fit
+  if (!options.aovs.empty() && fs::path(path).extension() != ".exr")
+    throw Error(Failure::usage, path + ": --aov makes channels of .exr images; name the output so, or leave it out");
   if (scene.settings.slice) require_exact(options.image, path);
   require_exact_mattes(options.image, path, scene.settings.aovs);
   if (!options.deep.empty()) require_deep_name(options.deep, path);

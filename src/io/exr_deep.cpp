@@ -132,6 +132,8 @@ bool same_samples(const DeepImage& a, const DeepImage& b) {
 }  // namespace
 
 DeepImage read_deep_exr(const std::string& path) {
+  if (Imf::isOpenExrFile(path.c_str()) && !is_deep_exr(path))
+    throw Error(Failure::scene, path + ": is a flat image, not a deep one; give what render --deep has written");
   return guarded_exr(path, [&] {
     Imf::DeepScanLineInputFile input(path.c_str(), 0);
     require_plausible_deep(path, input.header());

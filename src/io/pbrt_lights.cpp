@@ -28,7 +28,7 @@ Vec3 aim(ParamList& params, Vec3 from, Vec3 to) {
 }
 
 PointLight point_light(State& state, ParamList& params) {
-  Rgb I = light_color(state, params, "I") * params.number("scale", 1);
+  Rgb I = light_color(state, params, "I") * params.not_negative("scale", 1);
   if (const auto power = positive(params, "power")) I *= *power / (4 * kPi);
   return {state.graphics.ctm.point(params.point("from", {0, 0, 0})), I};
 }
@@ -43,7 +43,7 @@ Transform frame_at(Vec3 from, Vec3 z) {
 
 SpotLight spot_light(State& state, ParamList& params) {
   SpotLight light;
-  light.I = light_color(state, params, "I") * params.number("scale", 1);
+  light.I = light_color(state, params, "I") * params.not_negative("scale", 1);
   light.cone_angle_degrees = params.number("coneangle", 30);
   light.falloff_start_degrees = light.cone_angle_degrees - params.number("conedeltaangle", 5);
   if (!(light.cone_angle_degrees > 0 && light.cone_angle_degrees <= 180))
@@ -68,7 +68,7 @@ std::string light_file(State& state, ParamList& params, const char* what) {
 GoniometricLight goniometric_light(State& state, ParamList& params) {
   GoniometricLight light;
   light.to_world = state.graphics.ctm;
-  light.I = light_color(state, params, "I") * params.number("scale", 1);
+  light.I = light_color(state, params, "I") * params.not_negative("scale", 1);
   light.path = light_file(state, params, "a square equal-area map or an .ies file");
   light.power = positive(params, "power");
   return light;
@@ -77,7 +77,7 @@ GoniometricLight goniometric_light(State& state, ParamList& params) {
 ProjectionLight projection_light(State& state, ParamList& params) {
   ProjectionLight light;
   light.to_world = state.graphics.ctm;
-  light.I = Rgb(params.number("scale", 1));
+  light.I = Rgb(params.not_negative("scale", 1));
   light.path = light_file(state, params, "an image to project");
   light.power = positive(params, "power");
   light.fov_degrees = params.number("fov", 90);
@@ -87,7 +87,7 @@ ProjectionLight projection_light(State& state, ParamList& params) {
 }
 
 DistantLight distant_light(State& state, ParamList& params) {
-  const Rgb E = light_color(state, params, "L") * params.number("scale", 1) * positive(params, "illuminance").value_or(1);
+  const Rgb E = light_color(state, params, "L") * params.not_negative("scale", 1) * positive(params, "illuminance").value_or(1);
   const Vec3 from = params.point("from", {0, 0, 0}), to = params.point("to", {0, 0, 1});
   return {normalize(state.graphics.ctm.vector(aim(params, from, to))), E};
 }
@@ -106,7 +106,7 @@ InfiniteLight infinite_light(State& state, ParamList& params) {
   InfiniteLight light;
   light.to_world = state.graphics.ctm;
   light.portal = portal_of(params);
-  const float scale = params.number("scale", 1);
+  const float scale = params.not_negative("scale", 1);
   const auto illuminance = positive(params, "illuminance");
   const auto L = find_color(state, params, "L", ColorUse::light);
   if (params.find("filename", {ParamType::string})) {
@@ -136,7 +136,7 @@ AreaLight read_area_light(State& state, ParamList& params, const std::string& ty
   if (type != "diffuse")
     throw params.error("area light \"" + printable(type) + "\" is unknown; " + suggestion(type, {"diffuse"}));
   AreaLight light;
-  const float scale = params.number("scale", 1);
+  const float scale = params.not_negative("scale", 1);
   const auto L = find_color(state, params, "L", ColorUse::light);
   light.two_sided = params.boolean("twosided", false);
   light.power = positive(params, "power");

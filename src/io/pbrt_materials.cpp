@@ -90,7 +90,7 @@ MixMaterial read_mix(State& state, ParamList& params) {
 
 DiffuseTransmissionMaterial read_diffuse_transmission(State& state, ParamList& params) {
   return {color_texture(state, params, "reflectance", Rgb(0.25f)), color_texture(state, params, "transmittance", Rgb(0.25f)),
-          params.number("scale", 1)};
+          params.not_negative("scale", 1)};
 }
 
 CoatedConductorMaterial read_coated_conductor(State& state, ParamList& params) {

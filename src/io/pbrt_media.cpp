@@ -17,12 +17,6 @@ namespace {
 /// it out of a light's spectrum, but not out of the emission of an rgbgrid.
 constexpr float kCieYIntegral = 106.856895f;
 
-float read_scale(ParamList& params) {
-  const float scale = params.number("scale", 1);
-  if (scale < 0) throw params.error("scale", "scale must not be negative");
-  return scale;
-}
-
 MediumOptics read_optics(State& state, ParamList& params, float scale) {
   const auto sigma = [&](std::string_view name) {
     return find_color(state, params, name, ColorUse::unbounded).value_or(Rgb(1.0f)) * scale;
@@ -71,7 +65,7 @@ float read_temperature_offset(ParamList& params) {
 
 Medium homogeneous(State& state, ParamList& params) {
   Medium m;
-  const float scale = read_scale(params);
+  const float scale = params.not_negative("scale", 1);
   const std::string preset = params.string("preset", "");
   m.optics = read_optics(state, params, scale);
   if (!preset.empty()) {
@@ -85,7 +79,7 @@ Medium homogeneous(State& state, ParamList& params) {
     m.optics.sigma_a = found->sigma_a * scale;
     m.optics.sigma_s = found->sigma_s * scale;
   }
-  const float Le_scale = params.number("Lescale", 1);
+  const float Le_scale = params.not_negative("Lescale", 1);
   const Rgb Le = find_color(state, params, "Le", ColorUse::light).value_or(Rgb(0.0f));
   m.kind = HomogeneousMedium{Le * Le_scale};
   return m;
@@ -111,7 +105,7 @@ Medium uniform_grid(State& state, ParamList& params) {
   g.temperature_offset = read_temperature_offset(params);
   g.temperature_scale = params.number("temperaturescale", 1);
   Medium m;
-  m.optics = read_optics(state, params, read_scale(params));
+  m.optics = read_optics(state, params, params.not_negative("scale", 1));
   m.kind = std::move(g);
   return m;
 }
@@ -129,9 +123,9 @@ Medium rgb_grid(State&, ParamList& params) {
   if (g.sigma_a.empty() && g.sigma_s.empty())
     throw params.error("an rgbgrid medium has neither sigma_a nor sigma_s; add one of them");
   if (!g.Le.empty() && g.sigma_a.empty()) throw params.error("Le", "\"Le\" of an rgbgrid needs \"sigma_a\"; add it");
-  const float Le_scale = params.number("Lescale", 1) * kCieYIntegral;
+  const float Le_scale = params.not_negative("Lescale", 1) * kCieYIntegral;
   for (Rgb& Le : g.Le) Le *= Le_scale;
-  g.scale = read_scale(params);
+  g.scale = params.not_negative("scale", 1);
   Medium m;
   m.optics.phase = read_phase(params);
   m.kind = std::move(g);
@@ -141,10 +135,9 @@ Medium rgb_grid(State&, ParamList& params) {
 Medium cloud(State& state, ParamList& params) {
   CloudMedium c;
   c.bounds = read_bounds(params);
-  c.density = params.number("density", 1);
+  c.density = params.not_negative("density", 1);
   c.wispiness = params.number("wispiness", 1);
   c.frequency = params.number("frequency", 5);
-  if (c.density < 0) throw params.error("density", "density must not be negative");
   Medium m;
   m.optics = read_optics(state, params, 1);
   m.kind = c;
@@ -161,10 +154,10 @@ Medium vdb(State& state, ParamList& params) {
   v.flame_grid = params.string("flamename", "");
   v.temperature_offset = read_temperature_offset(params);
   v.temperature_scale = params.number("temperaturescale", 1);
-  v.Le_scale = params.number("Lescale", 1);
+  v.Le_scale = params.not_negative("Lescale", 1);
   v.Le = find_color(state, params, "Le", ColorUse::light).value_or(Rgb(1.0f));
   Medium m;
-  m.optics = read_optics(state, params, read_scale(params));
+  m.optics = read_optics(state, params, params.not_negative("scale", 1));
   m.kind = std::move(v);
   return m;
 }

@@ -62,6 +62,12 @@ Param* ParamList::one(std::string_view name, ParamType type) {
 
 float ParamList::number(std::string_view name, float otherwise) { return maybe_number(name).value_or(otherwise); }
 
+float ParamList::not_negative(std::string_view name, float otherwise) {
+  const float value = number(name, otherwise);
+  if (value < 0) throw error(name, std::string(name) + " must not be negative; use 0 or more");
+  return value;
+}
+
 std::optional<float> ParamList::maybe_number(std::string_view name) {
   const Param* p = one(name, ParamType::number);
   return p ? std::optional(p->numbers[0]) : std::nullopt;

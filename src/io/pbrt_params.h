@@ -59,6 +59,7 @@ class ParamList {
   Param* find(std::string_view name, std::initializer_list<ParamType> types);
 
   float number(std::string_view name, float otherwise);
+  float not_negative(std::string_view name, float otherwise);
   int integer(std::string_view name, int otherwise);
   bool boolean(std::string_view name, bool otherwise);
   std::string string(std::string_view name, std::string_view otherwise);

@@ -10,10 +10,21 @@
 namespace tyndall::pbrt {
 namespace {
 
+constexpr int kMostBounces = 1 << 20;  ///< as of --max-depth
+
 int at_least(ParamList& params, std::string_view name, int otherwise, int least) {
   const int value = params.integer(name, otherwise);
   if (value < least) throw params.error(name, std::string(name) + " must be at least " + std::to_string(least));
   return value;
+}
+
+/// Of paths without end a render could neither be stopped nor keep its time.
+int read_max_depth(ParamList& params, std::string_view name, int otherwise) {
+  const int depth = at_least(params, name, otherwise, 0);
+  if (depth <= kMostBounces) return depth;
+  params.reports().warn(params.where(name),
+                        std::string(name) + " is more than " + std::to_string(kMostBounces) + ", and taken for that");
+  return kMostBounces;
 }
 
 void read_strategy(ParamList& params, const StrategyAxis& axis, RenderSettings& settings) {
@@ -130,8 +141,8 @@ void read_integrator(State& state, Tokenizer& in, const Location& where) {
   if (type != "volpath" && type != "path")
     params.reports().warn(where, "integrator \"" + type + "\" is replaced by \"volpath\", the one method of Tyndall");
   RenderSettings& settings = state.scene.settings;
-  settings.max_depth = at_least(params, "maxdepth", 5, 0);
-  settings.max_depth = at_least(params, "max-depth", settings.max_depth, 0);
+  settings.max_depth = read_max_depth(params, "maxdepth", 5);
+  settings.max_depth = read_max_depth(params, "max-depth", settings.max_depth);
   read_light_sampler(params, settings);
   if (params.boolean("regularize", false))
     params.reports().warn(params.where("regularize"), "parameter \"regularize\" is ignored: it would bias the picture");

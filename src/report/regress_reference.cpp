@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "tyndall/error.h"
+#include "tyndall/io.h"
 
 namespace tyndall {
 namespace {
@@ -28,6 +29,14 @@ int count_in(const Image& image, const char* key) {
 }  // namespace
 
 bool is_tested_channel(const std::string& name) { return !name.starts_with("Variance.") && name != "SampleCount"; }
+
+bool is_reference(const std::string& path) {
+  try {
+    return count_in(read_image(path), kRuns) > 0;
+  } catch (const Error&) {
+    return false;
+  }
+}
 
 void RunMeans::add(const Image& image) {
   std::vector<std::string> names;

@@ -38,6 +38,9 @@ class RunMeans {
 /// Counts from the header of a RunMeans::result. Throws Error (scene) that names `path` when they are not there.
 RunCounts run_counts(const Image& image, const std::string& path);
 
+/// Whether the file is a RunMeans::result; not where it cannot be read.
+bool is_reference(const std::string& path);
+
 /// Removes what is tested by no statistics: "Variance.*" and "SampleCount" of a render.
 bool is_tested_channel(const std::string& name);
 

@@ -10,6 +10,7 @@
 #include <set>
 #include <string_view>
 
+#include "report/regress_reference.h"
 #include "tyndall/error.h"
 #include "tyndall/settings.h"
 
@@ -165,12 +166,18 @@ RegressCase read_case(const std::string& folder, const std::string& name) {
   return c;
 }
 
-/// Settings that belong to no scene are a slip of the pen in one of the two names.
-bool has_scene(const fs::path& settings) { return fs::exists(fs::path(settings).replace_extension(".pbrt")); }
+/// Settings or a reference that belong to no scene are a slip of the pen in one of the names, or their scene was lost. Other
+/// images may be what scenes show.
+bool lacks_scene(const fs::path& file) {
+  if (fs::exists(fs::path(file).replace_extension(".pbrt"))) return false;
+  if (file.extension() == ".json") return true;
+  const bool is_told = fs::exists(fs::path(file).replace_extension(".json"));
+  return file.extension() == ".exr" && !is_told && is_reference(file);
+}
 
-RegressCase case_without_scene(const fs::path& settings) {
-  RegressCase c{.name = settings.stem()};
-  c.fault = settings.string() + ": has no scene beside it; name it like its .pbrt, or remove it";
+RegressCase case_without_scene(const fs::path& file) {
+  RegressCase c{.name = file.stem()};
+  c.fault = file.string() + ": has no scene beside it; name it like its .pbrt, or remove it";
   return c;
 }
 
@@ -188,7 +195,7 @@ RegressSuite read_suite(const std::string& folder) {
   while (suite.folder.size() > 1 && suite.folder.back() == '/') suite.folder.pop_back();
   for (const auto& entry : fs::directory_iterator(folder, problem)) {
     const fs::path path = entry.path();
-    if (path.extension() == ".json" && !has_scene(path)) suite.cases.push_back(case_without_scene(path));
+    if (lacks_scene(path)) suite.cases.push_back(case_without_scene(path));
     if (path.extension() == ".pbrt") suite.cases.push_back(read_case(suite.folder, path.stem()));
   }
   if (problem) bad(folder, problem.message() + "; give the folder of a suite");

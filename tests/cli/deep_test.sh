@@ -88,7 +88,7 @@ refused 2 'requires --deep' render s.pbrt --deep-bins 8 -o none/b.exr
 refused 4 'missing does not exist' render s.pbrt --deep missing/a.exr -o none/b.exr
 refused 2 '--deep' render s.pbrt --frames 1-2 --deep none/a.exr -o none/b%d.exr
 refused 2 '--deep is for slices that were rendered with --deep' merge left_flat.exr right_flat.exr --deep none/a.exr -o none/b.exr
-refused 3 'flat.exr: ' flatten flat.exr -o none/a.exr
+refused 3 'flat.exr: is a flat image' flatten flat.exr -o none/a.exr
 refused 3 'tyndall flatten' diff deep.exr flat.exr
 refused 2 'exr, .png or .pfm' flatten deep.exr -o none/a.tif
 expect 0 "$T" flatten deep.exr -o flat.png --quiet

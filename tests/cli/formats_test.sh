@@ -65,6 +65,7 @@ refused() {  # MESSAGE ARGUMENT...
 refused '--half is for .exr files' render s.pbrt --half -o none/a.png
 refused '--parts is for .exr files' render s.pbrt --parts -o none/a.pfm
 refused '--compression is for .exr files' render s.pbrt --compression piz -o none/a.png
+refused '--aov makes channels of .exr images' render s.pbrt --aov Z -o none/a.png
 refused '--view is for .png files' render s.pbrt --view agx -o none/a.exr
 refused '--exposure is for .png files' denoise noisy.exr --exposure 1 -o none/a.pfm
 refused '--view is for .png files' relight groups.exr --view agx -o none/a.exr

@@ -123,14 +123,16 @@ expect 3 "$T" regress no_such_folder
 expect 3 "$T" regress scratch
 echo '{"ssp": 16}' >suite/lamp.json
 echo '{}' >suite/orphan.json
+cp suite/lamp.exr suite/lost.exr
 expect 7 "$T" regress suite --junit junit.xml
 says 'lamp.json: "ssp"' out.txt
 says 'orphan.json: has no scene beside it' out.txt
-says '1 pass, 2 error' out.txt
-says 'errors="2"' junit.xml
+says 'lost.exr: has no scene beside it' out.txt
+says '1 pass, 3 error' out.txt
+says 'errors="3"' junit.xml
 expect 7 "$T" regress suite --filter orphan
 expect 0 "$T" regress suite --filter fog
-rm suite/orphan.json
+rm suite/orphan.json suite/lost.exr
 echo '{"spp": 32}' >suite/lamp.json
 expect 7 "$T" regress suite --filter lamp
 says 'another "spp"' out.txt

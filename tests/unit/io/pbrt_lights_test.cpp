@@ -32,6 +32,13 @@ TEST_CASE("point") {
   check_near(light<PointLight>("LightSource \"point\" \"float power\" 80 \"float scale\" .5").I, Rgb(40 / (4 * kPi)));
 }
 
+TEST_CASE("no light is negative") {
+  for (const char* kind : {"point", "spot", "distant", "infinite"})
+    CHECK_CONTAINS(world_error(std::string("LightSource \"") + kind + "\" \"float scale\" -1"),
+                   "scale must not be negative; use 0 or more");
+  CHECK_CONTAINS(world_error("AreaLightSource \"diffuse\" \"float scale\" -0.1 Shape \"sphere\""), "must not be negative");
+}
+
 TEST_CASE("spectra of lights are scaled to luminance 1") {
   const Rgb warm = light<PointLight>("LightSource \"point\" \"blackbody I\" 3000 \"float scale\" 5").I;
   CHECK(luminance(warm) == doctest::Approx(5).epsilon(1e-3));

@@ -142,6 +142,7 @@ TEST_CASE("medium errors") {
                  "medium type \"heterogeneous\" is unknown; did you mean \"homogeneous\"?");
   CHECK_CONTAINS(medium_error("\"string type\" \"homogeneous\" \"float g\" 1"), "between -1 and 1");
   CHECK_CONTAINS(medium_error("\"string type\" \"homogeneous\" \"float scale\" -1"), "must not be negative");
+  CHECK_CONTAINS(medium_error("\"string type\" \"homogeneous\" \"float Lescale\" -1"), "must not be negative");
   CHECK_CONTAINS(medium_error("\"string type\" \"homogeneous\" \"float density\" 1"),
                  "medium \"m\" has no parameter \"density\"");
   CHECK_CONTAINS(medium_error("\"string type\" \"homogeneous\" MakeNamedMedium \"m\" \"string type\" \"cloud\""),

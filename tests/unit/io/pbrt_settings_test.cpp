@@ -29,6 +29,7 @@ TEST_CASE("Integrator gives depth and light sampler") {
   CHECK_CONTAINS(error_of("Integrator \"volpath\" \"string lightsampler\" \"bvx\""), "did you mean \"bvh\"?");
   CHECK_CONTAINS(error_of("Integrator \"volpaht\""), "did you mean \"volpath\"");
   CHECK_CONTAINS(error_of("Integrator \"volpath\" \"integer maxdepth\" -1"), "at least 0");
+  CHECK(settings("Integrator \"volpath\" \"integer maxdepth\" 2147483647").max_depth == 1 << 20);
 }
 
 TEST_CASE("Tyndall's own options stand on the Integrator line") {
@@ -83,6 +84,7 @@ TEST_CASE("what is known and not honoured is a warning") {
   };
   CHECK(warnings("Integrator \"bdpt\" \"bool visualizestrategies\" false") == 1);
   CHECK(warnings("Integrator \"volpath\" \"bool regularize\" true") == 1);
+  CHECK(warnings("Integrator \"volpath\" \"integer maxdepth\" 2147483647") == 1);
   CHECK(warnings("Integrator \"volpath\" \"bool regularize\" false") == 0);
   CHECK(warnings("Option \"disablepixeljitter\" true") == 1);
   CHECK(warnings("Option \"disablepixeljitter\" false Option \"wavefront\" true") == 0);
