@@ -54,39 +54,37 @@ std::string smoke() {
   return uniform_grid("m", kSmoke, grid) + medium_box("m", "", grid.bounds);
 }
 
-void check(const char* name, const std::string& text, const Variant& variant, double worth) {
-  check_sharing(name, text, variant, worth, nightly() ? 32 : 16);
-}
-
 }  // namespace
 
 TEST_CASE("sharing an environment changes the noise alone: a room with a window") {
-  check("one bounce", sharing_camera(1) + open_room() + environment(1), {}, 4);
-  check("four bounces", sharing_camera(4) + open_room() + environment(1), {}, 3);
+  check_sharing("one bounce", sharing_camera(1) + open_room() + environment(1), {}, 4);
+  check_sharing("four bounces", sharing_camera(4) + open_room() + environment(1), {}, 3);
 }
 
 // Each weighs what others have found against its own choice of lights, from where it is.
 TEST_CASE("sharing an environment changes the noise alone: maps, beside other lights") {
   const SkyMap sky;
-  check("map", sharing_camera(3) + open_room() + sky.light(), {}, 1.8);
-  check("map and lights",
-        sharing_camera(3) + open_room() + sky.light() + environment(0.2f) + point_light({1.2f, -1, 0.6f}, 0.4f), {}, 1.5);
+  check_sharing("map", sharing_camera(3) + open_room() + sky.light(), {}, 1.8);
+  check_sharing("map and lights",
+                sharing_camera(3) + open_room() + sky.light() + environment(0.2f) + point_light({1.2f, -1, 0.6f}, 0.4f), {},
+                1.5);
   // Of the window's upper half: who leaves by the lower one, or where the camera stands, has found nothing that others see.
-  check("portal", sharing_camera(2) + open_room() + sky.light("\"point3 portal\" [0 0.9 2  0 1.8 2  2 1.8 2  2 0.9 2]"), {}, 1);
+  check_sharing("portal", sharing_camera(2) + open_room() + sky.light("\"point3 portal\" [0 0.9 2  0 1.8 2  2 1.8 2  2 0.9 2]"),
+                {}, 1);
 }
 
 // What collides receives what others have found from where they collided, and what passes on the surface behind.
 TEST_CASE("sharing an environment changes the noise alone: smoke and fog") {
   const SkyMap sky;
   for (const MediaStrategy media : {MediaStrategy::product, MediaStrategy::vertex})
-    check("smoke", sharing_camera(4) + open_room() + environment(1) + smoke(), {.media = media}, 1.7);
-  check("smoke and a map", sharing_camera(4) + open_room() + sky.light() + smoke(), {}, 1.7);
-  check("smoke, one bounce", sharing_camera(1) + open_room() + environment(1) + smoke(), {}, 1.2);
+    check_sharing("smoke", sharing_camera(4) + open_room() + environment(1) + smoke(), {.media = media}, 1.7);
+  check_sharing("smoke and a map", sharing_camera(4) + open_room() + sky.light() + smoke(), {}, 1.7);
+  check_sharing("smoke, one bounce", sharing_camera(1) + open_room() + environment(1) + smoke(), {}, 1.2);
   const std::string fog = homogeneous("f", {.sigma_a = {0.02f, 0.05f, 0.1f}, .sigma_s = {0.3f, 0.15f, 0.2f}, .g = 0.4f}) +
                           medium_box("f", "", {{-3, -3, -5}, {3, 3, 3}});
-  check("fog, one bounce", sharing_camera(1) + open_room() + environment(1) + fog, {}, 0.8);
-  check("fog", sharing_camera(4) + open_room() + environment(1) + fog, {}, 1);
-  check("fog as neighbouring rays see it alike", sharing_camera(4, 16) + open_room() + sky.light() + fog, {}, 1);
+  check_sharing("fog, one bounce", sharing_camera(1) + open_room() + environment(1) + fog, {}, 0.8);
+  check_sharing("fog", sharing_camera(4) + open_room() + environment(1) + fog, {}, 1);
+  check_sharing("fog as neighbouring rays see it alike", sharing_camera(4, 16) + open_room() + sky.light() + fog, {}, 1);
 }
 
 TEST_CASE("sharing an environment changes the noise alone: mirrors and panes") {
@@ -96,8 +94,8 @@ TEST_CASE("sharing an environment changes the noise alone: mirrors and panes") {
   const std::string pane = block(
       "Material \"thindielectric\" \"float eta\" 2.2\n"
       "Shape \"bilinearmesh\" \"point3 P\" [-3 -3 -3.2  3 -3 -3.4  -3 3 -3.2  3 3 -3.4]\n");
-  check("mirror", sharing_camera(3) + open_room() + environment(1) + mirror, {}, 2.5);
-  check("pane", sharing_camera(3) + open_room() + environment(1) + pane, {}, 1.1);
+  check_sharing("mirror", sharing_camera(3) + open_room() + environment(1) + mirror, {}, 2.5);
+  check_sharing("pane", sharing_camera(3) + open_room() + environment(1) + pane, {}, 1.1);
 }
 
 // Behind fog it is received by paths that have collided before as well. What a bug takes for another kind it takes whole: a

@@ -21,6 +21,6 @@ std::string sharing_things();
 /// errors come from the spread of whole blocks between 24 renders: fewer see too little of rare light to tell. A bias of 5.6
 /// standard errors of a block's difference is found in half of all cases (768 differences). `worth`: how much less variance
 /// sharing has at least. With fixed numbers of lights, to which pilot_test.cpp holds measured ones: these take half the time.
-void check_sharing(const char* name, const std::string& text, Variant variant, double worth, int spp = 32);
+void check_sharing(const char* name, const std::string& text, Variant variant, double worth, int spp = nightly() ? 32 : 16);
 
 }  // namespace tyndall::test
