@@ -19,7 +19,10 @@ constexpr float kCieYIntegral = 106.856895f;
 
 MediumOptics read_optics(State& state, ParamList& params, float scale) {
   const auto sigma = [&](std::string_view name) {
-    return find_color(state, params, name, ColorUse::unbounded).value_or(Rgb(1.0f)) * scale;
+    const Rgb value = find_color(state, params, name, ColorUse::unbounded).value_or(Rgb(1.0f)) * scale;
+    if (!is_finite(value))
+      throw params.error(name, std::string(name) + " times scale is more than a number can hold; lower one");
+    return value;
   };
   return {sigma("sigma_a"), sigma("sigma_s"), read_phase(params)};
 }

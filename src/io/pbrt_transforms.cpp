@@ -1,6 +1,7 @@
 #include "io/pbrt_transforms.h"
 
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "io/pbrt_suggest.h"
@@ -44,7 +45,7 @@ void set_transform(State& state, const Location& where, Make make) {
     next = make();
     for (const auto& row : next.matrix())
       for (const double v : row)
-        if (!std::isfinite(v))
+        if (!(std::abs(v) <= std::numeric_limits<float>::max()))  // of what points are
           throw Error(Failure::scene, "transforms multiply to more than a number can hold; check the scale factors");
   } catch (const Error& e) {
     throw Error(where, e.what());

@@ -69,6 +69,7 @@ TEST_CASE("bad transforms are found where they stand") {
   CHECK_CONTAINS(world_error("Transform [1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 7]"), "expected ] after 16 numbers");
   CHECK_CONTAINS(world_error("Translate 1 2 Shape \"sphere\""), "\"Shape\" is not a number");
   CHECK_CONTAINS(world_error("Scale 1e200 1 1 Scale 1e200 1 1"), "more than a number can hold");
+  CHECK_CONTAINS(world_error("Scale 1e30 1 1 Scale 1e30 1 1"), "more than a number can hold");
 }
 
 TEST_CASE("a singular matrix is an error only where something is made under it") {
