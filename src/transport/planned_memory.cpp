@@ -57,7 +57,7 @@ double emissive_surfaces_of(const Scene& scene) {
 std::size_t plan_film_search(const Scene& scene) {
   const double radius = std::max(scene.filter.radius.x, scene.filter.radius.y);
   const double surfaces = emissive_surfaces_of(scene);
-  if (surfaces == 0 || !(radius <= FilmEmitters::kWidestFilter)) return 0;
+  if (surfaces == 0 || !is_narrow(scene.filter)) return 0;
   const double pixels = pixels_of(scene), pixels_of_surface = (4 * radius + 1) * (4 * radius + 1);
   const double seen = std::min(surfaces, double{FilmEmitters::kMostSeen});
   const double frame = static_cast<double>(scene.film.width) * static_cast<double>(scene.film.height);

@@ -18,8 +18,7 @@ constexpr int kReads = 4;
 constexpr float kDeepest = 5;
 
 bool is_wanted(const BuiltWorld& world, const RenderSettings& settings) {
-  return settings.joint == JointStrategy::points && settings.lights != LightStrategy::exhaustive && settings.max_depth > 0 &&
-         world.has_media() && world.camera.is_pinhole();
+  return searches_film(settings) && settings.max_depth > 0 && world.has_media() && world.camera.is_pinhole();
 }
 
 /// A medium, and a box that encloses it.
@@ -67,21 +66,6 @@ std::optional<FilmPoint> film_point(const BuiltWorld& world, const std::vector<P
                    .g = Scattering::at(media, point).phase.mean_cosine()};
 }
 
-/// What `look` finds of lights 0 to `count` - 1, in their order; blocks of them by the pool's threads.
-template <typename Look>
-std::vector<FilmPoint> look_at_all(std::size_t count, const FilmSearch& search, const Look& look) {
-  constexpr std::size_t kBlock = 4096;
-  std::vector<std::vector<FilmPoint>> blocks((count + kBlock - 1) / kBlock);
-  search.pool.for_each(blocks.size(), 1, [&](std::size_t block) {
-    for (std::size_t i = block * kBlock; i < std::min(count, (block + 1) * kBlock); ++i) {
-      if (const auto found = look(static_cast<LightId>(i))) blocks[block].push_back(*found);
-    }
-  });
-  std::vector<FilmPoint> all;
-  for (const auto& block : blocks) all.insert(all.end(), block.begin(), block.end());
-  return all;
-}
-
 }  // namespace
 
 FilmPoints film_points(const FilmSearch& search) {
@@ -89,13 +73,12 @@ FilmPoints film_points(const FilmSearch& search) {
   const FilmPoints::View view{search.pixels, world.scene.filter.radius, world.camera.film_rounding()};
   const auto places = is_wanted(world, search.settings) ? places_with_points(world) : std::vector<Place>();
   if (places.empty()) return {view, {}};
-  const std::size_t count = world.scene.lights.size();  // point and spot lights come first
-  const auto look = [&](LightId light) -> std::optional<FilmPoint> {
-    const auto p = world.lights.point(light);
-    const auto at = p ? world.camera.film_position(*p) : std::nullopt;
-    return at && view.sees(*at) ? film_point(world, places, light, *at) : std::nullopt;
-  };
-  return {view, look_at_all(count, search, look)};
+  return {view, find_of_lights<FilmPoint>(search, [&](LightId light, std::vector<FilmPoint>& points) {
+            const auto p = world.lights.point(light);
+            const auto at = p ? world.camera.film_position(*p) : std::nullopt;
+            if (!at || !view.sees(*at)) return;
+            if (const auto found = film_point(world, places, light, *at)) points.push_back(*found);
+          })};
 }
 
 Rgb camera_joint_estimate(const LightContext& context, const PixelPoints& points, Vec2 center, Sampler sampler) {

@@ -22,15 +22,9 @@ constexpr float kLongest = 8;
 constexpr float kBeyond = 16;
 /// Cosine between normals from which on planes below one light are the same.
 constexpr float kSamePlane = 0.999f;
-/// Of the way to a place: nothing before that hides it.
-constexpr float kBefore = 1 - 1e-4f;
-/// Filters of more pixels do not show the peaks.
-constexpr float kWidestFilter = 4;
 
 bool is_wanted(const BuiltWorld& world, const RenderSettings& settings) {
-  const Vec2 radius = world.scene.filter.radius;
-  return settings.joint == JointStrategy::points && settings.lights != LightStrategy::exhaustive && settings.max_depth > 0 &&
-         world.camera.is_sharp() && std::max(radius.x, radius.y) <= kWidestFilter;
+  return searches_film(settings) && settings.max_depth > 0 && world.camera.is_sharp() && is_narrow(world.scene.filter);
 }
 
 /// A light's foot on a plane.
@@ -95,7 +89,7 @@ class PeakFinder {
     const auto steps = world_.camera.pixel_steps(foot.p, foot.n);
     const auto at = world_.camera.film_position(foot.p);
     if (!at || !(dot(foot.n, eye - foot.p) > 0) || !(foot.height < kHighest * longer(steps))) return std::nullopt;
-    if (world_.geometry.occluded({eye, foot.p - eye}, 0, kBefore)) return std::nullopt;
+    if (world_.geometry.occluded({eye, foot.p - eye}, 0, kShadowEnd)) return std::nullopt;
     const Frame plane = Frame::around(foot.n);
     const auto on_plane = [&](Vec3 v) { return Vec2{dot(v, plane.x), dot(v, plane.y)}; };
     // Below what film positions resolve the peak is as wide as that.
@@ -143,17 +137,8 @@ std::optional<Seen> see(const LightContext& context, const Ray& ray, Sampler& sa
 FilmPeaks film_peaks(const FilmSearch& search) {
   if (!is_wanted(search.world, search.settings)) return {};
   const PeakFinder finder(search.world);
-  constexpr std::size_t kBlock = 1024;
-  const std::size_t count = search.world.scene.lights.size();  // point and spot lights come first
-  std::vector<std::vector<Peak>> blocks((count + kBlock - 1) / kBlock);
-  search.pool.for_each(blocks.size(), 1, [&](std::size_t block) {
-    for (std::size_t i = block * kBlock; i < std::min(count, (block + 1) * kBlock); ++i)
-      finder.find(static_cast<LightId>(i), blocks[block]);
-    search.alive();
-  });
-  std::vector<Peak> all;
-  for (const auto& block : blocks) all.insert(all.end(), block.begin(), block.end());
-  return {search.pixels, search.world.scene.filter.radius, std::move(all)};
+  const auto find = [&](LightId light, std::vector<Peak>& peaks) { finder.find(light, peaks); };
+  return {search.pixels, search.world.scene.filter.radius, find_of_lights<Peak>(search, find)};
 }
 
 Rgb peak_estimate(const LightContext& context, const PixelPeaks& peaks, Vec2 center, Sampler sampler) {

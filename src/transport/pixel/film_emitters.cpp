@@ -28,10 +28,7 @@ constexpr float kLargestRounding = 0.05f;
 bool is_wanted(const BuiltWorld& world, const RenderSettings& settings) {
   if (world.scene.film.max_component < kInfinity || !world.camera.has_projection()) return false;
   if (!(world.camera.film_rounding() < kLargestRounding)) return false;
-  const Vec2 radius = world.scene.filter.radius;
-  if (!(std::max(radius.x, radius.y) <= FilmEmitters::kWidestFilter)) return false;
-  const bool asked = settings.joint == JointStrategy::points && settings.lights != LightStrategy::exhaustive;
-  return asked && world.lights.stats().emitters > 0;
+  return searches_film(settings) && is_narrow(world.scene.filter) && world.lights.stats().emitters > 0;
 }
 
 /// An emitter of the picture.

@@ -51,8 +51,6 @@ class DrawnEmission {
 
 class FilmEmitters {
  public:
-  /// Pixels. Wider filters hit emitters often enough, and would list each hundreds of times.
-  static constexpr float kWidestFilter = 4;
   /// In the picture. More would take seconds to process, and are triangles of larger things rather than bulbs.
   static constexpr std::size_t kMostSeen = 1'000'000;
   /// Of a frame that a lens blurs, entries of all lists for each of its pixels. Emitters that add the least noise for each of

@@ -5,6 +5,7 @@
 
 #include "math/cubes.h"
 #include "transport/media/media_state.h"
+#include "transport/world/near_lights.h"
 
 namespace tyndall {
 namespace {
@@ -34,19 +35,14 @@ std::vector<Near> gather_near_lights(const Lights& lights, const VolumeLights& v
   if (lights.near_box().empty()) return {};
   const Cubes cubes(lights.near_box(), kLightCubes);
   std::vector<Near> near(cubes.size());
-  const std::size_t step = lights.size() / kMostLights + 1;
-  for (std::size_t i = 0; i < lights.size(); i += step) {
-    const auto id = static_cast<LightId>(i);
-    if (volume_lights.holds(id)) continue;  // it emits by itself, whether it is sampled as a light or not
-    const LightPlace place = lights.place(id);
-    if (!place.center) continue;
-    const auto power = static_cast<float>(lights.power(id) * static_cast<double>(step));
-    if (!(power > 0) || !std::isfinite(power)) continue;
+  for_each_near_light(lights, volume_lights, kMostLights, [&](LightId id, const LightPlace& place, std::size_t stands_for) {
+    const auto power = static_cast<float>(lights.power(id) * static_cast<double>(stands_for));
+    if (!(power > 0) || !std::isfinite(power)) return;
     Near& light = near[cubes.index(*place.center)];
     const float sum = light.power + power;
     light.center = light.center * (light.power / sum) + *place.center * (power / sum);
     light.power = sum;
-  }
+  });
   std::erase_if(near, [](const Near& light) { return light.power == 0; });
   return near;
 }

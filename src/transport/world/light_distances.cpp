@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <span>
 
+#include "transport/world/near_lights.h"
+
 namespace tyndall {
 namespace {
 
@@ -72,13 +74,9 @@ class Nearest {
 
 std::vector<LightDistances::Near> gather_near_lights(const Lights& lights, const VolumeLights& volume_lights) {
   std::vector<LightDistances::Near> near;
-  const std::size_t step = lights.size() / kMostLights + 1;
-  for (std::size_t i = 0; i < lights.size(); i += step) {
-    const auto id = static_cast<LightId>(i);
-    if (volume_lights.holds(id)) continue;
-    const LightPlace place = lights.place(id);
-    if (place.center && lights.power(id) > 0) near.push_back({*place.center, place.radius});
-  }
+  for_each_near_light(lights, volume_lights, kMostLights, [&](LightId id, const LightPlace& place, std::size_t) {
+    if (lights.power(id) > 0) near.push_back({*place.center, place.radius});
+  });
   return near;
 }
 
