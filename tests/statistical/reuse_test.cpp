@@ -30,12 +30,16 @@ std::string soft_room() {
   return room_without_lights() + emitting_square({0.6f, 0.9f, 1.9f}, 0.25f, 9) + emitting_square({-1.2f, 1.2f, 0.5f}, 0.4f, 5);
 }
 
+/// Samples where fewer see too little of rare light: of 16 a block differed by 6.0 standard errors, of 32 by 3.2; and gains,
+/// which are known as badly, were below what they are held to.
+constexpr int kMany = 32;
+
 const Coefficients kThin{.sigma_a = {0.02f, 0.05f, 0.1f}, .sigma_s = {0.3f, 0.15f, 0.05f}, .g = 0.4f};
 
 }  // namespace
 
 TEST_CASE("sharing changes the noise alone: a room without media") {
-  check_sharing("two bounces", camera(2) + room(), {}, 1.5);
+  check_sharing("two bounces", camera(2) + room(), {}, 1.5, kMany);
   check_sharing("eight bounces", camera(8) + room(), {}, 1.5);
 }
 
@@ -82,7 +86,6 @@ TEST_CASE("sharing changes the noise alone: homogeneous fog") {
 // and where little gets through, so that roulette decides who receives behind it.
 TEST_CASE("sharing changes the noise alone: fog as neighbouring rays see it alike") {
   constexpr float kNarrow = 16;
-  constexpr int kMany = 32;  // samples: with fewer the gain, of which the spread itself is known badly, may be below 3
   const Coefficients colours{.sigma_a = {0.02f, 0.05f, 0.1f}, .sigma_s = {0.25f, 0.15f, 0.4f}, .g = 0.4f};
   const Bounds3 everywhere{{-3, -3, -5}, {3, 3, 3}}, middle{{-1.5f, -1.79f, -2.5f}, {0.3f, 1, 1.5f}};
   const std::string fog = homogeneous("m", colours);
