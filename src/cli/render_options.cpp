@@ -338,8 +338,9 @@ std::string output_path(const RenderOptions& options, const Scene& scene) {
   }
   require_image_name(path, "output");
   image_format(options.image, path);  // throws for what does not fit
-  if (!options.aovs.empty() && fs::path(path).extension() != ".exr")
-    throw Error(Failure::usage, path + ": --aov makes channels of .exr images; name the output so, or leave it out");
+  const bool shown = options.serve || !options.display.empty();
+  if (!options.aovs.empty() && !shown && fs::path(path).extension() != ".exr")
+    throw Error(Failure::usage, path + ": --aov makes channels of .exr images; give a name that ends so, or leave it out");
   if (scene.settings.slice) require_exact(options.image, path);
   require_exact_mattes(options.image, path, scene.settings.aovs);
   if (!options.deep.empty()) require_deep_name(options.deep, path);
