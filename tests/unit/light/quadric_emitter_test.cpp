@@ -80,6 +80,7 @@ TEST_CASE("spheres seen from inside, cut, or stretched are sampled by area") {
   }
 }
 
+// Of a point that rounding has put 1e-6 outside of a sphere of radius 3, the near cap has normals within 1e-3 of a right angle.
 TEST_CASE("a sphere shows its outside to none of its own points, where rounding has put them") {
   Rng rng(23);
   for (int i = 0; i < 2000; ++i) {
