@@ -78,7 +78,8 @@ std::optional<Emitter::Sample> Emitter::light_from(const EmissionMaps& maps, std
   if (is_black(L)) return std::nullopt;
   // Rays meet the surface with probability alpha; light sampling takes the mean.
   if (emission_.alpha)
-    L *= std::clamp(maps.textures->eval_float(*emission_.alpha, {point.uv, p + point.wi * point.distance}), 0.0f, 1.0f);
+    L *= std::clamp(maps.textures->eval_float(*emission_.alpha, {point.uv, p + point.wi * point.distance, point.ng}), 0.0f,
+                    1.0f);
   if (is_black(L)) return std::nullopt;
   return Sample{point, L};
 }

@@ -29,10 +29,13 @@ bool stops(const Part& part, const GeometryQuery& query, std::uint32_t primitive
   if (!part.alpha_textures) return true;
   const std::uint32_t shape = query.first_placed + part.index;
   const ShapeSurface surface = part.surface(primitive, root.u, root.v);
-  Vec3d p = surface.p;
+  Vec3d p = surface.p, n = surface.ng;
   const std::uint32_t instance = query.impl->placed[shape].instance;
-  if (instance != kNone) p = query.impl->objects[instance].map.point(p);
-  const float alpha = part.alpha_textures->eval_float(*part.shape->alpha, {surface.uv, to_vec3(p)});
+  if (instance != kNone) {
+    const auto& map = query.impl->objects[instance].map;
+    p = map.point(p), n = normalize(map.normal(n));
+  }
+  const float alpha = part.alpha_textures->eval_float(*part.shape->alpha, {surface.uv, to_vec3(p), to_vec3(n)});
   if (alpha >= 1) return true;
   return alpha > 0 && alpha_threshold(query.ray, shape, primitive, which) <= alpha;
 }

@@ -261,6 +261,27 @@ TEST_CASE("alpha lets its share of rays through, always the same ones, on every 
   }
 }
 
+// Of both kinds of shapes, in an object that is turned: a quarter turn about x makes the normal z of it the world's y.
+TEST_CASE("alpha may depend on the normal") {
+  Scene scene = empty_scene();
+  scene.textures = {{ConstantTexture{Rgb(1)}, {}}, {ConstantTexture{Rgb(0)}, {}}, {DirectionMixTexture{0, 1, {0, 0, 1}}, {}}};
+  const Textures textures = build_textures(scene.textures);
+  TriangleMesh quad;
+  quad.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+  quad.indices = {0, 1, 2, 0, 2, 3};
+  for (const Shape& shape : {make_shape(quad), make_shape(Disk{0, 2, 0, 360})}) {
+    scene.shapes = {shape};
+    scene.shapes[0].alpha = 2;
+    scene.objects.clear();
+    scene.instances.clear();
+    CHECK(Geometry(scene, &textures, 1).trace({{0.1f, 0.2f, 1}, {0, 0, -1}}, 0, kInfinity).hit);
+    scene.objects.push_back({"turned", scene.shapes});
+    scene.shapes.clear();
+    scene.instances.push_back({0, Transform::rotate(90, 1, 0, 0)});
+    CHECK_FALSE(Geometry(scene, &textures, 1).trace({{0.1f, 1, 0.2f}, {0, -1, 0}}, 0, kInfinity).hit);
+  }
+}
+
 TEST_CASE("broken shapes are refused at their place") {
   const auto message_of = [](const Shape& shape) -> std::string {
     Scene scene = empty_scene();
