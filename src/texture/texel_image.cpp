@@ -122,7 +122,7 @@ TexelImage TexelImage::from(const Image& image, const std::string& path) {
   require_finite(planes, image.width(), path);
   std::vector<Rgb> texels(planes[0]->values.size());
   for (std::size_t i = 0; i < texels.size(); ++i)
-    for (int c = 0; c < 3; ++c) texels[i][c] = std::max(planes[static_cast<std::size_t>(c)]->values[i], 0.0f);
+    for (int c = 0; c < 3; ++c) texels[i][c] = planes[static_cast<std::size_t>(c)]->values[i];
 
   std::vector<float> alpha;
   const Channel* a = image.find("A");
@@ -133,6 +133,7 @@ TexelImage TexelImage::from(const Image& image, const std::string& path) {
 TexelImage TexelImage::load(const std::string& path, const std::string& encoding, const std::array<float, 9>& to_rec709) {
   const Image image = read_image(path, encoding);
   TexelImage result = from(image, path);
+  for (Rgb& texel : result.texels_) texel = clamp_zero(texel);
   const auto matrix = image.chromaticities ? rec709_from(*image.chromaticities, false) : to_rec709;
   if (matrix != kIdentity)
     for (Rgb& texel : result.texels_) texel = transformed(matrix, texel);

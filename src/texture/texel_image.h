@@ -1,6 +1,7 @@
 /// An RGB picture ready for look-ups: the texels of image textures, emission images and environment maps.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <memory>
@@ -15,6 +16,9 @@
 namespace tyndall {
 
 class KeptFiles;  // tyndall/frames.h
+
+/// Light and reflectance below zero do not exist; heights do.
+inline Rgb clamp_zero(Rgb c) { return {std::max(c.r, 0.0f), std::max(c.g, 0.0f), std::max(c.b, 0.0f)}; }
 
 struct TexelPlace {
   int x, y;

@@ -9,8 +9,6 @@
 namespace tyndall {
 namespace {
 
-Rgb clamp_zero(Rgb c) { return {std::max(c.r, 0.0f), std::max(c.g, 0.0f), std::max(c.b, 0.0f)}; }
-
 bool is_odd(float x) {
   const float f = std::floor(x);
   return f - 2 * std::floor(f * 0.5f) != 0;

@@ -99,7 +99,7 @@ TEST_CASE("the average is the texels' mean") {
 TEST_CASE("channels: colour, grey, a single one; opaque alpha is dropped") {
   const TexelImage grey = TexelImage::from(image_of({{"Y", {0.25f, -1}}}, 2, 1), "f");
   CHECK(grey.texel(0, 0) == Rgb(0.25f));
-  CHECK(grey.texel(1, 0) == Rgb());  // negative light does not exist
+  CHECK(grey.texel(1, 0) == Rgb(-1.0f));  // of a height
   CHECK(TexelImage::from(image_of({{"depth", {4}}}, 1, 1), "f").texel(0, 0) == Rgb(4.0f));
   CHECK_FALSE(TexelImage::from(image_of({{"Y", {1, 1}}, {"A", {1, 1}}}, 2, 1), "f").has_alpha());
   CHECK(TexelImage::from(image_of({{"Y", {1, 1}}, {"A", {1, 0.5f}}}, 2, 1), "f").has_alpha());
@@ -116,6 +116,12 @@ TEST_CASE("NaN and infinity are errors that name the file and the pixel") {
     CHECK(text.starts_with("sky.exr: 2 values of channel Y"));
     CHECK(text.find("pixel 1, 1") != std::string::npos);
   }
+}
+
+TEST_CASE("load: negative light does not exist") {
+  const test::Scratch folder;
+  write_exr(image_of({{"R", {-1}}, {"G", {2}}, {"B", {-3}}}, 1, 1), folder / "negative.exr");
+  CHECK(TexelImage::load(folder / "negative.exr").texel(0, 0) == Rgb(0, 2, 0));
 }
 
 TEST_CASE("load: the matrix applies, unless the file states its chromaticities") {

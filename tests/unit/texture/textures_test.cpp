@@ -52,6 +52,20 @@ TEST_CASE("scale and mix of constants fold to constants, in any order of definit
   CHECK(s.eval_float(0, {}) == 27.0f);
 }
 
+TEST_CASE("numbers of images may be negative, colours not; as in pbrt-v4") {
+  const test::Scratch folder;
+  Image image;
+  image.data = image.display = {0, 0, 1, 1};
+  image.channels = {{"Y", {-0.5f}}};
+  write_exr(image, folder / "below.exr");
+  ImageTexture inverted = image_texture(folder / "below.exr");
+  inverted.invert = true;
+  const Textures t = build_textures({texture(image_texture(folder / "below.exr")), texture(inverted)});
+  CHECK(t.eval_float(0, {{0.5f, 0.5f}, {}}) == -0.5f);
+  CHECK(t.eval_float(1, {{0.5f, 0.5f}, {}}) == 1.5f);
+  CHECK(t.eval(0, {{0.5f, 0.5f}, {}}) == Rgb());
+}
+
 TEST_CASE("a checkerboard alternates from the cell at the origin, in 2D and 3D") {
   CheckerboardTexture board{2, {}, 1, 2};
   board.mapping.scale = {4, 2};
