@@ -115,7 +115,7 @@ std::string small_emitters() {
 MeanImage blocks_of(const std::string& text, BudgetStrategy budget, std::uint64_t seed) {
   Subject subject(text, {.media = MediaStrategy::automatic, .reuse = ReuseStrategy::automatic, .budget = budget});
   MeanImageBuilder blocks;
-  for (int i = 0; i < fewer(40); ++i) {
+  for (int i = 0; i < (nightly() ? 40 : fewer(16)); ++i) {
     blocks.add(block_image(subject.render(4, seed + static_cast<std::uint64_t>(i)), kBlock));
   }
   CHECK_MESSAGE(subject.faults().empty(), subject.faults());
