@@ -3,6 +3,7 @@
 /// makes 1, so `power` with an rgb other than white scales by that rgb too.
 #include "io/pbrt_lights.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -45,11 +46,12 @@ SpotLight spot_light(State& state, ParamList& params) {
   SpotLight light;
   light.I = light_color(state, params, "I") * params.not_negative("scale", 1);
   light.cone_angle_degrees = params.number("coneangle", 30);
-  light.falloff_start_degrees = light.cone_angle_degrees - params.number("conedeltaangle", 5);
+  const float delta = params.number("conedeltaangle", 5);
+  // pbrt takes the cosine of the difference, whatever its sign.
+  light.falloff_start_degrees = std::min(std::abs(light.cone_angle_degrees - delta), light.cone_angle_degrees);
   if (!(light.cone_angle_degrees > 0 && light.cone_angle_degrees <= 180))
     throw params.error("coneangle", "coneangle must be above 0 and at most 180 degrees");
-  if (light.falloff_start_degrees > light.cone_angle_degrees)
-    throw params.error("conedeltaangle", "conedeltaangle must not be negative");
+  if (delta < 0) throw params.error("conedeltaangle", "conedeltaangle must not be negative");
   if (const auto power = positive(params, "power")) {
     const float end = std::cos(light.cone_angle_degrees * kPi / 180);
     const float start = std::cos(light.falloff_start_degrees * kPi / 180);

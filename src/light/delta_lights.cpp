@@ -21,7 +21,7 @@ SpotEmitter::SpotEmitter(const SpotLight& light)
     : position_(light.to_world.point({})),
       space_(light.to_world),
       I_(light.I),
-      start_(radians(std::clamp(std::min(std::abs(light.falloff_start_degrees), light.cone_angle_degrees), 0.0f, 180.0f))),
+      start_(radians(std::clamp(std::min(light.falloff_start_degrees, light.cone_angle_degrees), 0.0f, 180.0f))),
       end_(radians(std::clamp(light.cone_angle_degrees, 0.0f, 180.0f))),
       cos_start_(std::cos(start_)),
       cos_end_(std::cos(end_)) {

@@ -62,6 +62,13 @@ TEST_CASE("spot") {
   // The power integrates the smoothstep falloff: 2 pi (1 - (cos 30 + cos 40) / 2).
   const auto p = light<SpotLight>("LightSource \"spot\" \"float power\" 10 \"float coneangle\" 40 \"float conedeltaangle\" 10");
   check_near(p.I, Rgb(10 / (2 * kPi * (1 - (0.8660254f + 0.7660444f) / 2))));
+  const auto start = [](const std::string& delta) {
+    return light<SpotLight>("LightSource \"spot\" \"float coneangle\" 40 \"float conedeltaangle\" " + delta)
+        .falloff_start_degrees;
+  };
+  CHECK(start("60") == 20);   // as in pbrt-v4, which takes cos(-20 degrees)
+  CHECK(start("100") == 40);  // the falloff is within the cone
+  CHECK_CONTAINS(world_error("LightSource \"spot\" \"float conedeltaangle\" -1"), "must not be negative");
   CHECK_CONTAINS(world_error("LightSource \"spot\" \"point3 to\" [0 0 0]"), "same point");
   CHECK_CONTAINS(world_error("LightSource \"spot\" \"float coneangle\" 0"), "coneangle must be above 0");
 }

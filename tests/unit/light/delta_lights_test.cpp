@@ -21,23 +21,20 @@ TEST_CASE("a point light falls off with the squared distance") {
   CHECK(PointEmitter({{}, Rgb(1)}).arrival({1e30f, 0, 0}));
 }
 
-// Where the width of the falloff is more than the cone's half angle pbrt takes the cosine of a negative angle.
 TEST_CASE("a spot light: full inside, nothing outside, smoothstep between") {
-  for (const float start : {20.0f, -20.0f}) {
-    const SpotEmitter light(SpotLight{Transform::translate(0, 0, 5) * Transform::rotate(180, 1, 0, 0), Rgb(3), 40, start});
-    const auto E = [&](double degrees) {
-      const double t = degrees * kPi / 180;
-      const auto a = light.arrival({static_cast<float>(std::sin(t)), 0, 5 - static_cast<float>(std::cos(t))});
-      return a ? a->L.r : 0;
-    };
-    CHECK(E(0) == doctest::Approx(3));
-    CHECK(E(19.9) == doctest::Approx(3));
-    CHECK(E(40.1) == 0);
-    CHECK(E(120) == 0);
-    const double c =
-        (std::cos(30 * kPi / 180) - std::cos(40 * kPi / 180)) / (std::cos(20 * kPi / 180) - std::cos(40 * kPi / 180));
-    CHECK(E(30) == doctest::Approx(3 * c * c * (3 - 2 * c)).epsilon(1e-4));
-  }
+  const SpotEmitter light(SpotLight{Transform::translate(0, 0, 5) * Transform::rotate(180, 1, 0, 0), Rgb(3), 40, 20});
+  const auto E = [&](double degrees) {
+    const double t = degrees * kPi / 180;
+    const auto a = light.arrival({static_cast<float>(std::sin(t)), 0, 5 - static_cast<float>(std::cos(t))});
+    return a ? a->L.r : 0;
+  };
+  CHECK(E(0) == doctest::Approx(3));
+  CHECK(E(19.9) == doctest::Approx(3));
+  CHECK(E(40.1) == 0);
+  CHECK(E(120) == 0);
+  const double c =
+      (std::cos(30 * kPi / 180) - std::cos(40 * kPi / 180)) / (std::cos(20 * kPi / 180) - std::cos(40 * kPi / 180));
+  CHECK(E(30) == doctest::Approx(3 * c * c * (3 - 2 * c)).epsilon(1e-4));
 }
 
 TEST_CASE("the power of a spot light is the integral of its intensity") {
