@@ -133,7 +133,7 @@ TexelImage TexelImage::from(const Image& image, const std::string& path) {
 TexelImage TexelImage::load(const std::string& path, const std::string& encoding, const std::array<float, 9>& to_rec709) {
   const Image image = read_image(path, encoding);
   TexelImage result = from(image, path);
-  for (Rgb& texel : result.texels_) texel = clamp_zero(texel);
+  for (Rgb& texel : result.texels_) texel = positive_part(texel);
   const auto matrix = image.chromaticities ? rec709_from(*image.chromaticities, false) : to_rec709;
   if (matrix != kIdentity)
     for (Rgb& texel : result.texels_) texel = transformed(matrix, texel);

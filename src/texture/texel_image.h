@@ -18,7 +18,7 @@ namespace tyndall {
 class KeptFiles;  // tyndall/frames.h
 
 /// Light and reflectance below zero do not exist; heights do.
-inline Rgb clamp_zero(Rgb c) { return {std::max(c.r, 0.0f), std::max(c.g, 0.0f), std::max(c.b, 0.0f)}; }
+inline Rgb positive_part(Rgb c) { return {std::max(c.r, 0.0f), std::max(c.g, 0.0f), std::max(c.b, 0.0f)}; }
 
 struct TexelPlace {
   int x, y;

@@ -100,8 +100,8 @@ struct Textures::RgbEvaluator {
   Rgb operator()(const ImageNode& node) const {
     const ImageTexture& t = node.texture;
     Rgb c = t.scale * lookup(textures.mip_map(node), t, query);
-    c = clamp_zero(t.invert ? Rgb(1.0f) - c : c);
-    return t.to_rec709 == TexelImage::kIdentity ? c : clamp_zero(transformed(t.to_rec709, c));
+    c = positive_part(t.invert ? Rgb(1.0f) - c : c);
+    return t.to_rec709 == TexelImage::kIdentity ? c : positive_part(transformed(t.to_rec709, c));
   }
   Rgb operator()(const CheckerboardTexture& t) const { return textures.eval(checker(t, query), query); }
   Rgb operator()(const DotsTexture& t) const { return textures.eval(dots(t, query), query); }
