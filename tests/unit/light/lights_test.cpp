@@ -217,6 +217,16 @@ TEST_CASE("alpha dims an emitter's samples, and at 0 hides the surface but not i
   CHECK(hidden->L.r == doctest::Approx(2 / opaque->pdf));
 }
 
+TEST_CASE("an emitter's alpha may depend on the normal") {
+  std::vector<Shape> shapes{emissive(quad(1, 0), Rgb(2))};
+  shapes[0].alpha = 0;
+  const Textures textures = build_textures(
+      {{DirectionMixTexture{1, 2, {0, 0.6f, 0.8f}}, {}}, {ConstantTexture{Rgb(1)}, {}}, {ConstantTexture{Rgb(0)}, {}}});
+  const auto sample = lights_of(shapes, {{LightStrategy::tree_binary}, &textures}).sample(0, {0, 0, 1}, {0.5f, 0.4f}, false);
+  REQUIRE(sample);
+  CHECK(sample->L.r == doctest::Approx(2 * 0.8f));
+}
+
 TEST_CASE("lights with infinite or missing strength are refused with their place") {
   Scene scene;
   scene.lights = {{PointLight{{}, Rgb(kInfinity)}, {"a.pbrt", 2, 3}}};

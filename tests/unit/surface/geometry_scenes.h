@@ -34,6 +34,14 @@ Shape make_shape(Kind kind, const Transform& to_world = {}, MaterialId material 
 }
 
 /// The box [-1, 1]^3 as twelve triangles, wound so that normals point outside.
+/// From -1 to 1, facing z.
+inline TriangleMesh square_mesh() {
+  TriangleMesh mesh;
+  mesh.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+  mesh.indices = {0, 1, 2, 0, 2, 3};
+  return mesh;
+}
+
 inline TriangleMesh box_mesh() {
   TriangleMesh mesh;
   for (int i = 0; i < 8; ++i) mesh.positions.push_back({i & 1 ? 1.f : -1.f, i & 2 ? 1.f : -1.f, i & 4 ? 1.f : -1.f});

@@ -230,10 +230,7 @@ TEST_CASE("alpha lets its share of rays through, always the same ones, on every 
   scene.textures.push_back({ConstantTexture{Rgb(0.3f)}, {}});
   scene.textures.push_back({ConstantTexture{Rgb(0)}, {}});
   const Textures textures = build_textures(scene.textures);
-  TriangleMesh quad;
-  quad.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
-  quad.indices = {0, 1, 2, 0, 2, 3};
-  for (const Shape& shape : {make_shape(quad), make_shape(Disk{0, 2, 0, 360})}) {
+  for (const Shape& shape : {make_shape(square_mesh()), make_shape(Disk{0, 2, 0, 360})}) {
     scene.shapes = {shape};
     scene.shapes[0].alpha = 1;
     scene.shapes[0].boundary = 0;
@@ -266,10 +263,7 @@ TEST_CASE("alpha may depend on the normal") {
   Scene scene = empty_scene();
   scene.textures = {{ConstantTexture{Rgb(1)}, {}}, {ConstantTexture{Rgb(0)}, {}}, {DirectionMixTexture{0, 1, {0, 0, 1}}, {}}};
   const Textures textures = build_textures(scene.textures);
-  TriangleMesh quad;
-  quad.positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
-  quad.indices = {0, 1, 2, 0, 2, 3};
-  for (const Shape& shape : {make_shape(quad), make_shape(Disk{0, 2, 0, 360})}) {
+  for (const Shape& shape : {make_shape(square_mesh()), make_shape(Disk{0, 2, 0, 360})}) {
     scene.shapes = {shape};
     scene.shapes[0].alpha = 2;
     scene.objects.clear();
@@ -278,7 +272,10 @@ TEST_CASE("alpha may depend on the normal") {
     scene.objects.push_back({"turned", scene.shapes});
     scene.shapes.clear();
     scene.instances.push_back({0, Transform::rotate(90, 1, 0, 0)});
-    CHECK_FALSE(Geometry(scene, &textures, 1).trace({{0.1f, 1, 0.2f}, {0, -1, 0}}, 0, kInfinity).hit);
+    const Ray down{{0.1f, 1, 0.2f}, {0, -1, 0}};
+    CHECK_FALSE(Geometry(scene, &textures, 1).trace(down, 0, kInfinity).hit);
+    scene.objects[0].shapes[0].alpha.reset();
+    CHECK(Geometry(scene, &textures, 1).trace(down, 0, kInfinity).hit);
   }
 }
 
