@@ -20,8 +20,6 @@ constexpr double kBeamMargin = 1e-3;
 /// Wider beams light nearly all of most rays.
 constexpr double kWidestBeam = 0.5 * kPi - 0.01;
 
-double largest_coordinate(Vec3d v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
-
 RayPart in_front(Vec3d normal, Vec3d from_center, Vec3d d, double margin) {
   const double height = dot(normal, from_center) + margin, rise = dot(normal, d);
   if (rise == 0) return height >= 0 ? kAll : kNone;

@@ -35,8 +35,6 @@ struct View {
   }
 };
 
-double largest_coordinate(Vec3d v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
-
 /// Integral over the angle of scattering x transmittance x phase function, relative to isotropic scattering in the bin
 /// that scatters most. A blurred Henyey-Greenstein function is one with a smaller mean cosine.
 double scattering_angle(const Segment& s, const View& view, double h, double variance) {

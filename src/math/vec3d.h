@@ -1,6 +1,9 @@
 /// Double-precision vectors for geometry whose differences and squares would not fit a float.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "tyndall/math.h"
 
 namespace tyndall {
@@ -25,6 +28,8 @@ inline Vec3d normalize(Vec3d a) {
   const double l = length(a);
   return l > 0 ? a / l : a;
 }
+/// What roundings of its coordinates go by.
+inline double largest_coordinate(Vec3d a) { return std::max({std::abs(a.x), std::abs(a.y), std::abs(a.z)}); }
 /// Rounds to float.
 constexpr Vec3 to_vec3(Vec3d a) { return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)}; }
 

@@ -5,18 +5,21 @@
 namespace tyndall {
 namespace {
 
-constexpr int kDirections = 32;
 constexpr double kNearlyAll = 0.85;
 
-/// Directions spread evenly over the sphere by a golden-angle spiral.
-Vec3 direction(int i) {
-  const float z = 1 - (2 * static_cast<float>(i) + 1) / kDirections;
-  const float phi = 2.399963f * static_cast<float>(i);
-  const float r = std::sqrt(1 - z * z);
-  return {r * std::cos(phi), r * std::sin(phi), z};
-}
-
 }  // namespace
+
+/// By a golden-angle spiral.
+std::array<Vec3, 32> directions_all_around() {
+  std::array<Vec3, 32> directions;
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    const float z = 1 - (2 * static_cast<float>(i) + 1) / static_cast<float>(directions.size());
+    const float phi = 2.399963f * static_cast<float>(i);
+    const float r = std::sqrt(1 - z * z);
+    directions[i] = {r * std::cos(phi), r * std::sin(phi), z};
+  }
+  return directions;
+}
 
 MediaState find_camera_media(std::optional<MediumId> declared, Vec3 center, const Geometry& geometry) {
   MediaState state(declared);
@@ -25,9 +28,10 @@ MediaState find_camera_media(std::optional<MediumId> declared, Vec3 center, cons
 
   std::vector<int> votes(groups, 0);
   std::vector<int> depth_sum(groups, 0);
-  for (int i = 0; i < kDirections; ++i) {
+  const auto directions = directions_all_around();
+  for (const Vec3 direction : directions) {
     std::vector<int> depth(groups, 0);  // how many times the ray leaves the group more often than it enters
-    for (const Crossing& c : geometry.trace_all({center, direction(i)}, 0, kInfinity)) depth[c.group] -= c.sign;
+    for (const Crossing& c : geometry.trace_all({center, direction}, 0, kInfinity)) depth[c.group] -= c.sign;
     for (std::size_t g = 0; g < groups; ++g) {
       if (depth[g] <= 0) continue;
       ++votes[g];
@@ -35,7 +39,7 @@ MediaState find_camera_media(std::optional<MediumId> declared, Vec3 center, cons
     }
   }
   for (std::size_t g = 0; g < groups; ++g) {
-    if (votes[g] < kNearlyAll * kDirections) continue;
+    if (votes[g] < kNearlyAll * directions.size()) continue;
     const int times = static_cast<int>(std::lround(static_cast<double>(depth_sum[g]) / votes[g]));
     for (int k = 0; k < times; ++k) state.cross(static_cast<std::uint32_t>(g), 1);
   }

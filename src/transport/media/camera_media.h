@@ -1,9 +1,14 @@
 /// Which media hold the camera.
 #pragma once
 
+#include <array>
+
 #include "transport/media/media_state.h"
 
 namespace tyndall {
+
+/// Unit directions spread evenly over the sphere, none along an axis.
+std::array<Vec3, 32> directions_all_around();
 
 /// Membership of `center`, found by tracing to infinity in many directions: a group holds the point when its signed
 /// crossings say so along nearly all of them. One direction would do for a closed boundary; a vote also judges open

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "math/vec3d.h"
+
 namespace tyndall {
 namespace {
 
@@ -12,10 +14,7 @@ constexpr float kFar = 0x1p-13f;
 /// A boundary nearer than this may be on either side: roundings of double precision, and to spare.
 constexpr float kOn = 0x1p-40f;
 
-float size_of(Vec3 p) {
-  const Vec3 reach = max(p, -p);
-  return std::max({reach.x, reach.y, reach.z});
-}
+float size_of(Vec3 p) { return static_cast<float>(largest_coordinate(Vec3d(p))); }
 
 /// Whether lines from `p` along `d` and -d leave just the groups of `state`. Not on a boundary, therefore.
 bool holds(const Geometry& geometry, Vec3 p, Vec3 d, const MediaState& state) {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "transport/media/camera_media.h"
+#include "transport/world/camera_place.h"
 #include "tyndall/timer.h"
 
 namespace tyndall {
@@ -111,7 +112,7 @@ BuiltWorld::BuiltWorld(Scene unit_scene, const BuildSettings& settings, std::siz
       materials(scene, textures),
       geometry(build_geometry(scene, textures, settings.threads, summary)),
       media(build_media(scene, settings, volume_memory, summary)),
-      camera(scene.camera, scene.film),
+      camera(off_boundaries(scene.camera, scene.film, geometry), scene.film),
       filter(scene.filter),
       camera_media(find_camera_media(scene.camera.medium, camera.center(), geometry)),
       volume_lights(settings.volume_lights ? VolumeLights(media, geometry, camera_media.unbounded()) : VolumeLights()),
