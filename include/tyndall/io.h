@@ -60,8 +60,8 @@ struct SceneCheck {
 SceneCheck check_scene(const std::string& path, const SceneReading& how = {});
 
 /// Read .exr (scanline or tiled, flat; of several parts with one data window the channels of all), .png, .pfm, .hdr, .jpg,
-/// .tga, .bmp by content, not by name. 8-bit values are made linear by `encoding` ("": sRGB for 8-bit colour). Throws Error
-/// (scene).
+/// .tga, .bmp by content, not by name. Integers are made linear by `encoding`: "" for pictures, whose colours are sRGB; "sRGB",
+/// "linear" or "gamma 2.2" for textures, whose alpha goes by it too, as in pbrt-v4. Throws Error (scene).
 Image read_image(const std::string& path, const std::string& encoding = "");
 
 /// The most threads that pack and unpack a large .exr, in the whole program; <= 0, as it starts: one a core, 8 at most.

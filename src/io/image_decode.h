@@ -13,17 +13,18 @@ namespace tyndall {
 struct Encoding {
   enum class Kind { linear, srgb, gamma } kind = Kind::srgb;
   float gamma = 2.2f;
+  bool of_alpha = false;  ///< too: a texture's, as in pbrt-v4
 
   float decode(float stored) const;  ///< both in [0,1]
 };
-/// "" (sRGB), "sRGB", "linear" or "gamma <g>" as in pbrt. Throws Error (scene) that names `path` otherwise.
+/// "" (sRGB, but for alpha), "sRGB", "linear" or "gamma <g>" as in pbrt. Throws Error (scene) that names `path` otherwise.
 Encoding parse_encoding(const std::string& text, const std::string& path);
 
 inline constexpr int kMaxImageSide = 1 << 16;
 
 /// Channels Y or R G B, and A when the file has transparency. Throw Error (scene) that names `path`.
 Image decode_png(std::string_view bytes, const Encoding& encoding, const std::string& path);
-/// .hdr, .jpg, .tga and .bmp.
+/// .hdr, .jpg, .tga and .bmp, without alpha.
 Image decode_stb(std::string_view bytes, const Encoding& encoding, const std::string& path);
 
 /// .pfm: floats, which are linear.
@@ -38,8 +39,8 @@ ImageSize png_size(std::string_view bytes, const std::string& path);
 ImageSize pfm_size(std::string_view bytes, const std::string& path);
 ImageSize stb_size(std::string_view bytes, const std::string& path);
 
-/// `samples` interleaved values in [0,1], `count` a pixel (1: Y, 2: Y A, 3: R G B, 4: R G B A), as planes. Alpha is
-/// taken as it is; the others go through `encoding`, by a table when they are 8 or 16 bit integers.
+/// `samples` interleaved values in [0,1], `count` a pixel (1: Y, 2: Y A, 3: R G B, 4: R G B A), as planes that
+/// went through `encoding` by a table.
 template <class Integer>
 Image image_from_samples(const Integer* samples, int width, int height, int count, const Encoding& encoding);
 

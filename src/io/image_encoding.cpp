@@ -22,11 +22,12 @@ float Encoding::decode(float stored) const {
 }
 
 Encoding parse_encoding(const std::string& text, const std::string& path) {
-  if (text.empty() || text == "sRGB") return {};
+  if (text.empty()) return {};
+  if (text == "sRGB") return {.of_alpha = true};
   if (text == "linear") return {.kind = Encoding::Kind::linear};
   constexpr std::string_view prefix = "gamma ";
   if (text.starts_with(prefix)) {
-    Encoding result{.kind = Encoding::Kind::gamma};
+    Encoding result{.kind = Encoding::Kind::gamma, .of_alpha = true};
     const char *begin = text.data() + prefix.size(), *end = text.data() + text.size();
     const auto [last, error] = std::from_chars(begin, end, result.gamma);
     if (error == std::errc() && last == end && result.gamma > 0 && std::isfinite(result.gamma)) return result;
@@ -51,7 +52,7 @@ Image image_from_samples(const Integer* samples, int width, int height, int coun
     for (std::size_t i = 0; i < values.size(); ++i) values[i] = table[samples[i * static_cast<std::size_t>(count) + offset]];
   };
   for (std::size_t c = 0; c < colors.size(); ++c) fill(colors[c], c, linear);
-  if (has_alpha) fill("A", colors.size(), as_is);
+  if (has_alpha) fill("A", colors.size(), encoding.of_alpha ? linear : as_is);
   return image;
 }
 

@@ -159,7 +159,9 @@ Image decode_stb(std::string_view bytes, const Encoding& encoding, const std::st
   }
   if (!samples) fail(stbi_failure_reason());
   if (hdr) return from_floats(static_cast<const float*>(samples), width, height);
-  return image_from_samples(static_cast<const std::uint8_t*>(samples), width, height, count, encoding);
+  Image image = image_from_samples(static_cast<const std::uint8_t*>(samples), width, height, count, encoding);
+  std::erase_if(image.channels, [](const Channel& c) { return c.name == "A"; });
+  return image;
 }
 
 }  // namespace tyndall

@@ -118,6 +118,12 @@ InfiniteLight infinite_light(State& state, ParamList& params) {
     light.illuminance = illuminance;
     return light;
   }
+  const Param* given = params.find("L", {ParamType::rgb, ParamType::spectrum, ParamType::blackbody});
+  if (light.portal && (illuminance || (given && given->type != ParamType::rgb)))
+    params.reports().warn(
+        params.where("portal"),
+        "a constant sky behind a portal: \"illuminance\" is that of the whole sky, and spectra have luminance "
+        "1; pbrt-v4 has other scales there, and the same for \"rgb L\" alone");
   // A surface under a uniform hemisphere of L receives pi L.
   light.L = light_color(state, params, "L") * scale * (illuminance ? *illuminance / kPi : 1);
   return light;

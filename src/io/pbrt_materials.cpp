@@ -139,6 +139,10 @@ TextureId normal_map(State& state, ParamList& params) {
   const std::string path = resolve_asset(state, params.where("normalmap"), params.string("normalmap", ""));
   const auto found = state.normal_maps.find(path);
   if (found != state.normal_maps.end()) return found->second;
+  if (is_always_srgb_in_pbrt(path))
+    params.reports().warn(params.where("normalmap"),
+                          "the map's normals are the numbers that it stores; pbrt-v4 takes .jpg, .tga and .bmp for sRGB, which "
+                          "bends them");
   ImageTexture image;
   image.path = path;
   image.encoding = "linear";

@@ -8,6 +8,7 @@
 #include "io/pbrt_blocks.h"
 #include "io/pbrt_boundaries.h"
 #include "io/pbrt_directives.h"
+#include "io/pbrt_settings.h"
 #include "io/pbrt_suggest.h"
 #include "io/pbrt_textures.h"
 #include "tyndall/io.h"
@@ -44,6 +45,7 @@ class Reading {
       });
       if (errors_.empty()) warn_of_idle_textures(state_);  // else what names them may be what failed
       if (errors_.empty()) warn_of_crossing_boundaries(state_);
+      warn_of_media_passed_over(state_);
     } catch (TooManyErrors) {
       errors_.push_back("more errors are not shown; mend these first");
     }

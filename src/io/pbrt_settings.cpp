@@ -115,6 +115,14 @@ void finish_settings(State& state) {
     s.spp = std::numeric_limits<int>::max();
 }
 
+void warn_of_media_passed_over(State& state) {
+  if (state.surface_integrator && !state.scene.media.empty())
+    state.reports.warn(
+        *state.surface_integrator,
+        "integrator \"path\" is replaced by \"volpath\": the media of the scene are rendered, in pbrt-v4 they are "
+        "passed over");
+}
+
 void read_sampler(State& state, Tokenizer& in, const Location& where) {
   const std::string type(in.expect_string("a kind of sampler, as \"independent\"").text);
   ParamList params = read_param_list(state, in, "sampler \"" + printable(type) + "\"", where);
@@ -138,6 +146,7 @@ void read_integrator(State& state, Tokenizer& in, const Location& where) {
                                        "randomwalk", "bdpt", "mlt",           "sppm",       "ao"};
   if (std::find(known.begin(), known.end(), type) == known.end())
     throw params.error("integrator \"" + printable(type) + "\" is unknown; " + suggestion(type, known));
+  if (type == "path") state.surface_integrator = where;
   if (type != "volpath" && type != "path")
     params.reports().warn(where, "integrator \"" + type + "\" is replaced by \"volpath\", the one method of Tyndall");
   RenderSettings& settings = state.scene.settings;

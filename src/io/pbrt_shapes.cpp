@@ -1,6 +1,7 @@
 #include "io/pbrt_shapes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -99,13 +100,24 @@ std::optional<AreaLight> emission(State& state, const Location& where) {
   return state.graphics.area_light;
 }
 
-/// pbrt turns the normal of a mirrored quadric inward, which exchanges its sides (but not where its light is sampled).
-void warn_of_mirrored_quadric(State& state, const std::vector<ShapeKind>& kinds, const Location& where) {
+bool keeps_lengths(const Transform& ctm) {
+  const auto is_unit = [&](Vec3 axis) { return std::abs(length(ctm.vector(axis)) - 1) < 1e-4f; };
+  return is_unit({1, 0, 0}) && is_unit({0, 1, 0}) && is_unit({0, 0, 1});
+}
+
+/// pbrt turns the normal of a mirrored quadric inward, which exchanges its sides (but not where its light is sampled), and
+/// knows its area before the transformation only.
+void warn_of_transformed_quadric(State& state, const std::vector<ShapeKind>& kinds, const Location& where) {
   const auto& g = state.graphics;
   const bool is_mesh =
       kinds.empty() || std::holds_alternative<TriangleMesh>(kinds[0]) || std::holds_alternative<BilinearMesh>(kinds[0]);
-  if (is_mesh || !g.ctm.swaps_handedness() || g.reverse_orientation) return;
-  if (g.inside != g.outside)
+  if (is_mesh) return;
+  if (g.area_light && g.area_light->power && !keeps_lengths(g.ctm))
+    state.reports.warn(where,
+                       "a scaled sphere, disk or cylinder emits \"power\": it emits that much here, in pbrt-v4 that times "
+                       "what the scale does to its area; give its size by its radius");
+  if (!g.ctm.swaps_handedness()) return;
+  if (g.inside != g.outside && !g.reverse_orientation)
     state.reports.warn(where,
                        "a mirrored sphere, disk or cylinder bounds media: pbrt-v4 exchanges its sides, Tyndall keeps the "
                        "inside medium within");
@@ -156,7 +168,7 @@ void read_shape(State& state, Tokenizer& in, const Location& where) {
   const std::string name = read_name(state, params, type);
   params.finish();
   const Transform& to_world = usable_ctm(state, where);
-  warn_of_mirrored_quadric(state, kinds, where);
+  warn_of_transformed_quadric(state, kinds, where);
   warn_of_transparent_emitter(state, alpha, where);
 
   auto& shapes = state.open_object ? state.scene.objects[*state.open_object].shapes : state.scene.shapes;

@@ -1,5 +1,6 @@
 #include "io/pbrt_state.h"
 
+#include <cctype>
 #include <filesystem>
 #include <utility>
 
@@ -28,6 +29,12 @@ const Transform& usable_ctm(const State& state, const Location& where) {
     throw Error(where, "the transformation is singular since line " + std::to_string(singular->line) +
                            " and nothing can be made under it; no scale factor may be 0, no axes may lie in a plane");
   return state.graphics.ctm;
+}
+
+bool is_always_srgb_in_pbrt(const std::string& path) {
+  std::string ending = std::filesystem::path(path).extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return ending == ".jpg" || ending == ".jpeg" || ending == ".tga" || ending == ".bmp";
 }
 
 std::string resolve_asset(State& state, const Location& where, const std::string& name, bool holds_scene) {

@@ -100,7 +100,8 @@ struct State {
   Location film_where;
   double exposure_time = 1;
   float iso = 100;
-  float film_diagonal = 0.035f;  ///< metres
+  float film_diagonal = 0.035f;                ///< metres
+  std::optional<Location> surface_integrator;  ///< one that passes over media in pbrt
   bool spp_from_sampler = false, spp_from_integrator = false, seed_from_integrator = false;
 };
 
@@ -114,6 +115,9 @@ const Transform& usable_ctm(const State& state, const Location& where);
 /// `name`, with the frame's number where it has a place for it, against the top file's folder unless absolute; Error at `where`
 /// when no such file exists. `holds_scene`: what is in it is a part of the scene's text.
 std::string resolve_asset(State& state, const Location& where, const std::string& name, bool holds_scene = false);
+
+/// Whether pbrt-v4 takes an image of that name for sRGB whatever its encoding: .jpg, .tga, .bmp.
+bool is_always_srgb_in_pbrt(const std::string& path);
 
 /// The parameter list that follows in the tokenizer, with the Attribute defaults of its kind.
 ParamList read_param_list(State& state, Tokenizer& in, std::string owner, Location where,

@@ -66,6 +66,13 @@ MixTexture read_mix(State& state, ParamList& params, Content content) {
           float_texture(state, params, "amount", 0.5f)};
 }
 
+/// pbrt takes these for sRGB always.
+void warn_of_encoding(ParamList& params, const ImageTexture& t) {
+  if (t.encoding.empty() || t.encoding == "sRGB" || !is_always_srgb_in_pbrt(t.path)) return;
+  params.reports().warn(params.where("encoding"),
+                        "the image is decoded as its encoding says; pbrt-v4 takes .jpg, .tga and .bmp for sRGB all the same");
+}
+
 ImageTexture read_image_map(State& state, ParamList& params, Content) {
   ImageTexture t;
   t.mapping = read_mapping(state, params);
@@ -89,6 +96,7 @@ ImageTexture read_image_map(State& state, ParamList& params, Content) {
   t.encoding = params.string("encoding", "");
   if (!t.encoding.empty() && t.encoding != "sRGB" && t.encoding != "linear" && !t.encoding.starts_with("gamma "))
     throw params.error("encoding", "encoding \"" + printable(t.encoding) + "\" is unknown; use sRGB, linear or \"gamma 2.2\"");
+  warn_of_encoding(params, t);
   return t;
 }
 

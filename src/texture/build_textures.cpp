@@ -106,7 +106,7 @@ class Textures::Builder {
   Loaded load(const ImageTexture& texture, const Location& where) try {
     const KeptFiles::Use use{texture.path, "texture " + texture.encoding};
     const auto kept = get_kept<KeptImage>(kept_, use, [&]() -> KeptImage {
-      const Image image = read_image(texture.path, texture.encoding);
+      const Image image = read_image(texture.path, texture.encoding.empty() ? "sRGB" : texture.encoding);
       return {TexelImage::from(image, texture.path), image.chromaticities};
     });
     Loaded loaded{result_.images_.size(), {}};

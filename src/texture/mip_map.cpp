@@ -58,8 +58,7 @@ struct Ellipse {
 /// exp(-2 r^2), brought to 0 at r = 1.
 float gaussian(float squared_radius) { return std::exp(-2 * squared_radius) - std::exp(-2.0f); }
 
-template <typename Of>
-typename Of::Value averaged_over_ellipse(const TexelImage& image, const MipLookup& at, Vec2 s0, Vec2 s1) {
+Rgb averaged_over_ellipse(const TexelImage& image, const MipLookup& at, Vec2 s0, Vec2 s1) {
   const auto width = static_cast<float>(image.width()), height = static_cast<float>(image.height());
   const Ellipse ellipse({s0.x * width, s0.y * height}, {s1.x * width, s1.y * height});
   const Vec2 st = TexelImage::tamed(at.st, at.wrap);
@@ -68,7 +67,7 @@ typename Of::Value averaged_over_ellipse(const TexelImage& image, const MipLooku
             x1 = static_cast<int>(std::floor(x + ellipse.half_width()));
   const int y0 = static_cast<int>(std::ceil(y - ellipse.half_height())),
             y1 = static_cast<int>(std::floor(y + ellipse.half_height()));
-  typename Of::Value sum{};
+  Rgb sum;
   float weights = 0;
   for (int iy = y0; iy <= y1; ++iy) {
     for (int ix = x0; ix <= x1; ++ix) {
@@ -76,33 +75,10 @@ typename Of::Value averaged_over_ellipse(const TexelImage& image, const MipLooku
       if (!(r2 < 1)) continue;
       const float weight = gaussian(r2);
       weights += weight;
-      if (const auto place = image.place(ix, iy, at.wrap)) sum = sum + Of::texel(image, place->x, place->y) * weight;
+      if (const auto place = image.place(ix, iy, at.wrap)) sum = sum + image.texel(place->x, place->y) * weight;
     }
   }
-  return weights > 0 ? sum * (1 / weights) : Of::bilinear(image, at.st, at.wrap);
-}
-
-template <typename Of>
-typename Of::Value elliptical_of(const MipMap& map, const MipLookup& at, float max_anisotropy) {
-  Vec2 s0 = at.steps[0], s1 = at.steps[1];
-  const auto length_of = [](Vec2 v) { return std::hypot(v.x, v.y); };
-  if (length_of(s0) < length_of(s1)) std::swap(s0, s1);
-  float shorter = length_of(s1);
-  if (!(shorter > 0) || !std::isfinite(length_of(s0))) return Of::bilinear(map.image, at.st, at.wrap);
-  if (const float longer = length_of(s0); shorter * max_anisotropy < longer) {
-    const float scale = longer / (shorter * max_anisotropy);
-    s1 = {s1.x * scale, s1.y * scale};
-    shorter *= scale;
-  }
-  const float exact = std::clamp(level_of(map, shorter), 0.0f, static_cast<float>(levels(map)));
-  const int below = static_cast<int>(exact);
-  const auto in_level = [&](int i) {
-    return i >= levels(map) ? Of::texel(level(map, levels(map) - 1), 0, 0)
-                            : averaged_over_ellipse<Of>(level(map, i), at, s0, s1);
-  };
-  if (below >= levels(map)) return in_level(below);
-  const float t = exact - static_cast<float>(below);
-  return t == 0 ? in_level(below) : in_level(below) * (1 - t) + in_level(below + 1) * t;
+  return weights > 0 ? sum * (1 / weights) : image.bilinear(at.st, at.wrap);
 }
 
 /// Which texels of a row of `from` a texel of a row of `to` covers: `from` >= `to`.
@@ -154,11 +130,26 @@ std::vector<TexelImage> coarser_levels(const TexelImage& image) {
 
 Rgb trilinear(const MipMap& map, const MipLookup& at) { return trilinear_of<ColorOf>(map, at); }
 float trilinear_alpha(const MipMap& map, const MipLookup& at) { return trilinear_of<AlphaOf>(map, at); }
+
 Rgb elliptical(const MipMap& map, const MipLookup& at, float max_anisotropy) {
-  return elliptical_of<ColorOf>(map, at, max_anisotropy);
-}
-float elliptical_alpha(const MipMap& map, const MipLookup& at, float max_anisotropy) {
-  return elliptical_of<AlphaOf>(map, at, max_anisotropy);
+  Vec2 s0 = at.steps[0], s1 = at.steps[1];
+  const auto length_of = [](Vec2 v) { return std::hypot(v.x, v.y); };
+  if (length_of(s0) < length_of(s1)) std::swap(s0, s1);
+  float shorter = length_of(s1);
+  if (!(shorter > 0) || !std::isfinite(length_of(s0))) return map.image.bilinear(at.st, at.wrap);
+  if (const float longer = length_of(s0); shorter * max_anisotropy < longer) {
+    const float scale = longer / (shorter * max_anisotropy);
+    s1 = {s1.x * scale, s1.y * scale};
+    shorter *= scale;
+  }
+  const float exact = std::clamp(level_of(map, shorter), 0.0f, static_cast<float>(levels(map)));
+  const int below = static_cast<int>(exact);
+  const auto in_level = [&](int i) {
+    return i >= levels(map) ? level(map, levels(map) - 1).texel(0, 0) : averaged_over_ellipse(level(map, i), at, s0, s1);
+  };
+  if (below >= levels(map)) return in_level(below);
+  const float t = exact - static_cast<float>(below);
+  return t == 0 ? in_level(below) : in_level(below) * (1 - t) + in_level(below + 1) * t;
 }
 
 }  // namespace tyndall

@@ -34,6 +34,5 @@ float trilinear_alpha(const MipMap& map, const MipLookup& at);
 /// A Gaussian over the ellipse that the steps span, in the levels whose texels are about as wide as its short axis; ellipses
 /// longer than `max_anisotropy` are made wider.
 Rgb elliptical(const MipMap& map, const MipLookup& at, float max_anisotropy);
-float elliptical_alpha(const MipMap& map, const MipLookup& at, float max_anisotropy);
 
 }  // namespace tyndall

@@ -125,7 +125,8 @@ TexelImage TexelImage::from(const Image& image, const std::string& path) {
     for (int c = 0; c < 3; ++c) texels[i][c] = planes[static_cast<std::size_t>(c)]->values[i];
 
   std::vector<float> alpha;
-  const Channel* a = image.find("A");
+  // pbrt-v4 has none of grey images.
+  const Channel* a = planes[0] != planes[1] ? image.find("A") : nullptr;
   if (a && std::any_of(a->values.begin(), a->values.end(), [](float x) { return x != 1.0f; })) alpha = a->values;
   return {image.width(), image.height(), std::move(texels), std::move(alpha)};
 }
@@ -172,11 +173,6 @@ Rgb TexelImage::nearest(Vec2 st, Wrap wrap) const {
 
 Rgb TexelImage::bilinear(Vec2 st, Wrap wrap) const {
   return interpolated<Rgb>(st, width_, height_, wrap, [this](int x, int y) { return texel(x, y); });
-}
-
-float TexelImage::nearest_alpha(Vec2 st, Wrap wrap) const {
-  const auto held = holder(st, width_, height_, wrap);
-  return held ? alpha(held->x, held->y) : 0.0f;
 }
 
 float TexelImage::bilinear_alpha(Vec2 st, Wrap wrap) const {

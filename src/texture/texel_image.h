@@ -64,7 +64,6 @@ class TexelImage {
 
   Rgb nearest(Vec2 st, Wrap wrap) const;  ///< the texel that holds st
   Rgb bilinear(Vec2 st, Wrap wrap) const;
-  float nearest_alpha(Vec2 st, Wrap wrap) const;
   float bilinear_alpha(Vec2 st, Wrap wrap) const;
   Rgb average() const;  ///< mean of all texels
 

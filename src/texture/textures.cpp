@@ -71,17 +71,12 @@ Rgb lookup(const MipMap& map, const ImageTexture& texture, const TextureQuery& q
   return map.image.bilinear(image_coordinates(texture, query), texture.wrap);
 }
 
-float lookup_alpha(const MipMap& map, const ImageTexture& texture, const TextureQuery& query) {
-  switch (texture.filter) {
-    case ImageTexture::Filter::point:
-      return map.image.nearest_alpha(image_coordinates(texture, query), texture.wrap);
-    case ImageTexture::Filter::bilinear:
-      break;
-    case ImageTexture::Filter::trilinear:
-      return trilinear_alpha(map, mip_lookup(texture, query));
-    case ImageTexture::Filter::elliptical:
-      return elliptical_alpha(map, mip_lookup(texture, query), texture.max_anisotropy);
-  }
+/// As pbrt-v4: these two filters know the first channel alone, the others the alpha, or the mean of the colour.
+float lookup_number(const MipMap& map, const ImageTexture& texture, const TextureQuery& query) {
+  using Filter = ImageTexture::Filter;
+  if (texture.filter == Filter::point || texture.filter == Filter::elliptical) return lookup(map, texture, query).r;
+  if (!map.image.has_alpha()) return mean(lookup(map, texture, query));
+  if (texture.filter == Filter::trilinear) return trilinear_alpha(map, mip_lookup(texture, query));
   return map.image.bilinear_alpha(image_coordinates(texture, query), texture.wrap);
 }
 
@@ -127,8 +122,7 @@ struct Textures::FloatEvaluator {
   }
   float operator()(const ImageNode& node) const {
     const ImageTexture& t = node.texture;
-    const MipMap map = textures.mip_map(node);
-    const float value = t.scale * (map.image.has_alpha() ? lookup_alpha(map, t, query) : mean(lookup(map, t, query)));
+    const float value = t.scale * lookup_number(textures.mip_map(node), t, query);
     return t.invert ? std::max(0.0f, 1 - value) : value;
   }
   float operator()(const CheckerboardTexture& t) const { return textures.eval_float(checker(t, query), query); }

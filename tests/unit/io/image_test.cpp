@@ -110,7 +110,9 @@ TEST_CASE("16-bit, palette, transparent, grey and interlaced PNG") {
   CHECK(palette.rgb(0, 0) == Rgb(1, 0, 0));
   CHECK(palette.rgb(1, 0) == Rgb(0, 0, 1));
   REQUIRE(palette.find("A"));
-  CHECK(palette.find("A")->values[1] == Approx(128 / 255.0));  // alpha is linear whatever the encoding
+  CHECK(palette.find("A")->values[1] == Approx(128 / 255.0));
+  const Image of_texture = read_image(kData + "palette2.png", "sRGB");  // decodes alpha too, as in pbrt-v4
+  CHECK(of_texture.find("A")->values[1] == Approx(srgb(128 / 255.0)).epsilon(1e-5));
 
   const Image grey = read_image(kData + "grey_interlaced.png", "gamma 2");
   REQUIRE(grey.channels.size() == 1);
@@ -132,6 +134,11 @@ TEST_CASE("JPEG, BMP, TGA and HDR") {
   tga += {char(0), char(51), char(255), char(255), char(255), char(255)};
   write_bytes(folder / "a.tga", tga);
   CHECK(read_image(folder / "a.tga", "linear").rgb(0, 0) == Rgb(1, 51 / 255.0f, 0));
+  std::string with_alpha("\0\0\2\0\0\0\0\0\0\0\0\0\1\0\1\0\x20\x08", 18);  // 1 x 1, 32 bit
+  with_alpha += {char(0), char(51), char(255), char(7)};
+  write_bytes(folder / "b.tga", with_alpha);
+  CHECK(read_image(folder / "b.tga", "linear").rgb(0, 0) == Rgb(1, 51 / 255.0f, 0));
+  CHECK_FALSE(read_image(folder / "b.tga").find("A"));
 
   const std::string hdr = std::string("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n") +
                           std::string("\x80\x40\x20\x81", 4) + std::string("\x80\x80\x80\x8a", 4);

@@ -160,6 +160,26 @@ TEST_CASE("an emitter's alpha, which counts otherwise in pbrt, is warned of unle
   CHECK(warnings("0.5") == 1);
 }
 
+TEST_CASE("a constant sky behind a portal is warned of where pbrt weighs it otherwise") {
+  const auto warnings = [](const std::string& light) {
+    return test::read_world_file("LightSource \"infinite\" " + light).warnings.size();
+  };
+  const std::string portal = " \"point3 portal\" [0 0 0  1 0 0  1 1 0  0 1 0]";
+  CHECK(warnings("\"float illuminance\" 3" + portal) == 1);
+  CHECK(warnings("\"blackbody L\" 3000" + portal) == 1);
+  CHECK(warnings("\"rgb L\" [1 1 1]" + portal) == 0);
+  CHECK(warnings("\"float illuminance\" 3") == 0);
+}
+
+TEST_CASE("a scaled quadric's power, which pbrt scales too, is warned of") {
+  const auto warnings = [](const std::string& transform, const std::string& shape) {
+    return test::read_world_file(transform + " AreaLightSource \"diffuse\" \"float power\" 1 Shape " + shape).warnings.size();
+  };
+  CHECK(warnings("Scale 2 2 2", "\"sphere\"") == 1);
+  CHECK(warnings("Rotate 30 1 2 3", "\"sphere\"") == 0);
+  CHECK(warnings("Scale 2 2 2", "\"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0]") == 0);
+}
+
 TEST_CASE("colours are read in the colour space in force") {
   const ColorSpace& aces = *find_color_space("aces2065-1");
   check_near(light<PointLight>("ColorSpace \"aces2065-1\" LightSource \"point\" \"rgb I\" [1 2 3]").I,

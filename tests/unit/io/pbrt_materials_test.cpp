@@ -145,6 +145,10 @@ TEST_CASE("displacement and normal maps") {
   CHECK(image.is_data);
   CHECK(image.encoding == "linear");
 
+  CHECK(file(diffuse + map).warnings.empty());
+  folder.write("a.JPG", "not read here");  // pbrt-v4 takes it for sRGB
+  CHECK(file(diffuse + "\"string normalmap\" \"a.JPG\"").warnings.size() == 1);
+
   const SceneFile both = file(fbm + diffuse + bumps + map);
   CHECK_FALSE(test::last_material(both.scene).displacement.has_value());
   REQUIRE(both.warnings.size() == 1);

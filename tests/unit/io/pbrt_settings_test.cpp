@@ -32,6 +32,16 @@ TEST_CASE("Integrator gives depth and light sampler") {
   CHECK(settings("Integrator \"volpath\" \"integer maxdepth\" 2147483647").max_depth == 1 << 20);
 }
 
+TEST_CASE("media that pbrt's path integrator passes over are rendered, and that is said") {
+  const auto warnings = [](const std::string& integrator, const std::string& world) {
+    return read_scene_text("Integrator \"" + integrator + "\" WorldBegin " + world, "test.pbrt").warnings.size();
+  };
+  const std::string medium = "MakeNamedMedium \"m\" \"string type\" \"homogeneous\"";
+  CHECK(warnings("path", medium) == 1);
+  CHECK(warnings("path", "") == 0);
+  CHECK(warnings("volpath", medium) == 0);
+}
+
 TEST_CASE("Tyndall's own options stand on the Integrator line") {
   const RenderSettings s =
       settings(R"(Integrator "volpath" "string lights" "uniform" "string transmittance" "ratio" "integer spp" 9

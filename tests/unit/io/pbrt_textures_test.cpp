@@ -81,6 +81,15 @@ TEST_CASE("imagemap") {
   CHECK(filter("\"string filter\" \"EWA\"") == ImageTexture::Filter::elliptical);
   CHECK(filter("\"string filter\" \"ewa\"") == ImageTexture::Filter::elliptical);
   CHECK_THROWS_WITH_AS(filter("\"float maxanisotropy\" 0"), doctest::Contains("maxanisotropy must be from 1"), Error);
+  const auto warnings = [&](const std::string& image) {
+    folder.write("tex/a.tga", "");
+    return read_scene_text("WorldBegin Texture \"i\" \"float\" \"imagemap\" \"string filename\" " + image, "test.pbrt",
+                           folder.path())
+        .warnings.size();
+  };
+  CHECK(warnings("\"tex/a.png\" \"string encoding\" \"linear\"") == 1);  // it feeds nothing
+  CHECK(warnings("\"tex/a.tga\" \"string encoding\" \"linear\"") == 2);  // and pbrt-v4 takes it for sRGB
+  CHECK(warnings("\"tex/a.tga\" \"string encoding\" \"sRGB\"") == 1);
   CHECK_CONTAINS(world_error("Texture \"i\" \"float\" \"imagemap\" \"string filename\" \"absent.png\""),
                  "test.pbrt:1:43: file \"absent.png\" does not exist");
   CHECK_CONTAINS(world_error("Texture \"i\" \"float\" \"imagemap\""), "file name is empty");

@@ -95,13 +95,13 @@ TEST_CASE("v points up: the image's top row lies at v near 1") {
   CHECK(t.eval(0, {{0.25f, 0.25f}, {}}) == Rgb(0, 1, 0));
   CHECK(t.eval(0, {{0.75f, 0.25f}, {}}) == Rgb(0, 0, 1));
   CHECK(t.eval(0, {{1.75f, -0.75f}, {}}) == Rgb(0, 0, 1));
-  CHECK(t.eval_float(0, {{0.75f, 0.25f}, {}}) == Approx(1 / 3.0));
 }
 
 TEST_CASE("scale comes before invert, and negative results are black") {
   const test::Scratch folder;
   write_corners(folder / "a.exr");
   ImageTexture t = image_texture(folder / "a.exr");
+  t.filter = ImageTexture::Filter::bilinear;
   t.scale = 2;
   t.invert = true;
   const Textures textures = build_textures({texture(t)});
@@ -114,21 +114,33 @@ TEST_CASE("the colour space's matrix applies to colours, not to scalars") {
   const test::Scratch folder;
   write_corners(folder / "a.exr");
   ImageTexture t = image_texture(folder / "a.exr");
+  t.filter = ImageTexture::Filter::bilinear;
   t.to_rec709 = {1, -1, 0, 0, 0.5f, 0, 0, 0, 1};
   const Textures textures = build_textures({texture(t)});
   CHECK(textures.eval(0, {{0.25f, 0.25f}, {}}) == Rgb(0, 0.5f, 0));  // red would be -1
   CHECK(textures.eval_float(0, {{0.25f, 0.25f}, {}}) == Approx(1 / 3.0));
 }
 
-TEST_CASE("scalars of an image with transparency are its alpha") {
+// Filters and channels as in pbrt-v4.
+TEST_CASE("scalars of an image are its alpha where it has any; else the mean of its colour, or the first channel") {
   const test::Scratch folder;
   Image image;
   image.data = image.display = {0, 0, 2, 1};
-  image.channels = {{"R", {1, 1}}, {"G", {1, 1}}, {"B", {1, 1}}, {"A", {0.25f, 1}}};
+  image.channels = {{"R", {0.5f, 1}}, {"G", {1, 1}}, {"B", {1, 1}}, {"A", {0.25f, 1}}};
   write_exr(image, folder / "leaf.exr");
-  const Textures t = build_textures({texture(image_texture(folder / "leaf.exr"))});
-  CHECK(t.eval_float(0, {{0.25f, 0.5f}, {}}) == 0.25f);
-  CHECK(t.eval(0, {{0.25f, 0.5f}, {}}) == Rgb(1.0f));
+  image.channels.pop_back();
+  write_exr(image, folder / "wall.exr");
+  const TextureQuery first{{0.25f, 0.5f}, {}};
+  using Filter = ImageTexture::Filter;
+  for (const Filter filter : {Filter::point, Filter::bilinear, Filter::trilinear, Filter::elliptical}) {
+    ImageTexture leaf = image_texture(folder / "leaf.exr"), wall = image_texture(folder / "wall.exr");
+    leaf.filter = wall.filter = filter;
+    const Textures t = build_textures({texture(leaf), texture(wall)});
+    const bool knows_all = filter == Filter::bilinear || filter == Filter::trilinear;
+    CHECK(t.eval_float(0, first) == Approx(knows_all ? 0.25 : 0.5));
+    CHECK(t.eval_float(1, first) == Approx(knows_all ? 2.5 / 3 : 0.5));
+    CHECK(t.eval(0, first) == t.eval(1, first));
+  }
 }
 
 TEST_CASE("textures of one file share its image, whatever else differs") {
