@@ -11,11 +11,31 @@ namespace {
 
 using MaterialKind = decltype(Material::kind);
 
+struct Range {
+  float low, high;
+};
+constexpr Range kNotNegative{0, kInfinity}, kShare{0, 1};
+
+/// Values out of `range` are taken for its ends, as by pbrt-v4; of a constant that is said.
+std::optional<TextureId> find_within(State& state, ParamList& params, std::string_view name, Range range) {
+  const auto id = find_float_texture(state, params, name);
+  const auto* constant = id ? std::get_if<ConstantTexture>(&state.scene.textures[*id].kind) : nullptr;
+  if (constant && (constant->value.r < range.low || constant->value.r > range.high))
+    params.reports().warn(params.where(name), "\"" + std::string(name) + "\" of " + params.owner() +
+                                                  " is beyond what it can be; the nearest value is taken, as by pbrt-v4");
+  return id;
+}
+
+TextureId number_within(State& state, ParamList& params, std::string_view name, Range range, float otherwise) {
+  const auto given = find_within(state, params, name, range);
+  return given ? *given : constant_texture(state, Rgb(otherwise));
+}
+
 /// `prefix` + "roughness", "uroughness", "vroughness"; pbrt's default is smooth.
 Roughness read_roughness(State& state, ParamList& params, std::array<std::string_view, 3> names) {
-  const auto both = find_float_texture(state, params, names[0]);
-  const auto u = find_float_texture(state, params, names[1]);
-  const auto v = find_float_texture(state, params, names[2]);
+  const auto both = find_within(state, params, names[0], kNotNegative);
+  const auto u = find_within(state, params, names[1], kNotNegative);
+  const auto v = find_within(state, params, names[2], kNotNegative);
   const TextureId rest = both ? *both : constant_texture(state, Rgb(0.0f));
   return {u.value_or(rest), v.value_or(rest), params.boolean("remaproughness", true)};
 }
@@ -62,9 +82,9 @@ ConductorOptics read_conductor(State& state, ParamList& params, std::string_view
 Coating read_coating(State& state, ParamList& params, Roughness roughness, std::string_view eta_name) {
   Coating c{};
   c.roughness = roughness;
-  c.thickness = float_texture(state, params, "thickness", 0.01f);
+  c.thickness = number_within(state, params, "thickness", kNotNegative, 0.01f);
   c.eta = find_eta(state, params, eta_name);
-  c.g = float_texture(state, params, "g", 0);
+  c.g = number_within(state, params, "g", {-1, 1}, 0);
   c.albedo = color_texture(state, params, "albedo", Rgb(0.0f));
   c.max_depth = params.integer("maxdepth", 10);
   c.samples = params.integer("nsamples", 1);
@@ -85,7 +105,7 @@ MixMaterial read_mix(State& state, ParamList& params) {
                                           suggestion(names[i], names_of(state.materials)) + ")");
     ids[i] = it->second;
   }
-  return {ids[0], ids[1], float_texture(state, params, "amount", 0.5f)};
+  return {ids[0], ids[1], number_within(state, params, "amount", kShare, 0.5f)};
 }
 
 DiffuseTransmissionMaterial read_diffuse_transmission(State& state, ParamList& params) {

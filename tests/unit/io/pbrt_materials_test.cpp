@@ -87,6 +87,21 @@ TEST_CASE("coated materials have pbrt's defaults and names") {
   CHECK_CONTAINS(world_error("Material \"coatedconductor\" \"float roughness\" .1"), "did you mean");
 }
 
+TEST_CASE("numbers that a material cannot have are taken for the nearest, and that is said") {
+  const auto warnings = [](const std::string& material) {
+    return test::read_world_file("Material " + material).warnings.size();
+  };
+  CHECK(warnings("\"conductor\" \"float roughness\" -0.1") == 1);
+  CHECK(warnings("\"dielectric\" \"float uroughness\" -0.1 \"float vroughness\" -2") == 2);
+  CHECK(warnings("\"coateddiffuse\" \"float thickness\" -1") == 1);
+  CHECK(warnings("\"coateddiffuse\" \"float g\" 1.5") == 1);
+  CHECK(warnings("\"coateddiffuse\" \"float roughness\" 2 \"float thickness\" 3 \"float g\" -1") == 0);
+  const std::string two = "MakeNamedMaterial \"a\" \"string type\" \"diffuse\" ",
+                    mix = two + "Material \"mix\" \"string materials\" [\"a\" \"a\"] \"float amount\" ";
+  CHECK(test::read_world_file(mix + "1").warnings.empty());
+  CHECK(test::read_world_file(mix + "1.5").warnings.size() == 1);
+}
+
 TEST_CASE("diffusetransmission and interface") {
   const Scene s = read_world("Material \"diffusetransmission\" \"rgb transmittance\" [.1 .2 .3] \"float scale\" 2");
   CHECK(constant(s, last<DiffuseTransmissionMaterial>(s).reflectance) == Rgb(.25f));
