@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "cli/frame_list.h"
+#include "cli/option_values.h"
 #include "cli/validators.h"
 #include "tyndall/cryptomatte.h"
 #include "tyndall/denoise.h"
@@ -15,33 +16,6 @@ namespace tyndall::cli {
 namespace {
 
 constexpr int kUsualDeepBins = 16;
-
-std::string join(const std::vector<std::string_view>& names, const char* separator) {
-  std::string text;
-  for (const auto name : names) text += (text.empty() ? "" : separator) + std::string(name);
-  return text;
-}
-
-[[noreturn]] void bad(const std::string& option, const std::string& value, const std::string& wanted) {
-  throw Error(Failure::usage, option + " " + value + " is not understood; give " + wanted);
-}
-
-/// Integers separated by `separator`, all of the text.
-std::vector<int> integers(const std::string& text, char separator) {
-  std::vector<int> values;
-  if (text.empty() || text.back() == separator) return {};
-  std::istringstream stream(text);
-  for (std::string part; std::getline(stream, part, separator);) {
-    std::size_t used = 0;
-    try {
-      values.push_back(std::stoi(part, &used));
-    } catch (const std::exception&) {
-      return {};
-    }
-    if (used != part.size()) return {};
-  }
-  return values;
-}
 
 /// AOVs by name; "Denoise" is all that the denoiser takes, "Cryptomatte" all mattes.
 std::vector<std::string> aovs_in(const std::string& list) {
@@ -60,25 +34,6 @@ std::vector<std::string> aovs_in(const std::string& list) {
   return names;
 }
 
-/// Crops keep their share of the frame.
-void set_resolution(const std::string& text, Scene& scene) {
-  Film& film = scene.film;
-  const auto size = integers(text, 'x');
-  if (size.size() != 2 || size[0] < 1 || size[1] < 1 || size[0] > 65536 || size[1] > 65536) {
-    bad("--resolution", text, "WxH in pixels, such as 960x540");
-  }
-  const auto down = [](std::int64_t v, int from, int to) { return static_cast<int>(v * to / from); };
-  const auto up = [](std::int64_t v, int from, int to) { return static_cast<int>((v * to + from - 1) / from); };
-  const auto scaled = [&](const PixelBounds& crop) {
-    return PixelBounds{down(crop.x0, film.width, size[0]), down(crop.y0, film.height, size[1]),
-                       up(crop.x1, film.width, size[0]), up(crop.y1, film.height, size[1])};
-  };
-  film.crop = scaled(film.crop);
-  if (scene.settings.crop) scene.settings.crop = scaled(*scene.settings.crop);
-  film.width = size[0];
-  film.height = size[1];
-}
-
 void set_samples(const RenderOptions& options, RenderSettings& settings) {
   if (options.spp) settings.spp = *options.spp;
   if (options.time) settings.time = *options.time;
@@ -92,53 +47,13 @@ void set_samples(const RenderOptions& options, RenderSettings& settings) {
 void set_slice(const RenderOptions& options, RenderSettings& settings) {
   if (options.slice.empty()) return;
   const auto numbers = integers(options.slice, '/');
-  if (numbers.size() != 2) bad("--slice", options.slice, "I/N, such as 3/16");
+  if (numbers.size() != 2) refuse_value("--slice", options.slice, "I/N, such as 3/16");
   settings.slice = SliceChoice{numbers[0], numbers[1]};
   if (!options.reference.empty()) throw Error(Failure::usage, "--slice has no --error-log: a part's error is not the whole's");
   sample_range(settings);  // throws for what cannot be
 }
 
 }  // namespace
-
-void declare(CLI::App& command, MethodOptions& o) {
-  for (std::size_t i = 0; i < strategy_axes().size(); ++i) {
-    const StrategyAxis& axis = strategy_axes()[i];
-    const std::string option = "--" + std::string(axis.option);
-    command.add_option(option, o.strategies[i],
-                       std::string(axis.about) + ": " + join(axis.names, ", ") + " [the Integrator's, else " +
-                           std::string(axis.get({})) + "]; " + option + " " + std::string(axis.names.back()));
-  }
-  command
-      .add_option("--candidates", o.candidates,
-                  "lights chosen at a vertex or along a segment and looked at without visibility; 0: one for each "
-                  "cluster that --splitting makes; with --lights lightcuts the most nodes that a cut has, 0: 1,000 [the "
-                  "Integrator's, else as --budget has it at first, later 1 to 4, but not more than there are lights unless "
-                  "--max-depth is 1; with lightcuts 0]; --candidates 8")
-      ->check(CLI::Range(0, 4096));
-  command
-      .add_option("--splitting", o.splitting,
-                  "clusters of the light tree predicted worse than this are split, with --lights tree, up to 15 or as many as "
-                  "--candidates, 0..1; 0: none, 1: down to single lights [the Integrator's, else 0.5 for --candidates 0; "
-                  "elsewhere, at points, what may hold a light that is so near that it deserves a candidate is split]; "
-                  "--splitting 0.7")
-      ->check(fraction());
-  command
-      .add_option("--shadow-rays", o.shadow_rays,
-                  "of these are traced, resampled by their contribution; 0: all [the Integrator's, else as --budget has it at "
-                  "first, later 1 or 2, but not more than half the lights unless --max-depth is 1; with lightcuts "
-                  "all]; --shadow-rays 0")
-      ->check(CLI::Range(0, 4096));
-}
-
-void declare(CLI::App& command, PictureOptions& o) {
-  command.add_option("--crop", o.crop, "pixels x0,x1,y0,y1 to render, ends excluded [the Film's]; --crop 0,480,0,270");
-  command.add_option("--resolution", o.resolution, "frame size in pixels [the Film's]; --resolution 960x540");
-  command
-      .add_option("--max-depth", o.max_depth,
-                  "bounces a path, at most, counted as pbrt's volpath does [the Integrator's, else 5]; --max-depth 16")
-      ->check(CLI::Range(0, 1 << 20));
-  command.add_flag("--sanitize", o.sanitize, "NaN and infinite voxels become 0 instead of an error");
-}
 
 void declare_progress(CLI::App& command, std::string& progress) {
   command
@@ -256,27 +171,6 @@ void declare(CLI::App& command, RenderOptions& o) {
   command.add_flag("--json", o.json, "summary as JSON on stdout");
 }
 
-void apply(const MethodOptions& o, RenderSettings& settings) {
-  for (std::size_t i = 0; i < strategy_axes().size(); ++i) {
-    const StrategyAxis& axis = strategy_axes()[i];
-    const std::string& name = o.strategies[i];
-    if (!name.empty() && !axis.set(settings, name)) bad("--" + std::string(axis.option), name, join(axis.names, ", "));
-  }
-  if (o.candidates) settings.candidates = *o.candidates;
-  if (o.splitting) settings.splitting = static_cast<float>(*o.splitting);
-  if (o.shadow_rays) settings.shadow_rays = *o.shadow_rays;
-}
-
-void apply(const PictureOptions& o, Scene& scene) {
-  if (o.max_depth) scene.settings.max_depth = *o.max_depth;
-  if (!o.resolution.empty()) set_resolution(o.resolution, scene);
-  if (!o.crop.empty()) {
-    const auto c = integers(o.crop, ',');
-    if (c.size() != 4 || c[0] >= c[1] || c[2] >= c[3]) bad("--crop", o.crop, "x0,x1,y0,y1 with x0 < x1 and y0 < y1");
-    scene.settings.crop = PixelBounds{c[0], c[2], c[1], c[3]};
-  }
-}
-
 void apply(const RenderOptions& o, Scene& scene) {
   RenderSettings& s = scene.settings;
   set_samples(o, s);
@@ -290,7 +184,7 @@ void apply(const RenderOptions& o, Scene& scene) {
   if (!o.aovs.empty()) s.aovs = aovs_in(o.aovs);
   for (const std::string& name : s.aovs) {
     const auto known = aov_names();
-    if (std::find(known.begin(), known.end(), name) == known.end()) bad("--aov", name, join(known, ", "));
+    if (std::find(known.begin(), known.end(), name) == known.end()) refuse_value("--aov", name, join(known, ", "));
   }
 }
 
@@ -301,7 +195,7 @@ void require_exact(const ImageOptions& image, const std::string& path) {
   const ExrSettings exr = image_format(image, path).exr;
   const bool exact = !exr.half && !is_lossy(exr.compression);
   if (std::filesystem::path(path).extension() != ".exr")
-    bad("output", path, "a name that ends in .exr: a slice holds exact sums");
+    refuse_value("output", path, "a name that ends in .exr: a slice holds exact sums");
   if (!exact || exr.parts)
     throw Error(Failure::usage, "--slice keeps exact sums, in one part; leave --half, --parts and lossy --compression out");
 }
@@ -321,7 +215,7 @@ void require_end(const RenderSettings& settings) {
 }
 
 void require_deep_name(const std::string& deep, const std::string& output) {
-  if (std::filesystem::path(deep).extension() != ".exr") bad("--deep", deep, "a name that ends in .exr");
+  if (std::filesystem::path(deep).extension() != ".exr") refuse_value("--deep", deep, "a name that ends in .exr");
   if (std::filesystem::path(deep).lexically_normal() == std::filesystem::path(output).lexically_normal())
     throw Error(Failure::usage, "--deep " + deep + " is the flat image's name too; give another");
 }

@@ -8,24 +8,11 @@
 #include <vector>
 
 #include "cli/image_options.h"
+#include "cli/method_options.h"
+#include "cli/picture_options.h"
 #include "tyndall/scene.h"
 
 namespace tyndall::cli {
-
-/// Options that choose between methods: any of them gives the same picture, sooner or later.
-struct MethodOptions {
-  std::vector<std::string> strategies = std::vector<std::string>(strategy_axes().size());  ///< by axis; empty: not given
-
-  std::optional<int> candidates, shadow_rays;
-  std::optional<double> splitting;
-};
-
-/// Options that say what the right picture is.
-struct PictureOptions {
-  std::optional<int> max_depth;
-  std::string crop, resolution;
-  bool sanitize = false;
-};
 
 /// What the command line gave; the scene decides the rest.
 struct RenderOptions {
@@ -44,17 +31,13 @@ struct RenderOptions {
   bool keeps_checkpoints() const { return checkpoint || resume; }
 };
 
-void declare(CLI::App& command, MethodOptions& options);
-void declare(CLI::App& command, PictureOptions& options);
 void declare_task(CLI::App& command, RenderOptions& options);  ///< these, and what else a slice shares with the whole
 void declare(CLI::App& command, RenderOptions& options);       ///< all of them
 void declare_progress(CLI::App& command, std::string& progress);
 void declare_memory(CLI::App& command, std::optional<double>& max_memory);
 void declare_scene(CLI::App& command, std::string& scene);
 
-/// Override what the scene says: its settings and its film. Throw Error (usage).
-void apply(const MethodOptions& options, RenderSettings& settings);
-void apply(const PictureOptions& options, Scene& scene);
+/// Overrides what the scene says: its settings and its film. Throws Error (usage).
 void apply(const RenderOptions& options, Scene& scene);
 /// Throws Error (usage) for an adaptive render that has no end but its samples, at which all pixels have as many.
 void require_end(const RenderSettings& settings);

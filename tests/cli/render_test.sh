@@ -64,6 +64,7 @@ expect 2 "$T" render s.pbrt --lights brightest
 says 'tree-binary' err.txt
 expect 2 "$T" render s.pbrt --aov Depth
 expect 2 "$T" render s.pbrt --crop 50,60,0,10 -o a.exr
+expect 2 "$T" render s.pbrt --crop 30,41,0,10 -o a.exr
 expect 2 "$T" render s.pbrt -o a.jpg
 expect 0 "$T"
 expect 3 "$T" render missing.pbrt
