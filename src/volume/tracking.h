@@ -26,14 +26,6 @@ struct TrackingStats {
   std::uint64_t segments = 0;             ///< pieces of constant majorant visited
   std::uint64_t majorant_violations = 0;  ///< lookups above the majorant: 0 unless there is a defect
   std::uint64_t caps_hit = 0;             ///< loops ended by their safety limit
-  TrackingStats& operator+=(const TrackingStats& other) {
-    lookups += other.lookups;
-    noise_lookups += other.noise_lookups;
-    segments += other.segments;
-    majorant_violations += other.majorant_violations;
-    caps_hit += other.caps_hit;
-    return *this;
-  }
 };
 
 /// Free flight along one interval.

@@ -42,18 +42,10 @@ struct Counters {
   }
 
   Counters& operator+=(const Counters& other) {
-    choices += other.choices;
-    candidates += other.candidates;
-    segments += other.segments;
-    places += other.places;
-    connections += other.connections;
-    guided += other.guided;
-    paths += other.paths;
-    rays += other.rays;
-    shadow_rays += other.shadow_rays;
-    non_finite += other.non_finite;
-    parity_errors += other.parity_errors;
-    tracking += other.tracking;
+    const auto add = [&](auto&... sums) {
+      std::apply([&](const auto&... numbers) { ((sums += numbers), ...); }, numbers_of(other));
+    };
+    std::apply(add, numbers_of(*this));
     bad_samples.insert(bad_samples.end(), other.bad_samples.begin(), other.bad_samples.end());
     if (!other.bad_samples.empty()) trim_bad_samples();
     return *this;

@@ -49,6 +49,7 @@ TEST_CASE("a job goes on from another's state as if it had been its own") {
   CHECK(test::same_bits_and_header(second.image(), whole.image()));
   CHECK(second.report().paths == whole.report().paths);
   CHECK(second.report().shadow_rays == whole.report().shadow_rays);
+  CHECK(whole.report().work.vertex_lights > 0);
   for (const auto& [name, part] : kWorkParts) CHECK(second.report().work.*part == whole.report().work.*part);
 }
 
