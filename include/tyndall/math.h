@@ -86,6 +86,7 @@ constexpr bool is_black(Rgb c) { return c.r == 0 && c.g == 0 && c.b == 0; }
 /// Relative luminance Y of a linear Rec.709 colour.
 constexpr float luminance(Rgb c) { return 0.212671f * c.r + 0.715160f * c.g + 0.072169f * c.b; }
 inline bool is_finite(Rgb c) { return std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b); }
+inline Rgb absolute(Rgb c) { return {std::abs(c.r), std::abs(c.g), std::abs(c.b)}; }
 inline Rgb exp(Rgb c) { return {std::exp(c.r), std::exp(c.g), std::exp(c.b)}; }
 
 /// Axis-aligned box; empty (min > max) when default-constructed.

@@ -58,6 +58,9 @@ enum class TransmittanceStrategy { residual, ratio, delta, raymarch };
 /// Of RenderSettings::deep_bins.
 inline constexpr int kMostDeepBins = 256;
 
+/// No stop is looked for within a path.
+inline constexpr int kMostBounces = 1 << 20;
+
 struct RenderSettings {
   int spp = 64;                  ///< samples a pixel, >= 1
   std::optional<double> time{};  ///< seconds; stops at the first pass end after it, if spp have not been reached before
@@ -72,7 +75,7 @@ struct RenderSettings {
   /// 80 ..., at `time`, or at the last multiple of 8 that `spp` holds. Not of slices. Unset: in render() with `error` or
   /// `error_max`.
   std::optional<bool> adaptive{};
-  int max_depth = 5;  ///< bounces a path, counted as pbrt's volpath; >= 0
+  int max_depth = 5;  ///< bounces a path, counted as pbrt's volpath; 0 to kMostBounces
   std::uint64_t seed = 0;
   int threads = 0;                             ///< 0: all cores
   LightStrategy lights = LightStrategy::tree;  ///< one that the World was built with

@@ -34,7 +34,7 @@ void declare(CLI::App& command, PictureOptions& o) {
   command
       .add_option("--max-depth", o.max_depth,
                   "bounces a path, at most, counted as pbrt's volpath does [the Integrator's, else 5]; --max-depth 16")
-      ->check(CLI::Range(0, 1 << 20));
+      ->check(CLI::Range(0, kMostBounces));
   command.add_flag("--sanitize", o.sanitize, "NaN and infinite voxels become 0 instead of an error");
 }
 

@@ -17,12 +17,15 @@ namespace {
 /// it out of a light's spectrum, but not out of the emission of an rgbgrid.
 constexpr float kCieYIntegral = 106.856895f;
 
+/// `value` as the parameter `name` gives it.
+Rgb scaled(ParamList& params, std::string_view name, Rgb value, float scale) {
+  if (is_finite(value * scale)) return value * scale;
+  throw params.error(name, std::string(name) + " times its scale is more than a number can hold; lower one");
+}
+
 MediumOptics read_optics(State& state, ParamList& params, float scale) {
   const auto sigma = [&](std::string_view name) {
-    const Rgb value = find_color(state, params, name, ColorUse::unbounded).value_or(Rgb(1.0f)) * scale;
-    if (!is_finite(value))
-      throw params.error(name, std::string(name) + " times scale is more than a number can hold; lower one");
-    return value;
+    return scaled(params, name, find_color(state, params, name, ColorUse::unbounded).value_or(Rgb(1.0f)), scale);
   };
   return {sigma("sigma_a"), sigma("sigma_s"), read_phase(params)};
 }
@@ -79,12 +82,12 @@ Medium homogeneous(State& state, ParamList& params) {
     for (const char* sigma : {"sigma_a", "sigma_s"})
       if (params.find(sigma, {ParamType::rgb, ParamType::spectrum, ParamType::blackbody}))
         throw params.error(sigma, "a medium takes a preset or its own coefficients, not both; remove one");
-    m.optics.sigma_a = found->sigma_a * scale;
-    m.optics.sigma_s = found->sigma_s * scale;
+    m.optics.sigma_a = scaled(params, "preset", found->sigma_a, scale);
+    m.optics.sigma_s = scaled(params, "preset", found->sigma_s, scale);
   }
   const float Le_scale = params.not_negative("Lescale", 1);
   const Rgb Le = find_color(state, params, "Le", ColorUse::light).value_or(Rgb(0.0f));
-  m.kind = HomogeneousMedium{Le * Le_scale};
+  m.kind = HomogeneousMedium{scaled(params, "Le", Le, Le_scale)};
   return m;
 }
 
@@ -127,7 +130,7 @@ Medium rgb_grid(State&, ParamList& params) {
     throw params.error("an rgbgrid medium has neither sigma_a nor sigma_s; add one of them");
   if (!g.Le.empty() && g.sigma_a.empty()) throw params.error("Le", "\"Le\" of an rgbgrid needs \"sigma_a\"; add it");
   const float Le_scale = params.not_negative("Lescale", 1) * kCieYIntegral;
-  for (Rgb& Le : g.Le) Le *= Le_scale;
+  for (Rgb& Le : g.Le) Le = scaled(params, "Le", Le, Le_scale);
   g.scale = params.not_negative("scale", 1);
   Medium m;
   m.optics.phase = read_phase(params);

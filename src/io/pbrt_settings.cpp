@@ -10,8 +10,6 @@
 namespace tyndall::pbrt {
 namespace {
 
-constexpr int kMostBounces = 1 << 20;  ///< as of --max-depth
-
 int at_least(ParamList& params, std::string_view name, int otherwise, int least) {
   const int value = params.integer(name, otherwise);
   if (value < least) throw params.error(name, std::string(name) + " must be at least " + std::to_string(least));

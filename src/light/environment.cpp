@@ -13,8 +13,6 @@ namespace {
 
 constexpr double kFullSphere = 4 * std::numbers::pi;
 
-Rgb magnitude(Rgb c) { return {std::abs(c.r), std::abs(c.g), std::abs(c.b)}; }
-
 }  // namespace
 
 Environment::Environment(const InfiniteLight& light, const Location& where, KeptFiles* kept)
@@ -75,7 +73,7 @@ void Environment::load(const InfiniteLight& light, const Location& where, KeptFi
 }
 
 float Environment::weight(std::uint32_t x, std::uint32_t y) const {
-  return luminance(magnitude(image_->texel(static_cast<int>(x), static_cast<int>(y))));
+  return luminance(absolute(image_->texel(static_cast<int>(x), static_cast<int>(y))));
 }
 
 void Environment::build_distributions() {

@@ -20,7 +20,8 @@ void check(const RenderSettings& settings) {
                 "leave distance out, or choose media closest, integral or product");
   }
   if (settings.shadow_rays && *settings.shadow_rays < 0) throw Error(Failure::usage, "shadow rays is negative; give 0 or more");
-  if (settings.max_depth < 0) throw Error(Failure::usage, "max depth is negative; give 0 or more");
+  if (settings.max_depth < 0 || settings.max_depth > kMostBounces)
+    throw Error(Failure::usage, "max depth must be from 0 to " + std::to_string(kMostBounces));
   if (settings.error && !(*settings.error > 0)) throw Error(Failure::usage, "error must be positive; give a relMSE");
   if (settings.error_max && !(*settings.error_max > 0))
     throw Error(Failure::usage, "error max must be positive; give a relMSE");

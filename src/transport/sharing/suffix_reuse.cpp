@@ -11,8 +11,6 @@
 namespace tyndall {
 namespace {
 
-Rgb absolute(Rgb c) { return {std::abs(c.r), std::abs(c.g), std::abs(c.b)}; }
-
 /// Finds for each path, at most on average. What is received along its ray and behind it has half of them each.
 constexpr double kMostFinds = 16;
 

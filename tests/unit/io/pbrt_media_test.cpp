@@ -144,7 +144,11 @@ TEST_CASE("medium errors") {
   CHECK_CONTAINS(medium_error("\"string type\" \"homogeneous\" \"float scale\" -1"), "must not be negative");
   CHECK_CONTAINS(medium_error("\"string type\" \"homogeneous\" \"float Lescale\" -1"), "must not be negative");
   CHECK_CONTAINS(medium_error("\"string type\" \"homogeneous\" \"rgb sigma_s\" [1e38 1 1] \"float scale\" 100"),
-                 "sigma_s times scale is more than a number can hold");
+                 "sigma_s times its scale is more than a number can hold");
+  CHECK_CONTAINS(medium_error("\"string type\" \"homogeneous\" \"string preset\" \"Ketchup\" \"float scale\" 3e38"),
+                 "preset times its scale is more than a number can hold");
+  CHECK_CONTAINS(medium_error("\"string type\" \"homogeneous\" \"rgb Le\" [1e38 1 1] \"float Lescale\" 100"),
+                 "Le times its scale is more than a number can hold");
   CHECK_CONTAINS(medium_error("\"string type\" \"homogeneous\" \"float density\" 1"),
                  "medium \"m\" has no parameter \"density\"");
   CHECK_CONTAINS(medium_error("\"string type\" \"homogeneous\" MakeNamedMedium \"m\" \"string type\" \"cloud\""),
