@@ -223,10 +223,15 @@ Vec3d LoopMesh::normal(std::uint32_t vertex) const {
 TriangleMesh LoopMesh::at_limit() const {
   LoopMesh moved = *this;
   for (std::uint32_t v = 0; v < positions_.size(); ++v) moved.positions_[v] = limit(v);
+  // pbrt interpolates the cross products as they are: what counts of their lengths are the ratios.
+  std::vector<Vec3d> normals;
+  double longest = 0;
+  for (std::uint32_t v = 0; v < positions_.size(); ++v)
+    longest = std::max(longest, length(normals.emplace_back(moved.normal(v))));
   TriangleMesh mesh;
   for (std::uint32_t v = 0; v < positions_.size(); ++v) {
     mesh.positions.push_back(to_vec3(moved.positions_[v]));
-    mesh.normals.push_back(to_vec3(normalize(moved.normal(v))));
+    mesh.normals.push_back(to_vec3(longest > 0 ? normals[v] / longest : normals[v]));
   }
   for (const auto& face : faces_) mesh.indices.insert(mesh.indices.end(), face.begin(), face.end());
   return mesh;
