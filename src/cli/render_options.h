@@ -31,7 +31,7 @@ struct RenderOptions {
   bool keeps_checkpoints() const { return checkpoint || resume; }
 };
 
-void declare_task(CLI::App& command, RenderOptions& options);  ///< these, and what else a slice shares with the whole
+void declare_task(CLI::App& command, RenderOptions& options);  ///< what a slice shares with the whole
 void declare(CLI::App& command, RenderOptions& options);       ///< all of them
 void declare_progress(CLI::App& command, std::string& progress);
 void declare_memory(CLI::App& command, std::optional<double>& max_memory);

@@ -16,13 +16,13 @@ struct Range {
 };
 constexpr Range kNotNegative{0, kInfinity}, kShare{0, 1};
 
-/// Values out of `range` are taken for its ends, as by pbrt-v4; of a constant that is said.
+/// Values out of `range` are taken for its ends; of a constant that is said.
 std::optional<TextureId> find_within(State& state, ParamList& params, std::string_view name, Range range) {
   const auto id = find_float_texture(state, params, name);
   const auto* constant = id ? std::get_if<ConstantTexture>(&state.scene.textures[*id].kind) : nullptr;
   if (constant && (constant->value.r < range.low || constant->value.r > range.high))
     params.reports().warn(params.where(name), "\"" + std::string(name) + "\" of " + params.owner() +
-                                                  " is beyond what it can be; the nearest value is taken, as by pbrt-v4");
+                                                  " is beyond what it can be; the nearest value is taken");
   return id;
 }
 
