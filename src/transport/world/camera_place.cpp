@@ -57,8 +57,9 @@ bool finds_its_medium(const Camera& camera, const Geometry& geometry) {
 }  // namespace
 
 Camera off_boundaries(Camera camera, const Film& film, const Geometry& geometry) {
+  if (geometry.groups().empty()) return camera;
   const CameraRays rays(camera, film);
-  if (geometry.groups().empty() || !is_on_boundary(rays, film, geometry)) return camera;
+  if (!is_on_boundary(rays, film, geometry)) return camera;
   // Not along the view alone, which may lie in the boundary.
   const Vec3 ahead = kMoved * size_at(rays.center(), geometry) * normalize(camera.to_world.vector({0.5f, 0.3f, 1}));
   const Camera before = moved(camera, ahead);
