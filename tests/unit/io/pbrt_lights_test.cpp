@@ -153,7 +153,7 @@ TEST_CASE("an interface does not emit, and that is said") {
 
 TEST_CASE("an emitter's alpha, which counts otherwise in pbrt, is warned of unless it is 0 or 1") {
   const auto warnings = [](const std::string& alpha) {
-    return test::read_world_file("AreaLightSource \"diffuse\" Shape \"sphere\" \"float alpha\" " + alpha).warnings.size();
+    return test::world_warnings("AreaLightSource \"diffuse\" Shape \"sphere\" \"float alpha\" " + alpha);
   };
   CHECK(warnings("0") == 0);
   CHECK(warnings("1") == 0);
@@ -161,9 +161,7 @@ TEST_CASE("an emitter's alpha, which counts otherwise in pbrt, is warned of unle
 }
 
 TEST_CASE("a constant sky behind a portal is warned of where pbrt weighs it otherwise") {
-  const auto warnings = [](const std::string& light) {
-    return test::read_world_file("LightSource \"infinite\" " + light).warnings.size();
-  };
+  const auto warnings = [](const std::string& light) { return test::world_warnings("LightSource \"infinite\" " + light); };
   const std::string portal = " \"point3 portal\" [0 0 0  1 0 0  1 1 0  0 1 0]";
   CHECK(warnings("\"float illuminance\" 3" + portal) == 1);
   CHECK(warnings("\"blackbody L\" 3000" + portal) == 1);
@@ -173,7 +171,7 @@ TEST_CASE("a constant sky behind a portal is warned of where pbrt weighs it othe
 
 TEST_CASE("a scaled quadric's power, which pbrt scales too, is warned of") {
   const auto warnings = [](const std::string& transform, const std::string& shape) {
-    return test::read_world_file(transform + " AreaLightSource \"diffuse\" \"float power\" 1 Shape " + shape).warnings.size();
+    return test::world_warnings(transform + " AreaLightSource \"diffuse\" \"float power\" 1 Shape " + shape);
   };
   CHECK(warnings("Scale 2 2 2", "\"sphere\"") == 1);
   CHECK(warnings("Rotate 30 1 2 3", "\"sphere\"") == 0);

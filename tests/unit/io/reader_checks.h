@@ -16,6 +16,7 @@ inline Scene read(const std::string& text) { return read_scene_text(text, "test.
 
 /// Reads `body` as the text after WorldBegin; it begins in line 1 of "test.pbrt".
 inline SceneFile read_world_file(const std::string& body) { return read_scene_text("WorldBegin " + body, "test.pbrt"); }
+inline std::size_t world_warnings(const std::string& body) { return read_world_file(body).warnings.size(); }
 inline Scene read_world(const std::string& body) { return read_world_file(body).scene; }
 
 template <typename Read>
