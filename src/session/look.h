@@ -53,7 +53,9 @@ class Look {
   struct Ratio {
     double log, deviation, cost = 1;
 
-    /// What choosing by the sign of `log` loses on average, where the truth is normal about it.
+    /// Of the ratio's mean, where the truth is normal about `log`.
+    double log_of_mean() const { return log + 0.5 * deviation * deviation; }
+    /// What choosing by the sign of `log` loses on average, likewise.
     double expected_loss() const;
   };
   /// Of the blocks that both have, two at least.

@@ -45,13 +45,14 @@ bool pays_to_double(const Look::Ratio& ratio, std::size_t blocks, const Film& fi
   return (1 - 1 / std::numbers::sqrt2) * ratio.expected_loss() * kPictureSamples > 2 * cost && 2 * cost <= 1;
 }
 
-/// Whether a look has less than `wins` of the product of another; `doubted`: by a standard error more.
+/// Whether a look is expected to have less than `wins` of the product of another: that of the mean, since what a choice may
+/// lose has no bound, while it saves no more than all. `doubted`: by a standard error more.
 bool beats(Look& look, Look& other, double wins, bool doubted) {
   for (std::size_t blocks = kFirstBlocks;; blocks *= 2) {
     look.extend(blocks);
     other.extend(blocks);
     Look::Ratio ratio = look.over(other);
-    ratio.log -= std::log(wins);
+    ratio.log = ratio.log_of_mean() - std::log(wins);
     if (doubted) ratio.log += ratio.deviation;
     if (!pays_to_double(ratio, blocks, look.film())) return ratio.log < 0;
   }

@@ -453,16 +453,27 @@ TEST_CASE("looks know how far they may be off") {
   CHECK(tracked_over_pairs(1, 256).deviation < 0.5 * std::sqrt(small / 8));
 }
 
+/// The mean of f(log of the ratio) where that is normal, by the midpoint rule within eight deviations.
+template <typename F>
+double mean_over_truths(const Look::Ratio& ratio, const F& f) {
+  double sum = 0;
+  constexpr int n = 20'000;
+  for (int i = 0; i < n; ++i) {
+    const double z = 16 * (i + 0.5) / n - 8;
+    sum += f(ratio.log + z * ratio.deviation) * std::exp(-0.5 * z * z) / std::sqrt(2 * M_PI) * 16 / n;
+  }
+  return sum;
+}
+
 TEST_CASE("what a choice may be expected to lose is an integral over what may be true") {
   for (const double log : {-1.5, -0.2, 0.0, 0.1, 0.8}) {
     for (const double deviation : {0.02, 0.3, 2.0}) {
-      double loss = 0;
-      constexpr int n = 20'000;
-      for (int i = 0; i < n; ++i) {  // the truth lies beyond zero, by the midpoint rule within eight deviations
-        const double z = 16 * (i + 0.5) / n - 8;
-        loss += std::max(0.0, -(std::abs(log) + z * deviation)) * std::exp(-0.5 * z * z) / std::sqrt(2 * M_PI) * 16 / n;
-      }
-      CHECK(Look::Ratio{log, deviation}.expected_loss() == doctest::Approx(loss).epsilon(1e-3));
+      const Look::Ratio ratio{log, deviation};
+      const double wrong = log < 0 ? -1 : 1;  // the side of zero on which the choice loses
+      const double loss = mean_over_truths(ratio, [&](double truth) { return std::max(0.0, -wrong * truth); });
+      CHECK(ratio.expected_loss() == doctest::Approx(loss).epsilon(1e-3));
+      const double mean = mean_over_truths(ratio, [](double truth) { return std::exp(truth); });
+      CHECK(std::exp(ratio.log_of_mean()) == doctest::Approx(mean).epsilon(1e-3));
     }
   }
   CHECK(Look::Ratio{0.3, 0}.expected_loss() == 0);
