@@ -144,12 +144,14 @@ class Reading {
     open_files_.pop_back();
   }
 
-  /// As Include, but nothing that the file does to the graphics state outlives it.
+  /// As Include, but nothing that the file does to the graphics state outlives it, nor do its coordinate systems.
   void import(Tokenizer& in, const Location& where) {
     open_block(state_, Block::Kind::import, where);
     const std::size_t depth = state_.blocks.size();
+    const auto systems = state_.coordinate_systems;
     const auto leave = [&] {
       while (state_.blocks.size() >= depth) close_block(state_);
+      state_.coordinate_systems = systems;
     };
     try {
       include(in, nullptr);

@@ -39,6 +39,13 @@ TEST_CASE("Import keeps its graphics state to itself and its names for all") {
       test::message_of([&] { read_scene_text("WorldBegin AttributeBegin Import \"end.pbrt\"", "test.pbrt", folder.path()); }),
       "AttributeEnd closes nothing");
   CHECK_CONTAINS(test::error_of("Import \"a.pbrt\""), "Import stands before WorldBegin");
+  folder.write("system.pbrt", "Translate 2 0 0\nCoordinateSystem \"mine\"\nCoordSysTransform \"mine\"\nShape \"sphere\"\n");
+  const auto after = [&](const std::string& directive) {
+    return read_scene_text("WorldBegin\n" + directive + " \"system.pbrt\"\nCoordSysTransform \"mine\"\n", "test.pbrt",
+                           folder.path());
+  };
+  CHECK(after("Include").scene.shapes.size() == 1);
+  CHECK_CONTAINS(test::message_of([&] { after("Import"); }), "\"mine\" is not defined");
 }
 
 TEST_CASE("circles of Include end in an error") {
