@@ -6,18 +6,12 @@
 #include <string_view>
 #include <tuple>
 
+#include "report/channel_group.h"
 #include "report/mean_image.h"
 #include "tyndall/error.h"
 
 namespace tyndall {
 namespace {
-
-/// "RGB" for "R", "Albedo" for "Albedo.R", "Z" for "Z".
-std::string group_of(const std::string& channel) {
-  if (channel == "R" || channel == "G" || channel == "B") return "RGB";
-  const std::size_t dot = channel.rfind('.');
-  return dot == std::string::npos ? channel : channel.substr(0, dot);
-}
 
 bool wanted(const std::string& channel, const DiffSettings& settings) {
   const auto& list = settings.channels;
@@ -139,10 +133,6 @@ void group_channels(ImageDiff& diff) {
 bool has_rgb(const ImageDiff& diff) {
   return std::any_of(diff.groups.begin(), diff.groups.end(),
                      [](const GroupDiff& g) { return g.name == "RGB" && g.channels.size() == 3; });
-}
-
-bool has_variances(const Image& image) {
-  return image.find("Variance.R") && image.find("Variance.G") && image.find("Variance.B");
 }
 
 void compare_channels(const Image& image, const Image& reference, const DiffSettings& settings, ImageDiff& diff) {

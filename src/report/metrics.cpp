@@ -80,6 +80,11 @@ ErrorMetrics measure_error_without_noise(const Image& image, const Image& refere
   return errors;
 }
 
+bool has_variances(const Image& image) {
+  return image.find("Variance.R") && image.find("Variance.G") && image.find("Variance.B") &&
+         !image.attributes.contains("tyndall/denoised");
+}
+
 double estimated_relmse(const Image& image) {
   const Planes means = planes_of(image, kRgb), variances = planes_of(image, kRgb, "Variance.");
   double sum = 0;

@@ -31,8 +31,11 @@ ErrorMetrics measure_error(const Image& image, const Image& reference);
 /// The same over any channels that both images have.
 ErrorMetrics measure_error(const Image& image, const Image& reference, const std::vector<std::string>& channels);
 
+/// Whether the image has the variances of its R, G and B: those of a denoised one are of what was rendered, noisy.R and so on.
+bool has_variances(const Image& image);
+
 /// Errors of R, G and B with the reference's own noise taken off mse, relmse and relmse_trimmed: for independent
-/// unbiased x and r, E[(x - r)^2] = E[(x - truth)^2] + Var(r). `reference` must have Variance.R, .G and .B. What is left
+/// unbiased x and r, E[(x - r)^2] = E[(x - truth)^2] + Var(r). `reference` must have them (has_variances). What is left
 /// has noise itself and may be slightly negative; the trimmed one a little too small, since pixels whose reference is
 /// bad are among those left out.
 ErrorMetrics measure_error_without_noise(const Image& image, const Image& reference);

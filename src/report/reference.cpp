@@ -72,7 +72,7 @@ Reference as_reference(Image image, const std::string& source) {
   r.image = std::move(image);
   r.source = source;
   require_sound(r.image, source);
-  r.has_variance = r.image.find("Variance.R") && r.image.find("Variance.G") && r.image.find("Variance.B");
+  r.has_variance = has_variances(r.image);
   if (const int* samples = r.image.attribute<int>("tyndall/samples")) r.samples = *samples;
   if (const auto* seed = r.image.attribute<std::string>("tyndall/seed")) r.seed = *seed;
   r.has_variance = r.has_variance && r.samples != 1;  // one sample says nothing of its variance

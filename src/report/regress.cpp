@@ -64,11 +64,25 @@ void put_file(const std::string& from, const std::string& to) {
   throw Error(Failure::output, to + ": cannot be written; see that the suite's folder is writable and has room");
 }
 
+/// Layers that the references of a suite have; without one R G B, A and the AOVs that are asked for.
+std::size_t layers_of_all(const RegressSuite& suite) {
+  const auto of = [&](const RegressCase& c) {
+    try {
+      return layers_of(read_exr_header(suite.reference_path(c))).size();
+    } catch (const Error&) {
+      return 2 + c.aovs.size();
+    }
+  };
+  std::size_t sum = 0;
+  for (const RegressCase& c : suite.cases) sum += of(c);
+  return sum;
+}
+
 /// Judges or blesses one case whose runs have all ended.
 class Verdict {
  public:
   Verdict(const RegressSuite& suite, const RegressSettings& settings) : suite_(suite), settings_(settings) {
-    layer_level_ = sidak(settings.family_level, static_cast<double>(suite.layers()));
+    layer_level_ = sidak(settings.family_level, static_cast<double>(layers_of_all(suite)));
   }
 
   CaseResult of(const Bunch& bunch) const {

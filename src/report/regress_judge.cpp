@@ -4,17 +4,12 @@
 #include <numeric>
 #include <optional>
 
+#include "report/channel_group.h"
 #include "report/image_test.h"
 #include "report/regress_reference.h"
 
 namespace tyndall {
 namespace {
-
-/// "Albedo.R" belongs to "Albedo", R to "RGB", "Z" to itself.
-std::string layer_name(const std::string& channel) {
-  if (channel == "R" || channel == "G" || channel == "B") return "RGB";
-  return channel.substr(0, channel.find('.'));
-}
 
 /// Of the last letter: R G B and X Y Z in their order, a single channel first.
 std::size_t place_in_layer(const std::string& channel) {
@@ -66,7 +61,7 @@ std::vector<Layer> layers_of(const Image& image) {
   std::vector<Layer> layers;
   for (const Channel& c : image.channels) {
     if (!is_tested_channel(c.name)) continue;
-    const std::string name = layer_name(c.name);
+    const std::string name = group_of(c.name);
     auto layer = std::find_if(layers.begin(), layers.end(), [&](const Layer& l) { return l.name == name; });
     if (layer == layers.end()) layer = layers.insert(name == "RGB" ? layers.begin() : layers.end(), {name, {}});
     layer->channels[place_in_layer(c.name)] = c.name;

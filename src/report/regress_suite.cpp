@@ -19,10 +19,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Options of render that the suite itself sets, and those that end a render at no fixed number of samples.
-constexpr std::array kTaken{"-o",          "--output",   "--seed",        "--spp",       "--aov",          "--threads",
-                            "--json",      "--quiet",    "--time",        "--progress",  "--reproducible", "--error",
-                            "--error-max", "--adaptive", "--no-adaptive", "--max-memory"};
+/// Options of render that the suite itself sets, that end a render at no fixed number of samples, that write further files,
+/// render a part of the picture's samples, or filter it, which leaves pixels without variances of their own.
+constexpr std::array kTaken{"-o",          "--output",   "--seed",        "--spp",        "--aov",          "--threads",
+                            "--json",      "--quiet",    "--time",        "--progress",   "--reproducible", "--error",
+                            "--error-max", "--adaptive", "--no-adaptive", "--max-memory", "--denoise",      "--deep",
+                            "--slice",     "--frames",   "--resume",      "--serve",      "--display",      "--checkpoint"};
 
 [[noreturn]] void bad(const std::string& path, const std::string& what) { throw Error(Failure::scene, path + ": " + what); }
 
@@ -47,12 +49,12 @@ std::vector<std::string> texts(const nlohmann::json& value, const std::string& e
   return list;
 }
 
-/// Sample counts and variances are no means of samples, and are there anyway.
+/// Sample counts and variances are no means of samples, and are there anyway; mattes hold names.
 std::vector<std::string> aov_list(const nlohmann::json& value) {
   const auto known = aov_names();
   std::vector<std::string> list = texts(value, "[\"Albedo\", \"N\"]");
   for (const std::string& name : list) {
-    const bool testable = name != "Variance" && name != "SampleCount";
+    const bool testable = name != "Variance" && name != "SampleCount" && name != "Denoise" && !name.starts_with("Crypto");
     if (!testable || std::find(known.begin(), known.end(), name) == known.end()) {
       throw Error(Failure::scene,
                   "holds \"" + name + "\", which is no AOV that can be tested; choose from those of render --help");
@@ -182,12 +184,6 @@ RegressCase case_without_scene(const fs::path& file) {
 }
 
 }  // namespace
-
-std::size_t RegressSuite::layers() const {
-  std::size_t sum = 0;
-  for (const RegressCase& c : cases) sum += c.layers();
-  return sum;
-}
 
 RegressSuite read_suite(const std::string& folder) {
   std::error_code problem;

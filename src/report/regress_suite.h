@@ -21,9 +21,6 @@ struct RegressCase {
   double timeout = 60;                 ///< seconds that one run may take
   std::vector<std::string> options{};  ///< further options of `tyndall render`
   std::string fault{};                 ///< what is wrong with its files; such a case cannot be rendered. "": nothing
-
-  /// Layers that are tested: R G B, A, and each AOV.
-  std::size_t layers() const { return 2 + aovs.size(); }
 };
 
 struct RegressSuite {
@@ -33,7 +30,6 @@ struct RegressSuite {
   std::string scene_path(const RegressCase& c) const { return folder + "/" + c.name + ".pbrt"; }
   std::string reference_path(const RegressCase& c) const { return folder + "/" + c.name + ".exr"; }
   std::string bytes_path(const RegressCase& c) const { return folder + "/" + c.name + ".bytes.exr"; }
-  std::size_t layers() const;  ///< of all cases
 };
 
 /// Reads the folder and every settings file in it. Throws Error (scene) for a folder without scenes. Settings that cannot

@@ -53,6 +53,20 @@ const LayerTest& named(const std::vector<LayerTest>& tests, const std::string& w
 
 }  // namespace
 
+TEST_CASE("each light group is a layer") {
+  Image image;
+  for (const char* name : {"LightGroup.key.R", "LightGroup.key.G", "LightGroup.sky.R", "R", "A", "N.X", "N.Y", "Z"})
+    image.add_channel(name);
+  const std::vector<Layer> layers = layers_of(image);
+  std::vector<std::string> names;
+  for (const Layer& layer : layers) names.push_back(layer.name);
+  CHECK(names == std::vector<std::string>{"RGB", "LightGroup.key", "LightGroup.sky", "A", "N", "Z"});
+  CHECK(layers[1].channels[0] == "LightGroup.key.R");
+  CHECK(layers[1].channels[1] == "LightGroup.key.G");
+  CHECK(layers[2].channels[0] == "LightGroup.sky.R");
+  CHECK(layers[4].channels[1] == "N.Y");
+}
+
 TEST_CASE("runs give a mean and the variance of the mean for every channel") {
   const Image image = mean_of({}, 1, 400);
   const RunCounts counts = run_counts(image, "x.exr");
