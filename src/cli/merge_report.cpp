@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <regex>
+#include <sstream>
+
+#include "report/command_words.h"
 
 namespace tyndall::cli {
 namespace {
@@ -38,31 +40,47 @@ std::string output_for(const std::string& path, int of, int index) {
   return changed.insert(dot == std::string::npos || dot < name ? path.size() : dot, "-" + std::to_string(index));
 }
 
-/// `command` with the path of its output changed.
-std::string with_output(const std::string& command, const std::function<std::string(const std::string& path)>& change) {
-  static const std::regex kOutput("(-o|--output)([ =]?)('[^']*'|[^ ]+)");
-  std::smatch found;
-  if (!std::regex_search(command, found, kOutput)) return command;
-  return found.prefix().str() + found[1].str() + found[2].str() + change(found[3]) + found.suffix().str();
-}
+const CommandWords::Names kOutput{"-o", "--output"}, kSeed{"--seed"}, kSlice{"--slice"}, kSpp{"--spp"};
 
 /// Where slices of another seed go, beside the first: "parts/3.exr" to "parts/seed1-3.exr".
-std::string output_of_seed(std::string path, unsigned long long seed) {
-  const std::size_t name = path.find_last_of('/') + 1;
-  return path.insert(name == 0 && path.starts_with('\'') ? 1 : name, fmt::format("seed{}-", seed));
+std::string output_of_seed(std::string path, std::uint64_t seed) {
+  return path.insert(path.find_last_of('/') + 1, fmt::format("seed{}-", seed));
 }
 
-/// A command that renders `samples` a pixel more, of the next seed; nothing when `tally` does not know how slices were made.
-std::string more_samples(const SliceTally& tally, long long samples) {
+/// One that no sample of the image has.
+std::uint64_t unused_seed(const Image& image) {
+  std::uint64_t largest = 0;
+  const auto* text = image.attribute<std::string>("tyndall/seed");
+  std::istringstream seeds(text ? *text : "");
+  for (std::string seed; std::getline(seeds, seed, ',');) largest = std::max<std::uint64_t>(largest, std::stoull(seed));
+  return largest + 1;
+}
+
+/// For slice `index`: --slice, and the output's name where that holds the number of slice `of`.
+void choose_slice(CommandWords& command, const SliceChoice& of, int index) {
+  command.change(kSlice, fmt::format("{}/{}", index, of.count));
+  if (const auto output = command.value(kOutput)) command.change(kOutput, output_for(*output, of.index, index));
+}
+
+/// A command that renders `samples` a pixel more, of another seed; nothing when `tally` does not know how slices were made.
+std::string more_samples(const SliceTally& tally, long long samples, std::uint64_t seed) {
   if (tally.command.empty()) return "";
-  static const std::regex kSpp(" --spp[ =][0-9]+"), kSeed(" --seed[ =]([0-9]+)");
-  std::smatch seed;
-  const unsigned long long next = std::regex_search(tally.command, seed, kSeed) ? std::stoull(seed[1]) + 1 : 1;
-  const std::string command = std::regex_replace(std::regex_replace(tally.command, kSpp, ""), kSeed, "");
+  CommandWords command(tally.command);
+  choose_slice(command, tally.of_command, 1);
+  if (const auto output = command.value(kOutput)) command.change(kOutput, output_of_seed(*output, seed));
   const long long grain = static_cast<long long>(kSliceGrain) * tally.count;
-  return with_output(command_for(command, tally.of_command, 1),
-                     [&](const std::string& path) { return output_of_seed(path, next); }) +
-         fmt::format(" --spp {} --seed {}", (samples + grain - 1) / grain * grain, next);
+  command.drop(kSpp);
+  command.add(kSpp.front(), std::to_string((samples + grain - 1) / grain * grain));
+  command.drop(kSeed);
+  command.add(kSeed.front(), std::to_string(seed));
+  return command.str();
+}
+
+/// Of the slice that is missing.
+std::string command_for(const SliceTally& tally, int index) {
+  CommandWords command(tally.command);
+  choose_slice(command, tally.of_command, index);
+  return command.str();
 }
 
 std::string about_error(const Merged& merged, std::optional<double> wanted) {
@@ -74,7 +92,7 @@ std::string about_error(const Merged& merged, std::optional<double> wanted) {
   if (!samples) return text + fmt::format(", above the {:.3g} asked for\n", *wanted);
   const auto more = static_cast<long long>(std::ceil(*samples * (*merged.relmse / *wanted - 1)));
   text += fmt::format("; for {:.3g} about {} samples a pixel more are needed\n", *wanted, more);
-  const std::string command = merged.slices ? more_samples(*merged.slices, more) : "";
+  const std::string command = merged.slices.empty() ? "" : more_samples(merged.slices.front(), more, unused_seed(merged.image));
   return command.empty() ? text : text + fmt::format("  they come from slices of another seed, the first: {}\n", command);
 }
 
@@ -86,25 +104,16 @@ std::string about_slices(const SliceTally& tally) {
   if (tally.command.empty()) return text;
   text += "  these render what is missing:\n";
   for (std::size_t i = 0; i < std::min(tally.missing.size(), kMostNamed); ++i)
-    text += "    " + command_for(tally.command, tally.of_command, tally.missing[i]) + "\n";
+    text += "    " + command_for(tally, tally.missing[i]) + "\n";
   return text;
 }
 
 }  // namespace
 
-std::string command_for(const std::string& command, const SliceChoice& of, int index) {
-  const std::string count = "/" + std::to_string(of.count);
-  const std::regex slice("(--slice[ =])" + std::to_string(of.index) + count + "(?![0-9])");
-  std::smatch found;
-  if (!std::regex_search(command, found, slice)) return command;
-  const std::string sliced = found.prefix().str() + found[1].str() + std::to_string(index) + count + found.suffix().str();
-  return with_output(sliced, [&](const std::string& path) { return output_for(path, of.index, index); });
-}
-
 std::string as_text(const Merged& merged, std::optional<double> wanted) {
   std::string text;
   for (const std::string& reason : merged.left_out) text += "  left out: " + reason + "\n";
-  if (merged.slices) text += about_slices(*merged.slices);
+  for (const SliceTally& tally : merged.slices) text += about_slices(tally);
   return text + about_error(merged, wanted);
 }
 

@@ -11,8 +11,4 @@ namespace tyndall::cli {
 /// Lines for the log. `wanted`: a relMSE to be reached.
 std::string as_text(const Merged& merged, std::optional<double> wanted);
 
-/// `command`, that rendered slice `of`, for slice `index`: in --slice, and in the output's name where that holds the number.
-/// Words that are not understood stay.
-std::string command_for(const std::string& command, const SliceChoice& of, int index);
-
 }  // namespace tyndall::cli

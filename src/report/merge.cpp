@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iomanip>
+#include <map>
 #include <set>
 #include <sstream>
 
@@ -131,7 +132,11 @@ void merge_attributes(const std::vector<Slice>& slices, Image& image) {
   merge_times(slices, image);
 }
 
-/// Those that can be read. Among slices of one render the others are left out; elsewhere the first failure stands.
+bool are_parts(const std::vector<Slice>& slices) {
+  return std::all_of(slices.begin(), slices.end(), [](const Slice& s) { return s.part.has_value(); });
+}
+
+/// Those that can be read. Among slices the others are left out; elsewhere the first failure stands.
 std::vector<Slice> read_headers(const std::vector<std::string>& paths, std::vector<std::string>& left_out) {
   std::vector<Slice> slices;
   std::optional<Error> failure;
@@ -143,29 +148,16 @@ std::vector<Slice> read_headers(const std::vector<std::string>& paths, std::vect
       left_out.emplace_back(e.what());
     }
   }
-  const bool parts = std::any_of(slices.begin(), slices.end(), [](const Slice& s) { return s.part.has_value(); });
-  if (failure && !parts) throw Error(*failure);
+  if (failure && (slices.empty() || !are_parts(slices))) throw Error(*failure);
   return slices;
 }
 
-Image weighted_mean(const std::vector<Slice>& slices, const MergeSettings& settings) {
-  const PixelBounds box = box_around(slices);
-  if (!settings.fill_black) require_covered(slices, box);
-  MergeSum sum(box, slices.front().header);
-  for (const Slice& slice : slices) sum.add(read_pixels(slice), slice.sources.front().samples);
-  Image image = sum.result();
-  image.display = slices.front().header.display;
-  image.chromaticities = slices.front().header.chromaticities;
-  merge_attributes(slices, image);
-  return image;
-}
-
-/// Adds what can be read as it was written; the rest moves from `slices` to `left_out`.
-SliceSum exact_sum(std::vector<Slice>& slices, std::vector<std::string>& left_out) {
-  SliceSum sum(slices.front().header, slices.front().path);
+/// Moves those of which `read` throws from `slices` to `left_out`, unless these are all.
+template <typename Read>
+void leave_out_unreadable(std::vector<Slice>& slices, std::vector<std::string>& left_out, const Read& read) {
   std::erase_if(slices, [&](const Slice& slice) {
     try {
-      sum.add(read_pixels(slice), slice.path);
+      read(slice);
       return false;
     } catch (const Error& e) {
       left_out.emplace_back(e.what());
@@ -173,6 +165,29 @@ SliceSum exact_sum(std::vector<Slice>& slices, std::vector<std::string>& left_ou
     }
   });
   if (slices.empty()) throw Error(Failure::scene, left_out.front());
+}
+
+Image weighted_mean(std::vector<Slice>& slices, const MergeSettings& settings, std::vector<std::string>& left_out) {
+  const PixelBounds box = box_around(slices);
+  MergeSum sum(box, slices.front().header);
+  const auto add = [&](const Slice& slice) { sum.add(read_pixels(slice), slice.sources.front().samples); };
+  if (are_parts(slices)) {
+    leave_out_unreadable(slices, left_out, add);
+  } else {
+    std::for_each(slices.begin(), slices.end(), add);
+  }
+  if (!settings.fill_black) require_covered(slices, box);
+  Image image = sum.result();
+  image.display = slices.front().header.display;
+  image.chromaticities = slices.front().header.chromaticities;
+  merge_attributes(slices, image);
+  return image;
+}
+
+/// Of those that can be read as they were written.
+SliceSum exact_sum(std::vector<Slice>& slices, std::vector<std::string>& left_out) {
+  SliceSum sum(slices.front().header, slices.front().path);
+  leave_out_unreadable(slices, left_out, [&](const Slice& slice) { sum.add(read_pixels(slice), slice.path); });
   return sum;
 }
 
@@ -190,6 +205,28 @@ SliceTally tally_of(const std::vector<Slice>& slices) {
   return tally;
 }
 
+/// Of each render that some are slices of, in the order of the first ones.
+std::vector<SliceTally> tallies_of(const std::vector<Slice>& slices) {
+  std::vector<std::string> order;
+  std::map<std::string, std::vector<Slice>> renders;
+  for (const Slice& slice : slices) {
+    const auto render = render_of(slice.header, slice.part);
+    if (!render) continue;
+    std::vector<Slice>& parts = renders[*render];
+    if (parts.empty()) order.push_back(*render);
+    parts.push_back(slice);
+  }
+  std::vector<SliceTally> tallies;
+  for (const std::string& render : order) tallies.push_back(tally_of(renders[render]));
+  return tallies;
+}
+
+bool are_of_one_render(const std::vector<Slice>& slices) {
+  const auto first = render_of(slices.front().header, slices.front().part);
+  return first &&
+         std::all_of(slices.begin(), slices.end(), [&](const Slice& s) { return render_of(s.header, s.part) == first; });
+}
+
 /// Of what a flat image says of itself, what goes for a deep one: not what is said of channels that it has not.
 std::map<std::string, Attribute> attributes_in_depth(const Image& flat) {
   auto attributes = flat.attributes;
@@ -201,9 +238,9 @@ std::map<std::string, Attribute> attributes_in_depth(const Image& flat) {
 /// The picture of slices of one render.
 void add_up(std::vector<Slice>& slices, Merged& merged) {
   const SliceSum sum = exact_sum(slices, merged.left_out);
-  merged.slices = tally_of(slices);
+  merged.slices = {tally_of(slices)};
   merged.relmse = sum.estimated_relmse();
-  const bool whole = sum.samples() == merged.slices->total;
+  const bool whole = sum.samples() == merged.slices.front().total;
   merged.image = sum.image(!whole);
   if (whole) {
     merged.image.attributes = common_attributes(slices);
@@ -228,10 +265,9 @@ Merged merge_slices(const std::vector<std::string>& paths, const MergeSettings& 
   if (are_of_one_render(slices)) {
     add_up(slices, merged);
   } else {
-    if (!merged.left_out.empty()) throw Error(Failure::scene, merged.left_out.front());
-    merged.image = weighted_mean(slices, settings);
-    const auto has = [&](const char* channel) { return merged.image.find(channel) != nullptr; };
-    if (has("Variance.R") && has("Variance.G") && has("Variance.B")) merged.relmse = estimated_relmse(merged.image);
+    merged.image = weighted_mean(slices, settings, merged.left_out);
+    merged.slices = tallies_of(slices);
+    if (has_variances(merged.image)) merged.relmse = estimated_relmse(merged.image);
   }
   merged.images = slices.size();
   return merged;

@@ -1,6 +1,7 @@
 /// Joining renders of one scene: different seeds make one less noisy picture, different crops one larger picture.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,9 +29,11 @@ struct Merged {
   std::optional<DeepImage> deep;      ///< of slices that have what it takes
   std::size_t images = 0;             ///< that went in
   std::vector<std::string> left_out;  ///< slices that could not be read, with the reason
-  std::optional<SliceTally> slices;   ///< when they were slices of one render
+  std::vector<SliceTally> slices;     ///< of each render that some of them are slices of
   std::optional<double> relmse;       ///< estimated, as RenderJob does; nothing where Variance is not known
-  bool complete() const { return left_out.empty() && (!slices || slices->missing.empty()); }
+  bool complete() const {
+    return left_out.empty() && std::all_of(slices.begin(), slices.end(), [](const SliceTally& t) { return t.missing.empty(); });
+  }
 };
 
 /// Merge images that render or merge_slices made (.exr), weighted by their sample counts pixel by pixel, in doubles.
@@ -47,8 +50,8 @@ struct Merged {
 ///     Dof, degrees of freedom of that:    N^2 / sum (n_i^2 / dof_i), dof 1 of a plain render   [Satterthwaite 1946,
 ///         with variances in proportion to 1/n_i: from the counts alone, so that it is not correlated with the noise]
 /// Slices of one render (RenderSettings::slice) are added exactly: all of them give the image of the render that was not
-/// sliced, bit for bit, and what came of them, with Variance and SampleCount, that of a render of so many samples. Among slices
-/// a file that is missing or damaged is left out.
+/// sliced, bit for bit, and what came of them, with Variance and SampleCount, that of a render of so many samples. Where all
+/// files are slices, of whatever renders, one that is missing or damaged is left out.
 ///
 /// Attributes: tyndall/samples (an integer where all pixels have as many, else text "4..8"), tyndall/seed (all, listed),
 /// tyndall/slices (what went in: sources_text), tyndall/options (the distinct ones, " | " between), tyndall/renderTime

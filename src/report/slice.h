@@ -43,8 +43,8 @@ PixelBounds intersection(const PixelBounds& a, const PixelBounds& b);
 /// All channels but SampleCount and Dof, which slices may lack: merging adds them; and exact sums, which are of slices alone.
 bool is_shared_channel(const std::string& name);
 
-/// They are slices of one render, made alike: their sums can be added.
-bool are_of_one_render(const std::vector<Slice>& slices);
+/// What slices of one render, made alike, have in common, as text: their sums can be added. Nothing when it is no slice.
+std::optional<std::string> render_of(const Image& header, const std::optional<SliceInfo>& part);
 
 /// Throws Error (scene), naming the slices, for what cannot be merged: other scenes or frames, other channels, samples
 /// that would count twice, means whose counts are not known, variances of single samples.

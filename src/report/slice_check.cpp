@@ -36,6 +36,12 @@ void require_same_mix(const Slice& first, const Slice& slice) {
     fail(slice, "its light groups are mixed otherwise than in " + first.path + "; merge first, and relight what is merged");
 }
 
+/// What filtering has made of each is not what it would have made of all.
+void require_not_denoised(const Slice& slice) {
+  if (slice.header.attributes.contains("tyndall/denoised"))
+    fail(slice, "is denoised; merge what was rendered with --aov Denoise, and denoise what is merged");
+}
+
 /// An id is the hash of a name: of other names the sums would be of others.
 void require_same_names(const Slice& first, const Slice& slice) {
   for (const std::string_view layer : kMatteLayers) {
@@ -136,18 +142,15 @@ bool is_shared_channel(const std::string& name) {
   return name != "SampleCount" && !name.ends_with("SampleWeight") && !name.starts_with("Dof.") && !name.starts_with("Sum.");
 }
 
-bool are_of_one_render(const std::vector<Slice>& slices) {
-  const auto text = [](const Slice& slice, const char* name) -> std::string {
-    const auto* value = slice.header.attribute<std::string>(name);
-    return value ? *value : "";
-  };
-  const Slice& first = slices.front();
-  return std::all_of(slices.begin(), slices.end(), [&](const Slice& s) {
-    const auto same = [&](const char* name) { return text(s, name) == text(first, name); };
-    return s.part && first.part && s.part->choice.count == first.part->choice.count && s.part->total == first.part->total &&
-           s.part->timed == first.part->timed && s.header.data == first.header.data && same("tyndall/seed") &&
-           same("tyndall/options") && same("tyndall/aov") && same("software");
-  });
+std::optional<std::string> render_of(const Image& header, const std::optional<SliceInfo>& part) {
+  if (!part) return std::nullopt;
+  std::string render = std::to_string(part->choice.count) + " slices of " + std::to_string(part->total) + " samples" +
+                       (part->timed ? ", timed, " : ", ") + crop_text(header.data);
+  for (const char* name : {"tyndall/sceneHash", "tyndall/seed", "tyndall/options", "tyndall/aov", "software"}) {
+    const auto* text = header.attribute<std::string>(name);
+    render += "\n" + (text ? *text : std::string());
+  }
+  return render;
 }
 
 void require_mergeable(const std::vector<Slice>& slices) {
@@ -155,6 +158,7 @@ void require_mergeable(const std::vector<Slice>& slices) {
   for (const Slice& slice : slices) {
     require_same_scene(slices.front(), slice);
     require_same_mix(slices.front(), slice);
+    require_not_denoised(slice);
     require_same_channels(slices.front(), slice);
     require_same_names(slices.front(), slice);
     require_counts(slice);

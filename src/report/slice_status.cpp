@@ -53,6 +53,9 @@ class Survey {
     const Image header = read_exr_header(path.string());
     const auto info = slice_info(header, path.string());
     if (!info) return;
+    const auto render = render_of(header, info);
+    if (!render_) render_ = render;
+    if (render != render_) refuse(path, *info);
     const double* seconds = header.attribute<double>("tyndall/renderTime");
     note(*info, info->complete() ? SliceState::there : SliceState::lost, seconds ? *seconds : 0, path).path = path.string();
   }
@@ -63,15 +66,19 @@ class Survey {
     note(checkpoint->info, age_of(path) < lost_after_ ? SliceState::running : SliceState::lost, checkpoint->seconds, path);
   }
 
+  [[noreturn]] static void refuse(const fs::path& path, const SliceInfo& info) {
+    throw Error(Failure::scene, path.string() + ": is a slice of another render, " + std::to_string(info.choice.count) +
+                                    " of " + std::to_string(info.total) +
+                                    " samples and of a scene, seed and options of its own; keep it in a folder of its own");
+  }
+
   SliceStatus& note(const SliceInfo& info, SliceState state, double seconds, const fs::path& path) {
     if (status_.slices.empty()) {
       status_.slices.resize(static_cast<std::size_t>(info.choice.count));
       status_.total = info.total;
       status_.timed = info.timed;
     }
-    if (info.choice.count != static_cast<int>(status_.slices.size()) || info.total != status_.total)
-      throw Error(Failure::scene, path.string() + ": is a slice of another render, " + std::to_string(info.choice.count) +
-                                      " of " + std::to_string(info.total) + " samples; keep it in a folder of its own");
+    if (info.choice.count != static_cast<int>(status_.slices.size()) || info.total != status_.total) refuse(path, info);
     SliceStatus& slice = status_.slices[static_cast<std::size_t>(info.choice.index) - 1];
     const bool news = state > slice.state || (state == slice.state && info.range.count > slice.samples);
     slice.share = info.share().count;
@@ -84,6 +91,7 @@ class Survey {
   }
 
   double lost_after_;
+  std::optional<std::string> render_;  ///< of the first slice
   FolderStatus status_;
 };
 

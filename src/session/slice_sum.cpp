@@ -33,6 +33,12 @@ std::vector<std::string> groups_of(const Image& header) {
   return names ? split(*names) : std::vector<std::string>();
 }
 
+/// "": without a deep image.
+std::string deep_layout_of(const Image& header) {
+  const auto* text = header.attribute<std::string>(kDeepLayout);
+  return text ? *text : "";
+}
+
 std::optional<DeepLayout> deep_of(const Image& header, const std::string& path) {
   if (!header.attributes.contains(kDeepLayout)) return std::nullopt;
   const auto layout = DeepLayout::parse(text_attribute(header, path, kDeepLayout));
@@ -56,6 +62,7 @@ class SliceSum::Impl {
  public:
   Impl(const Image& header, const std::string& path)
       : asked_(split(text_attribute(header, path, kAovs))),
+        deep_layout_(deep_layout_of(header)),
         film_(film_of(header, path), header.data, {aovs_of(asked_, path), groups_of(header), deep_of(header, path)}) {}
 
   void add(const Image& slice, const std::string& path) {
@@ -64,6 +71,7 @@ class SliceSum::Impl {
     if (!film_.has_sums(slice) || hash_of_sums(slice) != text_attribute(slice, path, kSumHash))
       refuse_slice(path, "is damaged: its sums do not fit their checksum");
     film_.add_sums(slice);
+    same_depth_ = same_depth_ && deep_layout_of(slice) == deep_layout_;
     samples_ += info->range.count;
   }
 
@@ -77,14 +85,17 @@ class SliceSum::Impl {
     return image;
   }
 
-  std::optional<DeepImage> deep_image() const { return film_.deep_image(samples_); }
+  /// Sums in other bins, or of fewer slices, would be those of another picture.
+  std::optional<DeepImage> deep_image() const { return same_depth_ ? film_.deep_image(samples_) : std::nullopt; }
 
   int samples() const { return samples_; }
   double estimated_relmse() const { return film_.estimated_relmse(samples_); }
 
  private:
   std::vector<std::string> asked_;
+  std::string deep_layout_;
   FilmBuffer film_;
+  bool same_depth_ = true;
   int samples_ = 0;
 };
 

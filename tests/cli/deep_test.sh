@@ -42,6 +42,14 @@ expect 0 "$T" merge slices -o joined_flat.exr
 cmp whole_flat.exr joined_flat.exr || fail "without --deep three slices are not the whole"
 expect 0 "$T" render s.pbrt --spp 48 --slice 1/3 --deep slices/d1.exr -o slices/s1.exr --resume --reproducible
 says 'this slice is there already' err.txt
+# Slices of fewer depths, or of others, make no deep image.
+mkdir -p others && cp slices/s[12].exr others/
+for bins in '' '--deep others/d3.exr --deep-bins 4'; do
+  render s.pbrt --spp 48 --slice 3/3 $bins -o others/s3.exr
+  refused 2 '--deep is for slices that were rendered with --deep' merge others -o none/b.exr --deep none/a.exr
+  expect 0 "$T" merge others/s1.exr others/s2.exr others/s3.exr -o joined_flat.exr
+  rm others/*3.exr
+done
 broken_off broken_flat.exr s.pbrt --deep broken.exr
 more=$(($(samples_of broken_flat.exr) + 3))
 laid_flat broken.exr broken_flat.exr

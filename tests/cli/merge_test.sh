@@ -74,7 +74,8 @@ head -c 2000 slice2.exr >kept.exr
 expect 0 "$T" render s.pbrt "${parts[@]}" --reproducible --quiet --slice 2/4 --resume -o kept.exr
 expect 0 "$T" merge slice1.exr kept.exr slice3.exr slice4.exr -o joined.exr
 cmp whole.exr joined.exr || fail "a damaged slice was not rendered again"
-for other in '--slice 3/4' '--slice 2/4 --seed 1' '--slice 2/4 --max-depth 2' '--slice 2/4 --lights power'; do
+for other in '--slice 3/4' '--slice 2/4 --seed 1' '--slice 2/4 --max-depth 2' '--slice 2/4 --lights power' \
+  '--slice 2/4 --crop 0,40,0,12'; do
   cp slice2.exr kept.exr && touch -d 2001-01-01 kept.exr
   expect 0 "$T" render s.pbrt "${parts[@]}" --quiet $other --resume -o kept.exr
   [ "$(date -r kept.exr +%Y)" = 2001 ] && fail "taken for a slice with $other"
@@ -84,8 +85,24 @@ cp slice2.exr copy.exr
 expect 3 "$T" merge slice1.exr slice2.exr copy.exr -o no.exr
 says 'the same samples would count twice' err.txt
 render s.pbrt "${parts[@]}" --seed 1 --slice 1/4 -o seed1.exr
-expect 0 "$T" merge slice1.exr seed1.exr -o seeds.exr
+expect 7 "$T" merge slice1.exr seed1.exr -o seeds.exr
 says '64 samples a pixel, seed 0, 1' err.txt
+[ "$(grep -c '1 of 4 slices are there; missing or not complete: 2, 3, 4' err.txt)" = 2 ] ||
+  fail "what two renders lack is not said: $(cat err.txt)"
+# Of these as well a damaged one is left out.
+render s.pbrt "${parts[@]}" --seed 2 --slice 1/4 -o seed2.exr
+head -c $(($(wc -c <seed2.exr) / 2)) seed2.exr >cut.exr
+expect 7 "$T" merge slice1.exr seed1.exr slice2.exr cut.exr -o some.exr
+says 'left out: cut.exr: ' err.txt
+# The next seed is none that was rendered; names with quotes and what looks like an option stay what they are.
+render s.pbrt --spp 32 --seed 7 --slice 1/2 -o "my-o it's 1.exr"
+expect 7 "$T" merge "my-o it's 1.exr" -o half.exr --error 1e-9
+says "--seed 7 --slice 2/2 -o 'my-o it'\\''s 2.exr'" err.txt
+says "-o 'seed8-my-o it'\\''s 1.exr'" err.txt
+grep -E -- ' --seed 8$' err.txt >/dev/null || fail "no command of another seed: $(cat err.txt)"
+render s.pbrt --seed 5 --denoise --aov Denoise -o clean.exr
+expect 3 "$T" merge clean.exr -o no.exr
+says 'clean.exr: is denoised' err.txt
 # What cannot be sliced.
 for wrong in 0/4 5/4 1 a/b 1/4/2; do expect 2 "$T" render s.pbrt --spp 64 --slice $wrong -o no.exr; done
 expect 2 "$T" render s.pbrt --spp 16 --slice 1/4 -o no.exr

@@ -37,6 +37,10 @@ state 3 running '[0-9]+ of 250000'
 cp other/1.exr slices/1.exr
 expect 7 "$T" status slices
 says 'is a slice of another render' err.txt
+render --slice 2/4 --seed 1 -o other/2.exr
+mkdir -p seeds && cp other/1.exr other/2.exr seeds/
+expect 7 "$T" status seeds
+says '2.exr: is a slice of another render' err.txt
 # A damaged checkpoint is named, and the rest is told.
 head -c 5000 slices/3.exr.checkpoint >slices/cut && mv slices/cut slices/3.exr.checkpoint
 expect 7 "$T" status slices
