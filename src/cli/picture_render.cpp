@@ -12,6 +12,7 @@
 #include "cli/save.h"
 #include "cli/stop_signal.h"
 #include "session/image_header.h"
+#include "session/rendered_pixels.h"
 #include "session/scene_hash.h"
 #include "tyndall/cryptomatte.h"
 #include "tyndall/io.h"
@@ -69,7 +70,7 @@ PictureRender::PictureRender(const RenderOptions& options, Scene& scene, LivePag
   checkpoint_ = CheckpointFile(output_);
   if (options.keeps_checkpoints()) checkpoint_.tidy();
   check_outputs(options, scene, output_);
-  pixels_ = pixels_of(scene);
+  pixels_ = rendered_pixels(scene, settings_);
   memory_ = memory_for_render(options, scene);
   if (!options.reference.empty()) reference_ = read_reference(options.reference);
   if (page) page_.emplace(*page, denoiser_ ? &*denoiser_ : nullptr);
@@ -82,21 +83,26 @@ bool PictureRender::holds_all_channels(const Image& header) const {
                        [&](const Channel& c) { return c.name == name || c.name.starts_with(name + "."); }) ||
            has_mattes(header, name);
   };
-  return std::all_of(asked_aovs_.begin(), asked_aovs_.end(), holds) && (!options_.denoise || holds("noisy"));
+  return std::all_of(asked_aovs_.begin(), asked_aovs_.end(), holds) && options_.denoise == holds("noisy");
+}
+
+/// Whether the deep image stands beside it that was asked for.
+bool PictureRender::holds_deep(const Image& header) const {
+  if (options_.deep.empty()) return true;
+  std::error_code absent;
+  return fs::exists(options_.deep, absent) && is_deep_exr(options_.deep) && says(header, kDeepBins, *settings_.deep_bins);
 }
 
 bool PictureRender::is_finished(std::uint64_t scene_hash) const {
   std::error_code absent;
   if (settings_.slice || !fs::exists(output_, absent) || fs::exists(checkpoint_.path(), absent)) return false;
-  if (!options_.deep.empty() && !fs::exists(options_.deep, absent)) return false;
   try {
     const Image header = read_exr_header(output_);
     const bool open_end = settings_.time || settings_.error || settings_.error_max;  // it ended where these say
     return says(header, "tyndall/sceneHash", scene_hash_text(scene_hash, settings_)) &&
            says(header, "tyndall/seed", std::to_string(settings_.seed)) && says_options(header, settings_) &&
            !header.attributes.contains("tyndall/stopped") && (open_end || says(header, "tyndall/samples", settings_.spp)) &&
-           static_cast<std::uint64_t>(header.width()) * static_cast<std::uint64_t>(header.height()) == pixels_ &&
-           holds_all_channels(header);
+           says_end(header, settings_) && header.data == pixels_ && holds_all_channels(header) && holds_deep(header);
   } catch (const Error&) {
     return false;  // damaged, or no .exr: it is rendered anew
   }
@@ -116,9 +122,9 @@ World PictureRender::build(Scene scene, KeptFiles* kept) const {
 bool PictureRender::is_slice_there(const World& world) const {
   std::error_code absent;
   if (!options_.resume || !settings_.slice || !fs::exists(output_, absent)) return false;
-  if (!options_.deep.empty() && !fs::exists(options_.deep, absent)) return false;
   try {
-    return holds_slice(read_image(output_), world, settings_);
+    const Image image = read_image(output_);
+    return holds_deep(image) && holds_slice(image, world, settings_);
   } catch (const Error&) {
     return false;  // damaged: it is rendered anew
   }

@@ -45,13 +45,14 @@ class PictureRender {
   std::optional<DenoiseReport> denoise_finished(Rendering& rendering) const;
   void save(const Rendering& rendering) const;
   bool holds_all_channels(const Image& header) const;
+  bool holds_deep(const Image& header) const;
 
   const RenderOptions& options_;
   std::vector<std::string> asked_aovs_;
   std::optional<Denoiser> denoiser_;
   RenderSettings settings_;
   std::string output_;
-  std::uint64_t pixels_;
+  PixelBounds pixels_;
   std::size_t memory_;  ///< bytes, for the render
   CheckpointFile checkpoint_;
   std::optional<Reference> reference_;

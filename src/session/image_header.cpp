@@ -33,6 +33,22 @@ std::string options_text(const RenderSettings& settings) {
   return text;
 }
 
+std::string end_text(const RenderSettings& settings) {
+  std::string text;
+  const auto add = [&](const char* option, const std::optional<double>& value) {
+    if (value) text += (text.empty() ? "" : " ") + std::string(option) + " " + exact(*value);
+  };
+  add("--time", settings.time);
+  add("--error", settings.error);
+  add("--error-max", settings.error_max);
+  return text;
+}
+
+bool says_end(const Image& image, const RenderSettings& settings) {
+  const auto* text = image.attribute<std::string>(kEnd);
+  return (text ? *text : "") == end_text(settings);
+}
+
 std::string plan_text(const RenderSettings& settings) {
   std::string text = " --spp " + std::to_string(settings.spp);
   if (!settings.error_max) return text;
@@ -75,6 +91,8 @@ void write_header(Image& image, const World::Parts& world, const RenderSettings&
   }
   a["tyndall/seed"] = std::to_string(settings.seed);  // 64 bits do not fit an EXR integer
   a["tyndall/options"] = options_text(settings);
+  if (const std::string end = end_text(settings); !end.empty()) a[kEnd] = end;
+  if (settings.deep_bins) a[kDeepBins] = *settings.deep_bins;
   if (!world.built.light_groups.empty()) a[kLightGroups] = joined(world.built.light_groups.names());
   if (settings.reuse == ReuseStrategy::pixels) a["tyndall/sharing"] = static_cast<int>(kMostSharing);
   if (settings.reproducible) return;

@@ -13,6 +13,7 @@
 #include "session/pilot.h"
 #include "session/render_pass.h"
 #include "session/render_report.h"
+#include "session/rendered_pixels.h"
 #include "session/resolved_settings.h"
 #include "session/sample_plan.h"
 #include "session/scene_hash.h"
@@ -23,22 +24,6 @@
 #include "tyndall/timer.h"
 
 namespace tyndall {
-namespace {
-
-PixelBounds full_crop(const Scene& scene, const RenderSettings& settings) {
-  const PixelBounds frame = frame_of(scene.film);
-  const PixelBounds wanted = settings.crop.value_or(scene.film.crop);
-  const PixelBounds crop{std::max(wanted.x0, frame.x0), std::max(wanted.y0, frame.y0), std::min(wanted.x1, frame.x1),
-                         std::min(wanted.y1, frame.y1)};
-  if (crop.width() <= 0 || crop.height() <= 0) {
-    throw Error(Failure::usage, "the crop holds no pixel of the " + std::to_string(frame.x1) + "x" + std::to_string(frame.y1) +
-                                    " frame; give x0,x1,y0,y1 inside it");
-  }
-  return crop;
-}
-
-}  // namespace
-
 class RenderJob::Impl {
  public:
   Impl(const World::Parts& world, const RenderSettings& settings)
@@ -53,7 +38,7 @@ class RenderJob::Impl {
         first_sample_(sample_range(settings).first),
         mattes_(world.built, film_aovs(settings)),
         deep_(deep_layout(world, settings)),
-        film_(world.built.scene.film, full_crop(world.built.scene, settings),
+        film_(world.built.scene.film, rendered_pixels(world.built.scene, settings),
               {film_aovs(settings), world.built.light_groups.names(), deep_}),
         sample_context_{world,
                         selector_,

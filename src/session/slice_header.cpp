@@ -7,6 +7,7 @@
 #include "session/checkpoint.h"
 #include "session/image_header.h"
 #include "session/matte_layers.h"
+#include "session/rendered_pixels.h"
 #include "session/resolved_settings.h"
 #include "session/slice.h"
 #include "tyndall/error.h"
@@ -148,6 +149,7 @@ bool holds_slice(const Image& image, const World& world, const RenderSettings& s
   try {
     const auto info = slice_info(image, "the slice");
     return info && info->choice == settings.slice && info->total == settings.spp && info->complete() &&
+           image.data == rendered_pixels(world.parts().built.scene, settings) && says_end(image, settings) &&
            says("tyndall/sceneHash", world.scene_hash(settings)) &&
            says("tyndall/options", options_text(resolved(settings, world.parts()))) &&
            says("tyndall/seed", std::to_string(settings.seed)) && says(kAovs, aov_list(settings.aovs)) &&
