@@ -45,13 +45,16 @@ class SampleCounts {
   float samples_ = 0;
 };
 
+/// Squares, and sums of them, are floats.
+constexpr float kLargest = 1e15f;
+
 PaddedPlane plane_of(const Image& image, const std::function<float(std::size_t)>& value) {
   PaddedPlane plane(image.width(), image.height());
   std::size_t i = 0;
   for (int y = 0; y < image.height(); ++y) {
     for (int x = 0; x < image.width(); ++x, ++i) {
       const float v = value(i);
-      plane.at(x, y) = std::isfinite(v) ? v : 0.0f;
+      plane.at(x, y) = std::isfinite(v) ? std::clamp(v, -kLargest, kLargest) : 0.0f;
     }
   }
   plane.extend();
@@ -152,6 +155,8 @@ std::vector<Component> components_of(const Image& image, const std::string& name
   if (!SampleCounts(image).two_halves()) {
     throw Error(Failure::scene, name + ": has one sample a pixel, and with it no replicates; render two or more to denoise");
   }
+  if (image.attributes.contains("tyndall/slice"))
+    throw Error(Failure::scene, name + ": is a slice of a render; merge all slices first");
   const std::vector<Component>& parts = components_of_light();
   const bool split =
       std::all_of(parts.begin(), parts.end(), [&](const Component& c) { return has_halves(image, names(c.prefix, kRgb)); });

@@ -283,7 +283,9 @@ CompareResult compare(const World& world, const ComparePlan& plan, const Referen
   AllRuns all{std::vector<Runs>(shown.size()), std::vector<ErrorParts>(plan.variants.size(), ErrorParts(reference.image))};
   std::vector<Runs>& runs = all.runs;
   CompareResult result;
+  const auto left = [&] { return !entrants(runs, plan.filter.apply ? 2 : 1).empty(); };
   for (const std::uint64_t seed : plan.seeds) {
+    if (!left()) break;
     const auto done = static_cast<double>(result.seeds_done), planned = static_cast<double>(plan.seeds.size());
     const auto progress = [&](double fraction) {
       if (control.progress) control.progress((done + fraction) / planned);
@@ -312,7 +314,7 @@ CompareResult compare(const World& world, const ComparePlan& plan, const Referen
   if (result.variants.front().given_up) {
     result.warnings.push_back("no efficiencies, since the first variant, which they are relative to, was given up");
   }
-  if (result.seeds_done < plan.seeds.size()) {
+  if (result.seeds_done < plan.seeds.size() && left()) {
     result.warnings.push_back("stopped after " + std::to_string(result.seeds_done) + " of " +
                               std::to_string(plan.seeds.size()) + " seeds: the intervals are wider for it");
   }
