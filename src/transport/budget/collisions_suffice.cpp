@@ -1,6 +1,6 @@
 #include "transport/budget/collisions_suffice.h"
 
-#include <algorithm>
+#include <cmath>
 #include <span>
 
 #include "volume/coarse.h"
@@ -8,114 +8,66 @@
 namespace tyndall {
 namespace {
 
-/// Lights this many times as far from the middle of a span as its ends are.
-constexpr float kFarAway = 1.5f;
-/// Optical depths from which collisions suffice. Pairs cost more in media that are read than in those known in closed form
-/// (docs/measurements.md).
-constexpr float kDeep = 0.5f, kDeepUniform = 2;
-/// On later spans of this optical depth within the size of the lights' box, among lights as well. With less, collisions next to
-/// lights make fireflies in thinner smoke (docs/measurements.md).
-constexpr float kDeepLater = 8;
-constexpr int kReads = 4;
-/// Least distance of lights from all of a segment, in half lengths of it (docs/measurements.md).
-constexpr float kKeptDistance = 0.5f;
-/// After the first collision, where less of the picture depends on it; and the share of the optical depth above that suffices
-/// there (docs/measurements.md).
-constexpr float kKeptDistanceLater = 0.125f, kDeepShareLater = 0.5f;
-/// The segment is where the optical depth passed is between these.
-constexpr float kClear = 0.01f, kOpaque = 2;
-constexpr int kLooks = 8;  ///< reads in one part of it
+/// Light found at collisions alone, E[x^2] / E[x]^2, below which pairs of lights and distances are not worth their cost.
+constexpr float kMostVaried = 2.5f;
+/// Looks at the media of each part, and the transmittance beyond which there is nothing to see.
+constexpr int kLooks = 8;
+constexpr float kOpaque = 0.05f;
+constexpr int kReads = 4;  ///< of a segment's optical depth
 
-bool far_from(const Bounds3& lights, const Ray& ray, float t0, float t1) {
-  if (lights.empty()) return true;
-  const float half = 0.5f * (t1 - t0);
-  return half < kInfinity && distance_outside(lights, ray.at(t0 + half)) > kFarAway * half;
-}
-
-/// Whether the optical depth before `end` is more than that.
-template <typename Parts>
-bool deeper_than(float enough, const Ray& ray, const Parts& parts, float end = kInfinity) {
-  float depth = 0;
-  for (const Interval& part : parts) {
-    if (part.t0 >= end) break;
-    depth += coarse_optical_depth(part.view(), ray, part.t0, std::min(part.t1, end), kReads);
-    if (depth > enough) return true;
-  }
-  return false;
-}
-
-template <typename Parts>
-float enough_depth(const Parts& parts) {
-  return homogeneous_throughout(parts) ? kDeepUniform : kDeep;
-}
-template <typename Parts>
-bool deep(const Ray& ray, const Parts& parts) {
-  return deeper_than(enough_depth(parts), ray, parts);
-}
-
-/// Whether the media ahead are nearly opaque within the size of `lights`: emitters that matter are as near as the next
-/// collision.
-template <typename Parts>
-bool opaque_among(const Bounds3& lights, const Ray& ray, const Parts& parts) {
-  return !lights.empty() && deeper_than(kDeepLater, ray, parts, parts.front().t0 + length(lights.max - lights.min));
-}
-
-/// Where media scatter before they are opaque, read from the ray's origin on, and the distance to the nearest light there.
-class Approach {
+/// How light that is found at collisions alone varies: a path collides in look i with probability w_i, and finds E(t) =
+/// 1 / d(t)^2 there, d being the distance to the nearest light: E[x^2] / E[x]^2 = sum_i w_i <E^2>_i / (sum_i w_i <E>_i)^2.
+class FoundAtCollisions {
  public:
-  Approach(const LightDistances& lights, const Ray& ray, float kept_distance)
-      : lights_(lights), ray_(ray), kept_distance_(kept_distance) {}
+  FoundAtCollisions(const BuiltWorld& world, const Ray& ray)
+      : distances_(world.light_distances), lights_(world.lights.near_box()), ray_(ray) {}
 
-  /// False: a light is too near.
-  bool look_through(const Interval& part) {
+  void look_through(const Interval& part) {
     const auto extent = coarse_extent(part.view(), ray_, part.t0, part.t1);
-    if (!extent) return true;
+    if (!extent) return;
+    if (!(extent->second < kInfinity)) return look_beyond();
     const CoarseRay coarse(part.view(), ray_);
     const float step = (extent->second - extent->first) / kLooks;
-    for (int i = 0; i < kLooks && !opaque_; ++i) {
+    for (int i = 0; i < kLooks && passes_ > kOpaque && squares_ < kInfinity; ++i) {
       const float begin = extent->first + static_cast<float>(i) * step;
-      if (!look_at(begin, step, coarse.at(begin + 0.5f * step).sigma_t)) return false;
+      look_at(begin, step, coarse.at(begin + 0.5f * step).sigma_t);
     }
-    return true;
   }
-  bool deep(float enough) const { return opaque_ || depth_ > enough; }
+  float varied() const { return mean_ > 0 ? squares_ / (mean_ * mean_) : kInfinity; }
 
  private:
-  bool look_at(float begin, float length, float sigma_t) {
-    const float left = kOpaque - depth_;
-    opaque_ = sigma_t * length >= left;
-    if (opaque_) length = left / sigma_t;
-    depth_ += sigma_t * length;
-    if (!(depth_ > kClear) || !(sigma_t > 0)) return true;
-    begin_ = std::min(begin_, begin);
-    nearest_ = std::min(nearest_, lights_.distance(ray_.at(begin + 0.5f * length)));
-    return nearest_ > kept_distance_ * 0.5f * (begin + length - begin_);
+  /// Media without end: every path collides, anywhere.
+  void look_beyond() {
+    if (!lights_.empty()) squares_ = kInfinity;
+    add(passes_, 1, 1);
+    passes_ = 0;
   }
 
-  const LightDistances& lights_;
+  void look_at(float begin, float length, float sigma_t) {
+    if (!(sigma_t > 0)) return;
+    length = std::min(length, std::log(2 * passes_ / kOpaque) / sigma_t);
+    const float passes = passes_ * std::exp(-sigma_t * length), collides = passes_ - passes;
+    passes_ = passes;
+    const float d = distance(ray_.at(begin + 0.5f * length)), half = 0.5f * length;
+    if (d == kInfinity) return add(collides, 1, 1);
+    // Means of 1 / (d^2 + x^2) and its square over |x| < half: the light stands abreast of the middle.
+    const float mean = std::atan(half / d) / (half * d);
+    add(collides, mean, 0.5f * (1 / (d * d + half * half) + mean) / (d * d));
+  }
+
+  /// To the nearest light that is not at infinity; where media have no bounds, to the box of all.
+  float distance(Vec3 p) const {
+    if (lights_.empty()) return kInfinity;
+    return distances_.empty() ? distance_outside(lights_, p) : distances_.distance(p);
+  }
+
+  void add(float collides, float mean, float squares) { mean_ += collides * mean, squares_ += collides * squares; }
+
+  const LightDistances& distances_;
+  const Bounds3& lights_;
   const Ray& ray_;
-  float kept_distance_;
-  float depth_ = 0, begin_ = kInfinity, nearest_ = kInfinity;
-  bool opaque_ = false;
+  float passes_ = 1, mean_ = 0, squares_ = 0;
 };
-
-template <typename Parts>
-bool lights_keep_distance(const LightContext& context, const Ray& ray, const Parts& parts) {
-  if (context.world.light_distances.empty() || !(parts.back().t1 < kInfinity)) return false;
-  const bool later = context.bounce > 0;
-  Approach approach(context.world.light_distances, ray, later ? kKeptDistanceLater : kKeptDistance);
-  for (const Interval& part : parts) {
-    if (!approach.look_through(part)) return false;
-  }
-  return approach.deep(enough_depth(parts) * (later ? kDeepShareLater : 1));
-}
-
-/// A few reads may pass by what is dense on later spans through a grid. Pairs then draw their distances elsewhere, and make
-/// fireflies (docs/measurements.md).
-template <typename Parts>
-bool may_be_missed(const LightContext& context, const Parts& parts) {
-  return context.bounce > 0 && !homogeneous_throughout(parts);
-}
 
 template <typename Parts>
 bool suffice(const LightContext& context, const Ray& ray, const Parts& parts) {
@@ -123,10 +75,10 @@ bool suffice(const LightContext& context, const Ray& ray, const Parts& parts) {
   const bool by_default = settings.media == MediaStrategy::product && settings.distance == DistanceStrategy::automatic;
   if (!by_default || seeks_volume_lights(context)) return false;
   if (is_single_scattering(context)) return false;  // it draws many pairs
-  const Bounds3& lights = context.world.lights.near_box();
-  if (context.bounce > 0 && opaque_among(lights, ray, parts)) return true;
-  if (far_from(lights, ray, parts.front().t0, parts.back().t1)) return may_be_missed(context, parts) || deep(ray, parts);
-  return lights_keep_distance(context, ray, parts);
+  if (context.bounce > 0 && !homogeneous_throughout(parts)) return true;
+  FoundAtCollisions found(context.world, ray);
+  for (const Interval& part : parts) found.look_through(part);
+  return found.varied() < kMostVaried;
 }
 
 }  // namespace
@@ -137,6 +89,9 @@ bool collisions_suffice(const LightContext& context, const Ray& ray, const Inter
   return suffice(context, ray, std::span(&inside, 1));
 }
 
-bool is_deep(const Ray& ray, const Interval& inside) { return deep(ray, std::span(&inside, 1)); }
+bool is_deep(const Ray& ray, const Interval& inside) {
+  const float depth = coarse_optical_depth(inside.view(), ray, inside.t0, inside.t1, kReads);
+  return -std::expm1(-depth) * kMostVaried > 1;
+}
 
 }  // namespace tyndall
