@@ -16,6 +16,7 @@
 #include "cli/render_options.h"
 #include "cli/validators.h"
 #include "farm/farm_job.h"
+#include "report/shell_quote.h"
 #include "session/memory_plan.h"
 #include "tyndall/frames.h"
 #include "tyndall/io.h"
@@ -212,8 +213,8 @@ int run_farm(const FarmOptions& options, const CLI::App& command) {
   if (trial) log_text(as_text(*trial, settings, options.slices));
   if (options.submit) start(files.start);
   if (!options.print)
-    print("start it:  {}\nlook:      tyndall status {}/slices{}\n", files.start, job.folder,
-          job.steps.front().frames.empty() ? "" : "/FRAME");
+    print("start it:  {}\nlook:      tyndall status {}\n", files.start,
+          shell_quoted(job.folder + "/slices" + (job.steps.front().frames.empty() ? "" : "/FRAME")));
   return 0;
 }
 

@@ -27,7 +27,7 @@ class CommandWords {
   std::string str() const;
 
  private:
-  /// Of the option that begins with a word; null: none of them does.
+  /// The option that begins at a word.
   struct Found;
   std::optional<Found> find(std::size_t word, const Names& option) const;
 
