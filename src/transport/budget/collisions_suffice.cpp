@@ -1,5 +1,6 @@
 #include "transport/budget/collisions_suffice.h"
 
+#include <algorithm>
 #include <cmath>
 #include <span>
 
@@ -69,13 +70,22 @@ class FoundAtCollisions {
   float passes_ = 1, mean_ = 0, squares_ = 0;
 };
 
+/// Whether nothing of the media is known in closed form.
+template <typename Parts>
+bool read_throughout(const Parts& parts) {
+  return std::none_of(parts.begin(), parts.end(), [](const Interval& part) {
+    const MediaView media = part.view();
+    return std::any_of(media.begin(), media.end(), [](const ParticipatingMedium* m) { return m->homogeneous(); });
+  });
+}
+
 template <typename Parts>
 bool suffice(const LightContext& context, const Ray& ray, const Parts& parts) {
   const RenderSettings& settings = context.settings;
   const bool by_default = settings.media == MediaStrategy::product && settings.distance == DistanceStrategy::automatic;
   if (!by_default || seeks_volume_lights(context)) return false;
   if (is_single_scattering(context)) return false;  // it draws many pairs
-  if (context.bounce > 0 && !homogeneous_throughout(parts)) return true;
+  if (context.bounce > 0 && read_throughout(parts)) return true;
   FoundAtCollisions found(context.world, ray);
   for (const Interval& part : parts) found.look_through(part);
   return found.varied() < kMostVaried;

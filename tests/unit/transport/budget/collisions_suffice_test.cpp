@@ -36,7 +36,19 @@ class Asked {
     return suffice_in(test::grid({8, -9, 9}, {{}, Rgb(sigma_s * unit), 0}, half_empty), 2, by_default(), bounce);
   }
 
+  /// In a grid of hardly anything, in fog.
+  bool suffice_in_both(float sigma_s, int bounce) {
+    const float unit = world_.parts().unit;
+    const auto even = [](int) { return 1.0f; };
+    const ParticipatingMedium grid = test::grid({8, -9, 9}, {{}, Rgb(1e-3f * unit), 0}, even), around = fog(sigma_s * unit);
+    return suffice_in({&grid, &around}, 2, by_default(), bounce);
+  }
+
   bool suffice_in(const ParticipatingMedium& medium, float length, const RenderSettings& settings, int bounce) {
+    return suffice_in({&medium}, length, settings, bounce);
+  }
+  bool suffice_in(const std::vector<const ParticipatingMedium*>& media, float length, const RenderSettings& settings,
+                  int bounce) {
     const float unit = world_.parts().unit;
     Span span;
     span.ray = {world_.parts().to_user.inverse().point({0, 0, -1}), {0, 0, 1}};
@@ -45,7 +57,7 @@ class Asked {
       SpanPart& part = span.parts.emplace_back();
       part.t0 = t0 / unit;
       part.t1 = t1 / unit;
-      part.media.push_back(&medium);
+      for (const ParticipatingMedium* medium : media) part.media.push_back(medium);
     }
     return collisions_suffice(context(settings, bounce), span);
   }
@@ -125,6 +137,15 @@ TEST_CASE("collisions suffice on later segments through grids, however thin") {
   CHECK(Asked(kSun).suffice_in_grid(0.01f, 1));
   CHECK_FALSE(Asked(kSun).suffice_in_grid(0.01f, 0));
   CHECK(Asked("LightSource \"point\" \"point3 from\" [0.05 0 0]\n").suffice_in_grid(0.01f, 1));
+}
+
+TEST_CASE("where fog is in the grid as well, later segments are asked like any other") {
+  Asked near("LightSource \"point\" \"point3 from\" [0.05 0 0]\n");
+  for (const int bounce : {0, 1}) {
+    CHECK_FALSE(near.suffice_in_both(0.2f, bounce));
+    CHECK(Asked(kSun).suffice_in_both(2, bounce));
+    CHECK_FALSE(Asked(kSun).suffice_in_both(0.1f, bounce));
+  }
 }
 
 TEST_CASE("a segment without end is near every light but those at infinity") {
