@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "transport/budget/faint_chance.h"
+
 namespace tyndall {
 namespace {
 
@@ -15,11 +17,6 @@ constexpr LightCounts kSecondSpan{3, 2};
 /// Spans that scatter less than this share of the light take one candidate.
 constexpr float kThin = 1e-3f;
 constexpr LightCounts kThinSpan{1, 1};
-/// Except in single scattering, spans that scatter less than this sample lights with a lower probability: around smoke many
-/// rays pass next to nothing (docs/measurements.md).
-constexpr float kFaint = 0.1f;
-/// What is scattered is known coarsely: what was underestimated must still be sampled, with a bounded weight.
-constexpr float kLeastChance = 1 / 16.0f;
 
 LightCounts chosen(const RenderSettings& settings, LightCounts unless_set) {
   return {settings.candidates.value_or(unless_set.candidates), settings.shadow_rays.value_or(unless_set.shadow_rays)};
@@ -89,7 +86,7 @@ LightCounts counts_at_vertex(const LightContext& context, const LightSelector& a
 SpanCounts counts_along_span(const LightContext& context, const LightSelector& among, float scattered) {
   if (among.sizes_cut()) return SpanCounts{chosen(context.settings, kNoLimits)};
   SpanCounts counts{scattered < kThin ? kThinSpan : limited(context, counts_along_bounce(context))};
-  if (scattered < kFaint && !is_single_scattering(context)) counts.chance = std::max(scattered / kFaint, kLeastChance);
+  if (!is_single_scattering(context)) counts.chance = faint_chance(scattered);  // around smoke many rays pass next to nothing
   return chosen(context.settings, counts);
 }
 

@@ -2,17 +2,13 @@
 
 #include <algorithm>
 
+#include "transport/budget/faint_chance.h"
 #include "volume/coarse.h"
 
 namespace tyndall {
 namespace {
 
-/// Of light that comes through less of the media around a vertex than this, rays are traced with a lower probability: it hardly
-/// shows, and what is dark is dear to march through (docs/measurements.md).
-constexpr float kFaint = 0.1f;
-/// Media are known coarsely: what gets through more than expected must still be found, with a bounded weight.
-constexpr float kLeastChance = 1 / 16.0f;
-constexpr float kDeepest = 8;  ///< beyond the optical depth at which that is reached, 7.1
+constexpr float kDeepest = 8;  ///< beyond the optical depth at which the least faint_chance is reached, 7.1
 
 /// (1 + depth/8)^-8: with a longer tail than e^-depth, as the depth is a guess.
 float guessed_transmittance(float depth) {
@@ -31,7 +27,7 @@ float chance_of_tracing(const LightContext& context, const MediaState& media, co
   const float clearest = clearest_channel(there);
   if (!(clearest > 0)) return 1;
   const float depth = clearest * nearby_optical_depth(there, ray, end, kDeepest / clearest);
-  return std::min(1.0f, std::max(kLeastChance, guessed_transmittance(depth) / kFaint));
+  return faint_chance(guessed_transmittance(depth));
 }
 
 /// How many of the groups that hold a point bring the medium whose emission the light is.

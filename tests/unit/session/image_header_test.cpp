@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -23,6 +24,27 @@ TEST_CASE("the text of the options is as typed, and tells the nearest of setting
     b.splitting = std::nextafter(splitting, 1.0f);
     CHECK(options_text(a) != options_text(b));
   }
+}
+
+TEST_CASE("an image tells what it was to end by") {
+  const World world = build(read_scene_text("Film \"rgb\" \"integer xresolution\" 8 \"integer yresolution\" 8 Camera "
+                                            "\"perspective\" WorldBegin LightSource \"point\" Shape \"sphere\"",
+                                            "a.pbrt", ".")
+                                .scene,
+                            {});
+  const auto rendered = [&](const RenderSettings& s) { return render(world, s).image; };
+  RenderSettings plain, timed, better, both;
+  plain.spp = timed.spp = better.spp = both.spp = 2;
+  timed.time = both.time = 1000;
+  better.error = 0.5;
+  both.error_max = 0.25;
+  const std::array all{plain, timed, better, both};
+  for (const RenderSettings& s : all) {
+    const Image image = rendered(s);
+    for (const RenderSettings& other : all) CHECK(says_end(image, other) == (&s == &other));
+  }
+  CHECK_FALSE(rendered(plain).attributes.contains(kEnd));
+  CHECK(std::get<std::string>(rendered(both).attributes.at(kEnd)) == "--time 1000 --error-max 0.25");
 }
 
 TEST_CASE("no matrix takes the world to the frame of a spherical or a realistic camera") {

@@ -48,6 +48,17 @@ TEST_CASE("what options leave open and can make a difference is open") {
   CHECK(open_in(world(cloud(1)), {}).emission);
 }
 
+TEST_CASE("paths have so many bounces at most") {
+  const World smoke = world(cloud());
+  RenderSettings settings;
+  settings.max_depth = kMostBounces;
+  CHECK_NOTHROW(resolved(settings, smoke.parts()));
+  for (const int depth : {-1, kMostBounces + 1}) {
+    settings.max_depth = depth;
+    CHECK_THROWS_AS(resolved(settings, smoke.parts()), Error);
+  }
+}
+
 TEST_CASE("what options say is not open") {
   const World smoke = world(test::distant_light({0.2f, 0.1f, 1}, 3) + cloud());
   const World burning = world(cloud(1));
