@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "cli/checkpoint_file.h"
+#include "session/rendered_pixels.h"
 #include "tyndall/cryptomatte.h"
 #include "tyndall/error.h"
 #include "tyndall/io.h"
@@ -57,8 +58,8 @@ void require(const std::string& path, const std::string& what, std::uint64_t byt
 }  // namespace
 
 std::uint64_t pixels_of(const Scene& scene) {
-  const PixelBounds& crop = scene.settings.crop.value_or(scene.film.crop);
-  return static_cast<std::uint64_t>(std::max(crop.width(), 0)) * static_cast<std::uint64_t>(std::max(crop.height(), 0));
+  const PixelBounds crop = rendered_pixels(scene, scene.settings);
+  return static_cast<std::uint64_t>(crop.width()) * static_cast<std::uint64_t>(crop.height());
 }
 
 void require_room(const std::string& output, const Scene& scene, bool checkpoints) {

@@ -169,14 +169,15 @@ void leave_out_unreadable(std::vector<Slice>& slices, std::vector<std::string>& 
 
 Image weighted_mean(std::vector<Slice>& slices, const MergeSettings& settings, std::vector<std::string>& left_out) {
   const PixelBounds box = box_around(slices);
+  if (!settings.fill_black) require_covered(slices, box);
   MergeSum sum(box, slices.front().header);
   const auto add = [&](const Slice& slice) { sum.add(read_pixels(slice), slice.sources.front().samples); };
   if (are_parts(slices)) {
     leave_out_unreadable(slices, left_out, add);
+    if (!settings.fill_black) require_covered(slices, box);
   } else {
     std::for_each(slices.begin(), slices.end(), add);
   }
-  if (!settings.fill_black) require_covered(slices, box);
   Image image = sum.result();
   image.display = slices.front().header.display;
   image.chromaticities = slices.front().header.chromaticities;

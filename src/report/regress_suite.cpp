@@ -70,7 +70,7 @@ std::vector<std::string> option_list(const nlohmann::json& value) {
   for (const std::string& option : list) {
     const std::string name = option.substr(0, option.find('='));
     if (std::find(kTaken.begin(), kTaken.end(), name) != kTaken.end()) {
-      throw Error(Failure::scene, "holds " + name + ", which regress sets itself; take it out");
+      throw Error(Failure::scene, "holds " + name + ", which regress sets itself or cannot test; take it out");
     }
   }
   return list;

@@ -34,7 +34,8 @@ class FoundAtCollisions {
       look_at(begin, step, coarse.at(begin + 0.5f * step).sigma_t);
     }
   }
-  float varied() const { return mean_ > 0 ? squares_ / (mean_ * mean_) : kInfinity; }
+  /// Without bound where a light holds the middle of a look, and where no path collides.
+  float varied() const { return mean_ > 0 && squares_ < kInfinity ? squares_ / (mean_ * mean_) : kInfinity; }
 
  private:
   /// Media without end: every path collides, anywhere.
@@ -46,7 +47,7 @@ class FoundAtCollisions {
 
   void look_at(float begin, float length, float sigma_t) {
     if (!(sigma_t > 0)) return;
-    length = std::min(length, std::log(2 * passes_ / kOpaque) / sigma_t);
+    length = std::min(length, std::log(2 * passes_ / kOpaque) / sigma_t);  // as far as kOpaque / 2 pass: it is the last one
     const float passes = passes_ * std::exp(-sigma_t * length), collides = passes_ - passes;
     passes_ = passes;
     const float d = distance(ray_.at(begin + 0.5f * length)), half = 0.5f * length;
