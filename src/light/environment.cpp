@@ -52,14 +52,11 @@ void Environment::load(const InfiniteLight& light, const Location& where, KeptFi
 
   std::array<double, 3> sum{};
   double upward = 0;
-  for (std::uint32_t y = 0; y < static_cast<std::uint32_t>(image_->height()); ++y)
-    for (std::uint32_t x = 0; x < static_cast<std::uint32_t>(image_->width()); ++x) {
-      const Rgb c = image_->texel(static_cast<int>(x), static_cast<int>(y));
-      const double omega = texel_solid_angle(y);
-      for (int i = 0; i < 3; ++i) sum[static_cast<std::size_t>(i)] += c[i] * omega;
-      const Vec3 w = direction({(x + 0.5f) / image_->width(), (y + 0.5f) / image_->height()});
-      upward += luminance(c) * std::max(w.z, 0.0f) * omega;
-    }
+  for_each_texel(1, [&](Texel t, Vec3 w, double omega) {
+    const Rgb c = texel(t);
+    for (int i = 0; i < 3; ++i) sum[static_cast<std::size_t>(i)] += c[i] * omega;
+    upward += luminance(c) * std::max(w.z, 0.0f) * omega;
+  });
   if (light.illuminance) {
     // pbrt-v4 measures a map's illuminance as half of what it is, and we scale like it: its picture is the reference.
     if (!(upward > 0))
@@ -69,36 +66,29 @@ void Environment::load(const InfiniteLight& light, const Location& where, KeptFi
   }
   mean_ = L_ * Rgb(static_cast<float>(sum[0] / kFullSphere), static_cast<float>(sum[1] / kFullSphere),
                    static_cast<float>(sum[2] / kFullSphere));
-  build_distributions();
+  build_distribution();
 }
 
-float Environment::weight(std::uint32_t x, std::uint32_t y) const {
-  return luminance(absolute(image_->texel(static_cast<int>(x), static_cast<int>(y))));
-}
+float Environment::weight(std::uint32_t x, std::uint32_t y) const { return luminance(absolute(texel({x, y}))); }
 
-void Environment::build_distributions() {
+float Environment::excess(std::uint32_t x, std::uint32_t y) const { return std::max(weight(x, y) - mean_weight_, 0.0f); }
+
+void Environment::build_distribution() {
   const auto width = static_cast<std::uint32_t>(image_->width()), height = static_cast<std::uint32_t>(image_->height());
-  std::vector<float> weights;
-  weights.reserve(std::size_t(width) * height);
   double sum = 0;
   for (std::uint32_t y = 0; y < height; ++y) {
     const double omega = texel_solid_angle(y);
-    for (std::uint32_t x = 0; x < width; ++x) {
-      weights.push_back(static_cast<float>(weight(x, y) * omega * width * height));
-      sum += weight(x, y) * omega;
-    }
+    for (std::uint32_t x = 0; x < width; ++x) sum += weight(x, y) * omega;
   }
-  full_ = PiecewiseConstant2D(image_->width(), image_->height(), weights);
-
   mean_weight_ = static_cast<float>(sum / kFullSphere);
-  std::size_t i = 0;
-  for (std::uint32_t y = 0; y < height; ++y)
-    for (std::uint32_t x = 0; x < width; ++x, ++i) {
-      const double excess = std::max(weight(x, y) - mean_weight_, 0.0f);
-      weights[i] = static_cast<float>(excess * texel_solid_angle(y) * width * height);
-    }
-  compensated_ = PiecewiseConstant2D(image_->width(), image_->height(), weights);
-  has_excess_ = compensated_.total() > 1e-6 * full_.total();
+  std::vector<float> weights;
+  weights.reserve(std::size_t(width) * height);
+  for (std::uint32_t y = 0; y < height; ++y) {
+    const double omega = texel_solid_angle(y);
+    for (std::uint32_t x = 0; x < width; ++x) weights.push_back(static_cast<float>(excess(x, y) * omega * width * height));
+  }
+  excess_ = PiecewiseConstant2D(image_->width(), image_->height(), weights);
+  has_excess_ = excess_.total() > 1e-6 * sum * width * height;
 }
 
 double Environment::cos_row(std::uint32_t y) const { return std::cos(std::numbers::pi * y / image_->height()); }
@@ -113,11 +103,19 @@ double Environment::texel_solid_angle(std::uint32_t y) const {
 
 Vec3 Environment::direction(Vec2 st) const {
   if (layout_ == Layout::equal_area) return equal_area_square_to_sphere(st);
-  const std::uint32_t y = texel_of(st).y;
-  const double within = std::clamp(static_cast<double>(st.y) * image_->height() - y, 0.0, 1.0);
+  return toward(meridian(st.x), parallel(st.y));
+}
+
+Environment::Meridian Environment::meridian(float s) {
+  const double phi = 2 * std::numbers::pi * s;
+  return {std::cos(phi), std::sin(phi)};
+}
+
+Environment::Parallel Environment::parallel(float t) const {
+  const std::uint32_t y = texel_of({0, t}).y;
+  const double within = std::clamp(static_cast<double>(t) * image_->height() - y, 0.0, 1.0);
   const double z = cos_row(y) + within * (cos_row(y + 1) - cos_row(y));
-  const double sine = std::sqrt(std::max(0.0, (1 - z) * (1 + z))), phi = 2 * std::numbers::pi * st.x;
-  return to_vec3(Vec3d(sine * std::cos(phi), sine * std::sin(phi), z));
+  return {std::sqrt(std::max(0.0, (1 - z) * (1 + z))), z};
 }
 
 Vec2 Environment::square(Vec3 w) const {
@@ -164,28 +162,20 @@ Rgb Environment::interpolated(Vec3 w) const {
                (texel(left, above + 1) * (1 - s) + texel(left + 1, above + 1) * s) * t);
 }
 
-std::optional<Environment::Sample> Environment::sample(Vec2 u, bool mis_partner) const {
-  if (layout_ == Layout::constant) {
-    if (mis_partner) return std::nullopt;
-    const Vec3 w = square_to_uniform_sphere(u);
-    return Sample{w, uniform_sphere_pdf(w), L_};
-  }
-  if (mis_partner && !has_excess_) return std::nullopt;
-  const auto drawn = (mis_partner ? compensated_ : full_).sample(u);
+std::optional<Environment::Sample> Environment::sample(Vec2 u) const {
+  if (!has_excess_) return std::nullopt;
   // Density and radiance are those of the direction as rounded, which every other caller will see.
-  const Vec3 wi = to_world(direction(drawn.p));
-  const Sample sample{wi, pdf(wi, mis_partner), radiance(wi)};
+  const Vec3 wi = to_world(direction(excess_.sample(u).p));
+  const Sample sample{wi, pdf(wi), radiance(wi)};
   if (!(sample.pdf > 0)) return std::nullopt;
   return sample;
 }
 
-float Environment::pdf(Vec3 w, bool mis_partner) const {
-  if (layout_ == Layout::constant) return mis_partner ? 0 : uniform_sphere_pdf(w);
-  if (mis_partner && !has_excess_) return 0;
+float Environment::pdf(Vec3 w) const {
+  if (!has_excess_) return 0;
   const Texel t = texel_of(square(normalize(to_light(w))));
   const Vec2 center{(t.x + 0.5f) / image_->width(), (t.y + 0.5f) / image_->height()};
-  const double per_texel = static_cast<double>((mis_partner ? compensated_ : full_).pdf(center)) /
-                           (static_cast<double>(image_->width()) * image_->height());
+  const double per_texel = static_cast<double>(excess_.pdf(center)) / (static_cast<double>(image_->width()) * image_->height());
   return static_cast<float>(per_texel / texel_solid_angle(t.y) * stretch(w));
 }
 
@@ -193,7 +183,7 @@ std::vector<FarCone> Environment::cones() const {
   const double octant_angle = std::acos(1 / std::sqrt(3.0));
   std::vector<FarCone> cones(8);
   std::array<Vec3d, 8> mean;
-  std::array<double, 8> fluence{}, partner{};
+  std::array<double, 8> fluence{}, sampled{};
   double reach = 0;  // how far a texel may stick out of the octant that its centre is in
   if (layout_ == Layout::constant) {
     for (auto& f : fluence) f = strength(L_) * kFullSphere / 8;
@@ -202,35 +192,29 @@ std::vector<FarCone> Environment::cones() const {
   } else {
     // Small maps are cut finer, so that each piece falls into one octant, roughly.
     const int pieces = std::max(1, 64 / image_->height());
-    const float fine = 1.0f / static_cast<float>(pieces);
     reach = 2 * std::sqrt(kFullSphere) / (image_->height() * pieces);
-    for (int y = 0; y < image_->height() * pieces; ++y)
-      for (int x = 0; x < image_->width() * pieces; ++x) {
-        const Vec2 st{(x + 0.5f) * fine / image_->width(), (y + 0.5f) * fine / image_->height()};
-        const Texel t = texel_of(st);
-        const Vec3 w = to_world(direction(st));
-        const double omega = texel_solid_angle(t.y) / (double(pieces) * pieces) / stretch(w);
-        const Rgb L = L_ * image_->texel(static_cast<int>(t.x), static_cast<int>(t.y));
-        const double value = strength(L) * omega;
-        const double excess = std::max(weight(t.x, t.y) - mean_weight_, 0.0f);
-        const std::size_t octant = (w.x > 0 ? 1u : 0u) | (w.y > 0 ? 2u : 0u) | (w.z > 0 ? 4u : 0u);
-        fluence[octant] += value;
-        if (has_excess_ && excess > 0) partner[octant] += value * excess / weight(t.x, t.y);
-        mean[octant] = mean[octant] + Vec3d(w) * value;
-      }
+    for_each_texel(pieces, [&](Texel t, Vec3 toward, double part) {
+      const Vec3 w = to_world(toward);
+      const double value = strength(L_ * texel(t)) * (part / stretch(w));
+      const double above = has_excess_ ? excess(t.x, t.y) : 0;
+      const std::size_t octant = (w.x > 0 ? 1u : 0u) | (w.y > 0 ? 2u : 0u) | (w.z > 0 ? 4u : 0u);
+      fluence[octant] += value;
+      if (above > 0) sampled[octant] += value * above / weight(t.x, t.y);
+      mean[octant] = mean[octant] + Vec3d(w) * value;
+    });
   }
   for (std::size_t i = 0; i < 8; ++i) {
     const Vec3d axis = normalize(Vec3d(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1));
     const auto theta = static_cast<float>(std::min(octant_angle + reach + 1e-5, std::numbers::pi));
     cones[i] = {DirectionCone::around(to_vec3(axis), theta), fluence[i] > 0 ? to_vec3(mean[i] / fluence[i]) : Vec3{},
-                static_cast<float>(fluence[i]), static_cast<float>(partner[i])};
+                static_cast<float>(fluence[i]), static_cast<float>(sampled[i])};
   }
   return cones;
 }
 
 std::size_t Environment::memory_bytes() const {
   return static_cast<std::size_t>(image_->width()) * static_cast<std::size_t>(image_->height()) * sizeof(Rgb) +
-         full_.memory_bytes() + compensated_.memory_bytes();
+         excess_.memory_bytes();
 }
 
 }  // namespace tyndall

@@ -32,13 +32,13 @@ class Environment {
     float pdf;  ///< 1/sr
     Rgb L;
   };
-  /// In proportion to luminance. With an MIS partner in proportion to what exceeds the mean luminance
-  /// [Karlik et al. 2019]: nothing for a constant environment.
-  std::optional<Sample> sample(Vec2 u, bool mis_partner) const;
-  float pdf(Vec3 w, bool mis_partner) const;  ///< 1/sr
+  /// In proportion to what exceeds the mean luminance, since scattered rays, weighted by MIS, find the rest [Karlik et al.
+  /// 2019]: nothing for a constant environment.
+  std::optional<Sample> sample(Vec2 u) const;
+  float pdf(Vec3 w) const;  ///< 1/sr
 
   Rgb mean_radiance() const { return mean_; }  ///< over all directions
-  bool even() const { return !has_excess_; }   ///< nothing exceeds the mean: sample() with an MIS partner gives nothing
+  bool even() const { return !has_excess_; }   ///< nothing exceeds the mean: sample() gives nothing
   std::vector<FarCone> cones() const;          ///< one an octant
   std::optional<FarCone> peak() const;         ///< the sun of a map: narrow, with a good part of all its light
   std::size_t memory_bytes() const;
@@ -50,12 +50,27 @@ class Environment {
   };
 
   void load(const InfiniteLight& light, const Location& where, KeptFiles* kept);
-  void build_distributions();
+  void build_distribution();
+  Rgb texel(Texel t) const { return image_->texel(static_cast<int>(t.x), static_cast<int>(t.y)); }
   float weight(std::uint32_t x, std::uint32_t y) const;  ///< luminance of a texel
+  float excess(std::uint32_t x, std::uint32_t y) const;  ///< over the mean, at least 0
   double texel_solid_angle(std::uint32_t y) const;
   double cos_row(std::uint32_t y) const;  ///< cosine at the upper edge of a latitude-longitude row
   Vec3 direction(Vec2 st) const;          ///< in light space; st.y linear in the cosine within a row
-  Vec2 square(Vec3 w) const;              ///< st of a direction in light space, up to where it lies within its texel
+  /// Of a latitude-longitude map: what all directions of a column have in common, and all of a row.
+  struct Meridian {
+    double cos, sin;
+  };
+  struct Parallel {
+    double sine, z;
+  };
+  static Meridian meridian(float s);
+  Parallel parallel(float t) const;
+  static Vec3 toward(const Meridian& m, const Parallel& p) { return to_vec3({p.sine * m.cos, p.sine * m.sin, p.z}); }
+  /// body(texel, a direction in light space, its solid angle there) for `pieces` x `pieces` parts of each texel, row by row.
+  template <typename Body>
+  void for_each_texel(int pieces, const Body& body) const;
+  Vec2 square(Vec3 w) const;  ///< st of a direction in light space, up to where it lies within its texel
   Texel texel_of(Vec2 st) const;
   Vec3 to_light(Vec3 w) const;  ///< not normalised
   Vec3 to_world(Vec3 w) const;
@@ -69,9 +84,27 @@ class Environment {
   Rgb L_;                     ///< factor of the texels
   Rgb mean_;
   std::shared_ptr<const TexelImage> image_;  ///< of a constant environment: empty
-  PiecewiseConstant2D full_, compensated_;
+  PiecewiseConstant2D excess_;
   float mean_weight_ = 0;
   bool has_excess_ = false;  ///< something exceeds the mean
 };
+
+template <typename Body>
+void Environment::for_each_texel(int pieces, const Body& body) const {
+  const float fine = 1.0f / static_cast<float>(pieces);
+  const auto place = [&](int i, int size) { return (static_cast<float>(i) + 0.5f) * fine / static_cast<float>(size); };
+  std::vector<Meridian> meridians;
+  for (int x = 0; x < image_->width() * pieces; ++x) meridians.push_back(meridian(place(x, image_->width())));
+  for (int y = 0; y < image_->height() * pieces; ++y) {
+    const float t = place(y, image_->height());
+    const bool even = layout_ == Layout::equal_area;
+    const Parallel row = even ? Parallel{} : parallel(t);
+    const double part = texel_solid_angle(texel_of({0, t}).y) / (double(pieces) * pieces);
+    for (int x = 0; x < image_->width() * pieces; ++x) {
+      const Vec2 st{place(x, image_->width()), t};
+      body(texel_of(st), even ? direction(st) : toward(meridians[static_cast<std::size_t>(x)], row), part);
+    }
+  }
+}
 
 }  // namespace tyndall

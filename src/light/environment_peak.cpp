@@ -40,17 +40,16 @@ struct Gathered {
 
 std::optional<FarCone> Environment::peak() const {
   if (layout_ == Layout::constant) return std::nullopt;
-  const auto for_each_texel = [&](const auto& body) {
-    for (int y = 0; y < image_->height(); ++y)
-      for (int x = 0; x < image_->width(); ++x) {
-        const Rgb L = L_ * image_->texel(x, y);
-        if (is_black(L)) continue;
-        const Vec3 w = to_world(direction({(x + 0.5f) / image_->width(), (y + 0.5f) / image_->height()}));
-        body(w, strength(L) * texel_solid_angle(static_cast<std::uint32_t>(y)) / stretch(w));
-      }
+  const auto for_each_lit = [&](const auto& body) {
+    for_each_texel(1, [&](Texel t, Vec3 toward, double omega) {
+      const Rgb L = L_ * texel(t);
+      if (is_black(L)) return;
+      const Vec3 w = to_world(toward);
+      body(w, strength(L) * omega / stretch(w));
+    });
   };
   std::vector<Gathered> bins(kBins);
-  for_each_texel([&](Vec3 w, double light) { bins[static_cast<std::size_t>(bin_of(w))].add(w, light); });
+  for_each_lit([&](Vec3 w, double light) { bins[static_cast<std::size_t>(bin_of(w))].add(w, light); });
   double all = 0;
   const Gathered* brightest = &bins.front();
   for (const Gathered& bin : bins) {
@@ -60,7 +59,7 @@ std::optional<FarCone> Environment::peak() const {
   if (!(all > 0) || !std::isfinite(all)) return std::nullopt;
   const Vec3d middle = normalize(brightest->moment);
   Gathered sun;
-  for_each_texel([&](Vec3 w, double light) {
+  for_each_lit([&](Vec3 w, double light) {
     if (dot(Vec3d(w), middle) > kNarrow) sun.add(w, light);
   });
   if (!(sun.fluence >= kLeastShare * all)) return std::nullopt;

@@ -16,7 +16,7 @@ FarLights::FarLights(std::span<const FarLight> lights) {
     const auto begin = static_cast<std::uint32_t>(cones_.size());
     for (const FarCone& c : light.cones) {
       const double theta = std::min(static_cast<double>(c.directions.theta), 3.14159265358979323846);
-      cones_.push_back({c.directions.axis, c.mean, std::cos(theta), std::sin(theta), c.fluence, c.fluence_partner});
+      cones_.push_back({c.directions.axis, c.mean, std::cos(theta), std::sin(theta), c.sampled});
     }
     lights_.push_back({light.light, begin, static_cast<std::uint32_t>(cones_.size())});
   }
@@ -24,7 +24,7 @@ FarLights::FarLights(std::span<const FarLight> lights) {
 
 /// Irradiance by the mean direction where the whole cone is seen; a part of the upper bound where it is not.
 double FarLights::cone_importance(const Cone& cone, const PointQuery& query) {
-  const double fluence = query.mis_partner ? cone.fluence_partner : cone.fluence;
+  const double fluence = cone.sampled;
   const Vec3d n(query.n);
   if (!(dot(n, n) > 0)) return fluence;
 
@@ -45,12 +45,11 @@ struct FarLights::LitSegment {
 /// The cone's spread blurs the phase function: of a convolution the mean cosine is the product of both.
 double FarLights::cone_importance(const Cone& cone, const LitSegment& query) {
   const Segment& segment = query.segment;
-  const double fluence = segment.mis_partner ? cone.fluence_partner : cone.fluence;
   const double bundled = length(Vec3d(cone.mean));
   const double cosine = bundled > 0 ? dot(segment.d, Vec3d(cone.mean)) / bundled : 0;
   const bool weighted = segment.importance == MediaStrategy::product;
   const double phase = weighted ? phase_ratio(segment.g * std::min(bundled, 1.0), cosine) : 1;
-  return fluence * std::max(phase * query.lit_length, kLeastScattering * segment.length);
+  return cone.sampled * std::max(phase * query.lit_length, kLeastScattering * segment.length);
 }
 
 template <typename Query>

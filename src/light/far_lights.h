@@ -13,10 +13,10 @@ namespace tyndall {
 
 /// Light that arrives from the directions of a cone. A sun is one cone of angle 0, an environment several.
 struct FarCone {
-  DirectionCone directions;   ///< toward the light
-  Vec3 mean;                  ///< mean direction of the light, not normalised: its length says how concentrated it is
-  float fluence = 0;          ///< radiance integrated over the cone, W/m^2
-  float fluence_partner = 0;  ///< of the part that is sampled when scattered rays find environments too
+  DirectionCone directions;  ///< toward the light
+  Vec3 mean;                 ///< mean direction of the light, not normalised: its length says how concentrated it is
+  float fluence = 0;         ///< radiance integrated over the cone, W/m^2
+  float sampled = 0;         ///< of the part that is not left to scattered rays
 };
 
 struct FarLight {
@@ -51,7 +51,7 @@ class FarLights {
   struct Cone {
     Vec3 axis, mean;
     double cos, sin;  ///< of the half angle
-    float fluence, fluence_partner;
+    float sampled;
   };
   struct Entry {
     LightId light;

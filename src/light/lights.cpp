@@ -90,7 +90,7 @@ const LightSelector& Lights::selector(LightStrategy strategy, bool with_volumes)
                                   "; name it in BuildSettings::lights");
 }
 
-std::optional<LightSample> Lights::sample(LightId light, Vec3 p, Vec2 u, bool mis_partner) const {
+std::optional<LightSample> Lights::sample(LightId light, Vec3 p, Vec2 u) const {
   const Parts::Reference r = parts_->find(light);
   switch (r.kind) {
     case Kind::point:
@@ -102,7 +102,7 @@ std::optional<LightSample> Lights::sample(LightId light, Vec3 p, Vec2 u, bool mi
     case Kind::distant:
       return delta_sample(parts_->distants[r.index].arrival());
     case Kind::environment:
-      return far_sample(parts_->environments[r.index].sample(u, mis_partner));
+      return far_sample(parts_->environments[r.index].sample(u));
     case Kind::portal:
       return far_sample(parts_->portals[r.index].sample(p, u));
     case Kind::emitter: {
@@ -172,10 +172,9 @@ Rgb Lights::environment(LightId light, const Ray& ray) const {
                                 : parts_->environments[r.index].radiance(ray.d);
 }
 
-float Lights::environment_pdf(LightId light, const Ray& ray, bool mis_partner) const {
+float Lights::environment_pdf(LightId light, const Ray& ray) const {
   const Parts::Reference r = parts_->lights[light];
-  return r.kind == Kind::portal ? parts_->portals[r.index].pdf(ray.o, ray.d)
-                                : parts_->environments[r.index].pdf(ray.d, mis_partner);
+  return r.kind == Kind::portal ? parts_->portals[r.index].pdf(ray.o, ray.d) : parts_->environments[r.index].pdf(ray.d);
 }
 
 std::size_t Lights::memory_bytes() const {

@@ -86,7 +86,7 @@ class Lights {
 
   std::size_t size() const;
   bool empty() const { return size() == 0; }
-  /// How many lights sample() with an MIS partner gives anything of: not of even skies, which are left to the partner; with or
+  /// How many lights sample() gives anything of: not of even skies, which are left to scattered rays; with or
   /// without media that emit.
   std::size_t sought(bool with_volumes = true) const;
   /// Throws Error (usage) for a strategy that the lights were not built with. `with_volumes`: media that emit are chosen too.
@@ -94,9 +94,8 @@ class Lights {
   std::span<const SelectorStats> selectors() const;  ///< in the order asked for
 
   /// A direction from `p` toward the light. Nothing when it cannot contribute there, and for volumes: theirs need the medium.
-  /// `mis_partner`: scattered rays, weighted by MIS, find environments too; they are then sampled by what exceeds
-  /// their mean [Karlik et al. 2019], which leaves the rest to the partner. Without one use false.
-  std::optional<LightSample> sample(LightId light, Vec3 p, Vec2 u, bool mis_partner) const;
+  /// Environments are sampled by what exceeds their mean (Environment::sample): the rest is left to scattered rays.
+  std::optional<LightSample> sample(LightId light, Vec3 p, Vec2 u) const;
   /// 1/sr: density with which sample() at `p` gives the direction of `hit`. 0 for lights without a surface.
   float pdf(LightId light, Vec3 p, const EmitterHit& hit) const;
   /// Radiance that leaves the emitter at `hit` along `wo`. Opacity is not in it: a hit has passed that test.
@@ -113,7 +112,7 @@ class Lights {
   std::span<const LightId> infinite() const;             ///< lights that rays leaving the scene see
   Rgb environment(LightId light, const Ray& ray) const;  ///< radiance arriving at the ray's origin from its direction
   /// 1/sr, of sample() at the ray's origin giving its direction.
-  float environment_pdf(LightId light, const Ray& ray, bool mis_partner) const;
+  float environment_pdf(LightId light, const Ray& ray) const;
 
   /// The light that is primitive 0 of the emitter shape (in the order given to build_lights); primitive i follows at +i.
   LightId first_light(std::size_t emitter_shape) const;

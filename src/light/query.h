@@ -24,15 +24,13 @@ struct QueryLobe {
   float scale = 0;                   ///< of D(h) G into the unit of a cosine lobe of share 1
 };
 
-/// Where light is gathered: what the choice of a light may depend on.
+/// Where light is gathered: what the choice of a light may depend on. Scattered rays find environments too: those that are best
+/// left to them (constant ones) have pmf 0.
 struct PointQuery {
   Vec3 p;
   Vec3 n;                     ///< unit shading normal on the side of wo; zero in a medium
   bool transmissive = false;  ///< light from below the surface counts too
-  /// Scattered rays find environments too, so `sample` will be called with the same flag. Environments that are
-  /// best left to them (constant ones) then have pmf 0.
-  bool mis_partner = true;
-  float diffuse = 1;  ///< what a cosine lobe has of the scattering, > 0; lobes have the rest. Only surfaces have lobes
+  float diffuse = 1;          ///< what a cosine lobe has of the scattering, > 0; lobes have the rest. Only surfaces have lobes
   int lobe_count = 0;
   std::array<QueryLobe, 2> lobes{};
   /// In a medium: mean cosine of the Henyey-Greenstein phase function, 0 for none, and the direction that it is about.

@@ -5,8 +5,6 @@
 namespace tyndall {
 namespace {
 
-constexpr double kHalfPi = 1.57079632679489661923;
-
 /// Points on rays are floats: off by this share of their largest coordinate.
 constexpr double kPointRounding = 3e-7;
 /// As near to the line as this share of the distance from the segment's begin, for lights right there of its length, all lights
@@ -59,8 +57,7 @@ Segment::Segment(const SegmentQuery& q)
       t1(q.t1 * tyndall::length(Vec3d(q.d))),
       length(std::min(t1 - t0, double(q.reach))),
       g(std::clamp(double(q.profile.g), -kLargestG, kLargestG)),
-      importance(q.importance),
-      mis_partner(q.mis_partner) {
+      importance(q.importance) {
   if (importance != MediaStrategy::product) return;
   const SegmentProfile& p = q.profile;
   const double most = *std::max_element(p.scattering.begin(), p.scattering.end()), per_most = most > 0 ? 1 / most : 0;

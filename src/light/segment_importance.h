@@ -30,7 +30,6 @@ struct Segment {
   double length;  ///< t1 - t0, or what stands for it
   double g;       ///< mean cosine of the phase function, kept off -1 and 1
   MediaStrategy importance;
-  bool mis_partner;
   SmallVector<Bin, SegmentProfile::kBins> bins;  ///< those that scatter; none: the profile is not read or says nothing
 
   /// The part of `length` that scatters light from infinity toward the origin: times the mean of scattering x

@@ -29,7 +29,6 @@ struct SegmentQuery {
   /// Distance within which most of the light that is scattered along the ray is: stands for t1 - t0 where that is
   /// longer, and for the length in the importance of lights at infinity. Length, > 0, finite.
   float reach = 1;
-  bool mis_partner = true;   ///< as in PointQuery
   SegmentProfile profile{};  ///< read by `product` only
 };
 

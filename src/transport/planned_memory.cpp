@@ -21,7 +21,7 @@ constexpr std::size_t kBoundaryTriangle = 300;  // kept in a tree of its own as 
 constexpr std::size_t kInstance = 300;
 constexpr std::size_t kLight = 200;           // with its share of the light tree while it is built
 constexpr std::size_t kLightInstance = 1000;  // all lights of an instance that shares them
-constexpr std::size_t kTexel = 16, kTexelOfMipMap = 22, kTexelWhileRead = 20, kTexelOfSky = 62;
+constexpr std::size_t kTexel = 16, kTexelOfMipMap = 22, kTexelWhileRead = 20, kTexelOfSky = 53;
 constexpr std::size_t kDenseVoxel = 12;  // values, and the bricks made of them
 
 void add_shapes(const std::vector<Shape>& shapes, ByteCount& geometry) {

@@ -103,7 +103,7 @@ void Path::add_environment() {
   for (const LightId id : lights.infinite()) {
     const Rgb L = lights.environment(id, ray);
     if (is_black(L)) continue;
-    const float pdf = light_sampled_ ? lights.environment_pdf(id, ray, true) : 0.0f;
+    const float pdf = light_sampled_ ? lights.environment_pdf(id, ray) : 0.0f;
     add_light(id, seen_.value_or(beta_) * L * scattering_mis_weight(id, pdf), depth_);
   }
 }

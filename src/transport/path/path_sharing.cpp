@@ -84,7 +84,7 @@ void Path::offer_environment() {
 /// which of those that share has chosen it does not matter.
 Rgb Path::environment_from(const PathOffer& offer, LightId light, Vec3 wi) const {
   const Rgb L = offer.environment(light, wi);
-  const float pdf = is_black(L) ? 0.0f : offer.lights.environment_pdf(light, {offer.first.p(), wi}, true);
+  const float pdf = is_black(L) ? 0.0f : offer.lights.environment_pdf(light, {offer.first.p(), wi});
   if (pdf == 0) return L;
   const float own = offer.sought->pdf(offer.first, wi, offer.directions.pdf(wi, offer.beta));
   return L * offer.sought->scattering_mis_weight(context_, own, light, pdf);
@@ -106,7 +106,7 @@ void Path::take_environment(Rgb factor, Vec3 wi, Received where) {
 bool Path::completes_collision() const { return sharing_ == Sharing::completing && !offer_->at->on_surface(); }
 
 /// At the first vertex that spreads light, which may be behind mirrors and panes; of collisions only on the camera's ray, along
-/// which others receive.
+/// which others receive. Not where dispersion has left a single channel: others want them all.
 bool Path::may_offer(const Vertex& first) const {
   if (sharing_ != Sharing::offering || context_.smooth_bounces > 0 || channel_) return false;
   return (depth_ == 1 || (first.on_surface() && depth_ < limits_.max_depth)) && may_share(first);
@@ -117,8 +117,7 @@ bool Path::leaves_first() const { return sharing_ == Sharing::offering && offer_
 /// Light of so many bounces is what the collision that it found scatters toward the first vertex: none but itself counts that.
 bool Path::is_scattered_by_find(int bounces) const { return completes_collision() && bounces == offer_->bounces + 1; }
 
-/// Not where dispersion has left a single channel: others want them all. Nor where they could not tell how likely the path
-/// went where it did.
+/// Not where others could not tell how likely the path went where it did.
 bool Path::may_share(const Vertex& first) const { return first.has_smooth() && first.has_exact_pdf(); }
 
 /// What the surface sends back must not depend on which of the paths looks at it. Of a collision's light only that of the

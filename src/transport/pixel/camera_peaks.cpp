@@ -151,7 +151,7 @@ Rgb peak_estimate(const LightContext& context, const PixelPeaks& peaks, Vec2 cen
   const auto seen = see(context, world.camera.ray(drawn.x, {0.5f, 0.5f}), sampler);
   if (!seen || !seen->vertex.has_smooth()) return {};
   const Vertex& vertex = seen->vertex;
-  const auto light = world.lights.sample(drawn.light, vertex.p(), {}, true);
+  const auto light = world.lights.sample(drawn.light, vertex.p(), {});
   if (!light || is_black(light->L)) return {};
   const Rgb scattered = vertex.eval(light->wi) * light->L * seen->transmittance;
   if (is_black(scattered)) return {};

@@ -163,7 +163,7 @@ class Search {
     if (pixels_of(box) == 0) return std::nullopt;
     const auto place = world_.lights.place(light);
     if (!place.center) return std::nullopt;
-    const auto sample = world_.lights.sample(light, world_.camera.eye_of(*place.center), {0.5f, 0.5f}, false);
+    const auto sample = world_.lights.sample(light, world_.camera.eye_of(*place.center), {0.5f, 0.5f});
     if (!sample || sample->delta || is_black(sample->L)) return std::nullopt;
     return SeenEmitter{shape, primitive, box, mean(sample->L), image->lit()};
   }

@@ -46,7 +46,7 @@ Rgb by_light(const LightContext& context, const Vertex& vertex, const JointSearc
 Rgb in_scattered(const LightContext& context, const PathSegment& segment, LightId point, Sampler& sampler) {
   const BuiltWorld& world = context.world;
   const Vec3 p = segment.ray.at(segment.t), wo = -segment.ray.d;
-  const auto light = world.lights.sample(point, p, {}, true);
+  const auto light = world.lights.sample(point, p, {});
   if (!light || is_black(light->L)) return {};
   ++context.counters.shadow_rays;
   const auto crossings = world.geometry.trace_shadow(segment.ray, 0, segment.t);

@@ -49,7 +49,7 @@ Rgb transmittance_along(const LightContext& context, SpanWalk& walk, const Ray& 
 
 std::optional<LightSample> sample_light(const LightContext& context, LightId light, Vec3 p, Vec2 u) {
   const BuiltWorld& world = context.world;
-  if (!world.volume_lights.holds(light)) return world.lights.sample(light, p, u, true);
+  if (!world.volume_lights.holds(light)) return world.lights.sample(light, p, u);
   // A ray that is scattered here would pass emission after the last bounce, where none counts.
   return is_last_bounce(context) ? std::nullopt : world.volume_lights.sample(light, p, u);
 }

@@ -124,7 +124,7 @@ TEST_CASE("emitters of instances: power, place, samples and densities are those 
       for (int i = 0; i < 40; ++i) {
         const Vec3 p = *there.center + test::random_direction(rng) * (0.2f + 6 * rng.uniform());
         const float x = rng.uniform(), y = rng.uniform();
-        const auto l = shared.sample(s, p, {x, y}, false);
+        const auto l = shared.sample(s, p, {x, y});
         if (!l) continue;
         // What the sample says, the other lights say of the point that it hits.
         ++lit;
@@ -142,7 +142,7 @@ TEST_CASE("emitters of instances: power, place, samples and densities are those 
 std::array<double, 2> irradiance(const Lights& lights, LightId light, Vec3 p, int side) {
   double sum = 0, samples = 0;
   for (int i = 0; i < side * side; ++i) {
-    const auto l = lights.sample(light, p, {(i % side + 0.5f) / side, (i / side + 0.5f) / side}, false);
+    const auto l = lights.sample(light, p, {(i % side + 0.5f) / side, (i / side + 0.5f) / side});
     if (!l) continue;
     sum += brightness(l->L) / l->pdf;
     samples += 1;
@@ -195,7 +195,7 @@ void check_left_out(const Lights& lights) {
       ++left_out;
       for (int k = 0; k < 4; ++k) {
         const float x = rng.uniform(), y = rng.uniform();
-        const auto l = lights.sample(light, q.p, {x, y}, false);
+        const auto l = lights.sample(light, q.p, {x, y});
         REQUIRE((!l || dot(q.n, l->wi) <= 1e-6f));
       }
     }
@@ -222,7 +222,7 @@ TEST_CASE("emitters of instances: lights that are left out for a segment give no
       ++left_out;
       for (int k = 0; k < 4; ++k) {
         const float t = q.t0 + (std::min(q.t1, q.t0 + 30) - q.t0) * rng.uniform(), x = rng.uniform(), y = rng.uniform();
-        REQUIRE(!lights.sample(light, q.o + q.d * t, {x, y}, false));
+        REQUIRE(!lights.sample(light, q.o + q.d * t, {x, y}));
       }
     }
   }
@@ -243,7 +243,7 @@ TEST_CASE("emitters of instances: a surface does not light its own points, far f
       const auto at = [&](std::uint32_t c) { return mesh.positions[mesh.indices[3 * k + c]]; };
       const float x = 0.1f + 0.4f * rng.uniform(), y = 0.1f + 0.4f * rng.uniform();
       const Vec3 p = to_world.point(at(0) * (1 - x - y) + at(1) * x + at(2) * y);
-      REQUIRE(!lights.sample(lights.first_light(1 + i) + k, p, {0.4f, 0.6f}, false));
+      REQUIRE(!lights.sample(lights.first_light(1 + i) + k, p, {0.4f, 0.6f}));
     }
   }
 }
@@ -284,7 +284,7 @@ TEST_CASE("emitters of instances: nothing is left out by rounding, at points tha
                  .n = normalize(side + away * (0.01f * (rng.uniform() - 0.5f)))};
     if (tree.pmf(q, light) > 0) continue;
     ++left_out;
-    const auto l = lights.sample(light, q.p, {0.5f, 0.5f}, false);
+    const auto l = lights.sample(light, q.p, {0.5f, 0.5f});
     REQUIRE((!l || dot(q.n, l->wi) <= 0));
   }
   CHECK(left_out > 1000);
@@ -312,7 +312,7 @@ TEST_CASE("emitters of instances: nothing is left out by rounding, for segments 
     ++left_out;
     for (int k = 0; k < 20; ++k) {
       const Vec3 p = q.o + q.d * (q.t0 + (q.t1 - q.t0) * rng.uniform());
-      REQUIRE(!lights.sample(light, p, {0.5f, 0.5f}, false));
+      REQUIRE(!lights.sample(light, p, {0.5f, 0.5f}));
     }
   }
   CHECK(left_out > 200);

@@ -84,7 +84,7 @@ TEST_CASE("light arrives on the lit part of a ray only, which is dark hardly any
         const float t = 4 * rng.uniform() * length(*place.center - ray.o), x = rng.uniform(), y = rng.uniform();
         const RayPart part = lit_part(place, ray);
         const bool within = part.begin <= t && t <= part.end;
-        const auto sample = lights.sample(id, ray.at(t), {x, y}, false);
+        const auto sample = lights.sample(id, ray.at(t), {x, y});
         const bool arrives = sample && !is_black(sample->L);
         REQUIRE((within || !arrives));
         lit += arrives;

@@ -41,10 +41,10 @@ double irradiance(const Lights& lights, Vec3 p, Vec3 n, int samples, std::uint64
   Rng rng(seed);
   double sum = 0;
   for (int i = 0; i < samples; ++i) {
-    const auto s = selector_of(lights).select(PointQuery{p, n, false, false}, rng.uniform_wide());
+    const auto s = selector_of(lights).select(PointQuery{p, n}, rng.uniform_wide());
     const float x = rng.uniform(), y = rng.uniform();
     if (!s) continue;
-    if (const auto l = lights.sample(s->light, p, {x, y}, false))
+    if (const auto l = lights.sample(s->light, p, {x, y}))
       sum += mean(l->L) * std::max(0.0f, dot(n, l->wi)) / (double(l->pdf) * s->pmf);
   }
   return sum / samples;
@@ -114,7 +114,7 @@ TEST_CASE("ids run through the scene's lights, then the primitives of the shapes
   CHECK(lights.power(6) == doctest::Approx(2 * 4 * kPi * kPi));
   // Black lights keep their ids, are never chosen and give nothing.
   CHECK(selector_of(lights).pmf(PointQuery{{0, 0, 1}, {}}, 7) == 0);
-  CHECK(!lights.sample(7, {0, 0, 5}, {0.3f, 0.3f}, false));
+  CHECK(!lights.sample(7, {0, 0, 5}, {0.3f, 0.3f}));
   CHECK(is_black(lights.emitted(8, {{0, 0, 3}, {0, 0, 1}, {}, 1}, {0, 0, 1})));
   // Only surfaces have a density for hits.
   CHECK(lights.pdf(0, {0, 0, 1}, {{0, 0, 5}, {0, 0, 1}, {}, 4}) == 0);
@@ -152,7 +152,7 @@ TEST_CASE("one-sided emitters emit to the side of their normal, two-sided ones o
   const Vec3 above{0.1f, 0.2f, 1}, below{0.1f, 0.2f, -1};
   const EmitterHit hit{{0, 0, 0}, {0, 0, 1}, {0.5f, 0.5f}, 1};
   const auto lights_up = [&](const Lights& l, Vec3 p) {
-    return l.sample(0, p, {0.4f, 0.4f}, false) && selector_of(l).pmf(PointQuery{p, {}}, 0) > 0;
+    return l.sample(0, p, {0.4f, 0.4f}) && selector_of(l).pmf(PointQuery{p, {}}, 0) > 0;
   };
   const Lights one = lights_of(shapes);
   CHECK(lights_up(one, above));
@@ -191,7 +191,7 @@ TEST_CASE("an emission image lies over uv with v upward") {
   CHECK(at({0.1f, 0.9f}) == Rgb(1, 2, 4));  // top left
   CHECK(at({0.9f, 0.1f}) == Rgb(2, 4, 4));  // bottom right
   CHECK(lights.power(0) == doctest::Approx(kPi * 2 * (1.5 + 3 + 4) / 3));
-  const auto s = lights.sample(1, {0, 0, 2}, {0.5f, 0.5f}, false);
+  const auto s = lights.sample(1, {0, 0, 2}, {0.5f, 0.5f});
   REQUIRE(s);
   const Vec3 x = Vec3{0, 0, 2} + s->wi * s->distance;
   CHECK(s->L.r == doctest::Approx(at({(x.x + 1) / 2, (x.y + 1) / 2}).r).epsilon(1e-3));
@@ -206,7 +206,7 @@ TEST_CASE("alpha dims an emitter's samples, and at 0 hides the surface but not i
   const auto sample = [&](float alpha) {
     const Textures textures = build_textures({Texture{ConstantTexture{Rgb(alpha)}, {}}});
     const Lights lights = lights_of(shapes, {{LightStrategy::tree_binary}, &textures});
-    return lights.sample(0, {0, 0, 1}, {0.5f, 0.4f}, false);
+    return lights.sample(0, {0, 0, 1}, {0.5f, 0.4f});
   };
   const auto opaque = sample(1), half = sample(0.5f), hidden = sample(0);
   REQUIRE((opaque && half && hidden));
@@ -222,7 +222,7 @@ TEST_CASE("an emitter's alpha may depend on the normal") {
   shapes[0].alpha = 0;
   const Textures textures = build_textures(
       {{DirectionMixTexture{1, 2, {0, 0.6f, 0.8f}}, {}}, {ConstantTexture{Rgb(1)}, {}}, {ConstantTexture{Rgb(0)}, {}}});
-  const auto sample = lights_of(shapes, {{LightStrategy::tree_binary}, &textures}).sample(0, {0, 0, 1}, {0.5f, 0.4f}, false);
+  const auto sample = lights_of(shapes, {{LightStrategy::tree_binary}, &textures}).sample(0, {0, 0, 1}, {0.5f, 0.4f});
   REQUIRE(sample);
   CHECK(sample->L.r == doctest::Approx(2 * 0.8f));
 }
@@ -290,7 +290,7 @@ TEST_CASE("all kinds together: no light of probability 0 contributes, and none t
   Rng rng(17);
   std::size_t zero = 0;
   for (int i = 0; i < 3000; ++i) {
-    PointQuery q{test::random_in_cube(rng, 4), test::random_direction(rng), rng.uniform() < 0.2f, rng.uniform() < 0.5f};
+    PointQuery q{test::random_in_cube(rng, 4), test::random_direction(rng), rng.uniform() < 0.2f};
     if (i % 4 == 0) q.n = {};
     double sum = 0;
     for (LightId id = 0; id < lights.size(); ++id) {
@@ -299,7 +299,7 @@ TEST_CASE("all kinds together: no light of probability 0 contributes, and none t
       if (pmf > 0) continue;
       ++zero;
       const float x = rng.uniform(), y = rng.uniform();
-      const auto s = lights.sample(id, q.p, {x, y}, q.mis_partner);
+      const auto s = lights.sample(id, q.p, {x, y});
       const bool received = s && (length_squared(q.n) == 0 || q.transmissive || dot(q.n, s->wi) > 0);
       REQUIRE_MESSAGE(!received, "light ", id);
     }
@@ -333,6 +333,7 @@ TEST_CASE("all kinds together: every strategy gives the same irradiance") {
   const Zoo zoo;
   const Lights exhaustive = zoo.build(LightStrategy::exhaustive);
   Rng rng(5);
+  int lit = 0;
   for (int k = 0; k < 6; ++k) {
     const Vec3 p = test::random_in_cube(rng, 4), n = test::random_direction(rng);
     double expected = 0, expected_variance = 0;
@@ -341,7 +342,7 @@ TEST_CASE("all kinds together: every strategy gives the same irradiance") {
       double first = 0, second = 0;
       for (int i = 0; i < samples; ++i) {
         const float x = rng.uniform(), y = rng.uniform();
-        const auto l = exhaustive.sample(id, p, {x, y}, false);
+        const auto l = exhaustive.sample(id, p, {x, y});
         const double value = l ? mean(l->L) * std::max(0.0f, dot(n, l->wi)) / double(l->pdf) : 0;
         first += value / samples;
         second += value * value / samples;
@@ -349,6 +350,7 @@ TEST_CASE("all kinds together: every strategy gives the same irradiance") {
       expected += first;
       expected_variance += (second - first * first) / samples;
     }
+    lit += expected > 0;
     for (const LightStrategy s : {LightStrategy::uniform, LightStrategy::power, LightStrategy::tree, LightStrategy::tree_binary,
                                   LightStrategy::cycles_rule, LightStrategy::lightcuts, LightStrategy::cells}) {
       const Lights lights = zoo.build(s);
@@ -361,9 +363,10 @@ TEST_CASE("all kinds together: every strategy gives the same irradiance") {
       }
       const double error = std::sqrt(std::max(0.0, sum2 - sum * sum) / (kBatches - 1) + expected_variance);
       CAPTURE(name_of(s));
-      CHECK(std::abs(sum - expected) < 4 * error);
+      CHECK(std::abs(sum - expected) <= 4 * error);
     }
   }
+  CHECK(lit >= 5);  // one place may see only what is left to scattered rays
 }
 
 }  // namespace

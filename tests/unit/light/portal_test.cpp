@@ -112,10 +112,10 @@ TEST_CASE("lights: a portal is a light at infinity for rays, and near for the ch
   CHECK(selector.pmf(PointQuery{{-1, 0.5f, 1}, {}}, 1) > 0);
   const Ray ray{{0, 0.5f, 1}, {-1, 0, 0}};
   CHECK(lights.environment(1, ray) == Rgb(1, 2, 3));
-  const auto s = lights.sample(1, ray.o, {0.3f, 0.6f}, true);
+  const auto s = lights.sample(1, ray.o, {0.3f, 0.6f});
   REQUIRE(s);
   CHECK(s->distance == kInfinity);
-  CHECK(s->pdf == lights.environment_pdf(1, {ray.o, s->wi}, true));
+  CHECK(s->pdf == lights.environment_pdf(1, {ray.o, s->wi}));
   CHECK(is_black(lights.environment(1, {{0, 0.5f, 1}, {1, 0, 0}})));
 }
 

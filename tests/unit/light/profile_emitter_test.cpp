@@ -196,7 +196,7 @@ TEST_CASE(
     check_choice(lights, q);
     std::size_t unlit = 0;
     for (LightId id = 0; id < lights.size(); ++id) {
-      const auto s = lights.sample(id, q.p, {0.5f, 0.5f}, true);
+      const auto s = lights.sample(id, q.p, {0.5f, 0.5f});
       const bool gives = s && (length(q.n) == 0 || dot(q.n, s->wi) > 0);
       if (gives) REQUIRE(selector.pmf(q, id) > 0);
       unlit += selector.pmf(q, id) == 0;
