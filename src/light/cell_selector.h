@@ -17,8 +17,6 @@ class CellSelector final : public TreeSelector<LightTree> {
   float pmf(const PointQuery& query, LightId light) const override;
   std::size_t memory_bytes() const override { return TreeSelector::memory_bytes() + cells_.memory_bytes(); }
 
-  const CellDensities& cells() const { return cells_; }
-
  private:
   using Clusters = std::span<const CellDensities::Cluster>;
   std::optional<LightId> choose_in(Clusters clusters, const PointQuery& query, double u) const;

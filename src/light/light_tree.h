@@ -59,13 +59,15 @@ class LightTree {
   double pmf(const PointQuery& query, std::uint32_t leaf) const { return pmf_below(0, query, leaf); }
   double pmf(const Segment& query, std::uint32_t leaf) const { return pmf_below(0, query, leaf); }
   /// The same among the lights of one node; 0 for leaves elsewhere.
-  std::optional<Choice> select_below(std::uint32_t node, const PointQuery& query, double u) const;
-  std::optional<Choice> select_below(std::uint32_t node, const Segment& query, double u) const;
-  double pmf_below(std::uint32_t node, const PointQuery& query, std::uint32_t leaf) const;
-  double pmf_below(std::uint32_t node, const Segment& query, std::uint32_t leaf) const;
+  template <typename Query>
+  std::optional<Choice> select_below(std::uint32_t node, const Query& query, double u) const;
+  template <typename Query>
+  double pmf_below(std::uint32_t node, const Query& query, std::uint32_t leaf) const;
   /// Importance of all lights together, in W/sr / length^2; for segments in W/sr / length.
-  double importance(const PointQuery& query) const;
-  double importance(const Segment& query) const;
+  template <typename Query>
+  double importance(const Query& query) const {
+    return nodes_.empty() ? 0 : node_importance(0, query) * intensity_;
+  }
 
   double intensity() const { return intensity_; }  ///< of all lights, W/sr: the unit of those in the nodes' bounds
 
@@ -81,8 +83,8 @@ class LightTree {
   std::size_t memory_bytes() const { return nodes_.capacity() * sizeof(Node); }
 
   /// Probability of descending into the first child of an inner node; nothing when neither child has importance.
-  std::optional<double> child_probability(std::uint32_t node, const PointQuery& query) const;
-  std::optional<double> child_probability(std::uint32_t node, const Segment& query) const;
+  template <typename Query>
+  std::optional<double> child_probability(std::uint32_t node, const Query& query) const;
 
  private:
   template <typename Query>
@@ -90,13 +92,7 @@ class LightTree {
     return tyndall::importance(nodes_[node].bounds, nodes_[node].two_sided, query);
   }
   template <typename Query>
-  std::optional<double> first_probability(std::uint32_t node, const Query& query) const;
-  template <typename Query>
   double averaged(double share, std::uint32_t node, const Query& query) const;
-  template <typename Query>
-  std::optional<Choice> descend(std::uint32_t node, const Query& query, double u) const;
-  template <typename Query>
-  double ascend(std::uint32_t top, const Query& query, std::uint32_t leaf) const;
 
   std::vector<Node> nodes_;
   double intensity_ = 0;  ///< of all lights, W/sr

@@ -10,7 +10,7 @@ constexpr double kLeastChance = 1e-9;
 }  // namespace
 
 template <typename Query>
-std::optional<double> LightTree::first_probability(std::uint32_t node, const Query& query) const {
+std::optional<double> LightTree::child_probability(std::uint32_t node, const Query& query) const {
   const double first = node_importance(node + 1, query);
   const double second = node_importance(nodes_[node].second_or_light, query);
   if (!(first + second > 0)) return std::nullopt;
@@ -29,11 +29,11 @@ double LightTree::averaged(double share, std::uint32_t node, const Query& query)
 }
 
 template <typename Query>
-std::optional<LightTree::Choice> LightTree::descend(std::uint32_t node, const Query& query, double u) const {
+std::optional<LightTree::Choice> LightTree::select_below(std::uint32_t node, const Query& query, double u) const {
   if (nodes_.empty() || !(node_importance(node, query) > 0)) return std::nullopt;
   double pmf = 1;
   while (!nodes_[node].leaf) {
-    const auto p = first_probability(node, query);
+    const auto p = child_probability(node, query);
     if (!p) return std::nullopt;
     if (u < *p) {
       u = std::min(u / *p, kBelowOne);
@@ -49,42 +49,25 @@ std::optional<LightTree::Choice> LightTree::descend(std::uint32_t node, const Qu
 }
 
 template <typename Query>
-double LightTree::ascend(std::uint32_t top, const Query& query, std::uint32_t leaf) const {
+double LightTree::pmf_below(std::uint32_t top, const Query& query, std::uint32_t leaf) const {
   // In preorder what a node holds comes after it.
   if (leaf < top || !(node_importance(top, query) > 0)) return 0;
   double pmf = 1;
   for (std::uint32_t node = leaf; node != top && pmf > 0; node = nodes_[node].parent) {
     const std::uint32_t parent = nodes_[node].parent;
     if (parent == kNoParent || parent < top) return 0;
-    const auto p = first_probability(parent, query);
+    const auto p = child_probability(parent, query);
     if (!p) return 0;
     pmf *= node == parent + 1 ? *p : 1 - *p;
   }
   return pmf;
 }
 
-std::optional<double> LightTree::child_probability(std::uint32_t node, const PointQuery& query) const {
-  return first_probability(node, query);
-}
-std::optional<LightTree::Choice> LightTree::select_below(std::uint32_t node, const PointQuery& query, double u) const {
-  return descend(node, query, u);
-}
-double LightTree::pmf_below(std::uint32_t node, const PointQuery& query, std::uint32_t leaf) const {
-  return ascend(node, query, leaf);
-}
-double LightTree::importance(const PointQuery& query) const {
-  return nodes_.empty() ? 0 : node_importance(0, query) * intensity_;
-}
-
-std::optional<double> LightTree::child_probability(std::uint32_t node, const Segment& query) const {
-  return first_probability(node, query);
-}
-std::optional<LightTree::Choice> LightTree::select_below(std::uint32_t node, const Segment& query, double u) const {
-  return descend(node, query, u);
-}
-double LightTree::pmf_below(std::uint32_t node, const Segment& query, std::uint32_t leaf) const {
-  return ascend(node, query, leaf);
-}
-double LightTree::importance(const Segment& query) const { return nodes_.empty() ? 0 : node_importance(0, query) * intensity_; }
+template std::optional<double> LightTree::child_probability(std::uint32_t, const PointQuery&) const;
+template std::optional<LightTree::Choice> LightTree::select_below(std::uint32_t, const PointQuery&, double) const;
+template double LightTree::pmf_below(std::uint32_t, const PointQuery&, std::uint32_t) const;
+template std::optional<double> LightTree::child_probability(std::uint32_t, const Segment&) const;
+template std::optional<LightTree::Choice> LightTree::select_below(std::uint32_t, const Segment&, double) const;
+template double LightTree::pmf_below(std::uint32_t, const Segment&, std::uint32_t) const;
 
 }  // namespace tyndall

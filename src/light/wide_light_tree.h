@@ -71,8 +71,8 @@ class WideLightTree {
   WideQuery localize(const PointQuery& query, Vec3d at) const;  ///< at a more precise point than the query's
   WideSegment localize(const Segment& query) const;
   /// Importance of the children of a cluster, child i being NodeRef 8 node_of(ref) + i; relative to each other.
-  ChildImportance children(NodeRef ref, const WideQuery& query) const { return child_importance(nodes_[node_of(ref)], query); }
-  ChildImportance children(NodeRef ref, const WideSegment& query) const {
+  template <typename Query>
+  ChildImportance children(NodeRef ref, const Query& query) const {
     return child_importance(nodes_[node_of(ref)], query);
   }
   /// Bounds and moments of a cluster, lengths in the tree's unit, intensity relative to that of all lights.
@@ -86,19 +86,19 @@ class WideLightTree {
     return f(8 * node, nodes_[node], query, 1.0f);
   }
   std::uint32_t count_of(NodeRef ref) const { return ref == kAll ? all_.count : nodes_[ref / 8].count[ref % 8]; }  ///< lights
-  /// select() within one cluster; a leaf has pmf 1.
-  std::optional<Choice> select_below(NodeRef top, const WideQuery& query, double u) const;
-  std::optional<Choice> select_below(NodeRef top, const WideSegment& query, double u) const;
+  /// select() within one cluster, for a query that was localized; a leaf has pmf 1.
+  template <typename Query>
+  std::optional<Choice> select_below(NodeRef top, const Query& query, double u) const;
   struct Draw {
     NodeRef top;
     double u;
   };
   /// The same for many draws at once, in less time: choices[i] is that of draws[i].
-  void select_below(std::span<const Draw> draws, const WideQuery& query, std::span<std::optional<Choice>> choices) const;
-  void select_below(std::span<const Draw> draws, const WideSegment& query, std::span<std::optional<Choice>> choices) const;
+  template <typename Query>
+  void select_below(std::span<const Draw> draws, const Query& query, std::span<std::optional<Choice>> choices) const;
   /// Probability of select_below(top) giving the light of `leaf`, which is below `top`.
-  double pmf_below(NodeRef top, NodeRef leaf, const WideQuery& query) const;
-  double pmf_below(NodeRef top, NodeRef leaf, const WideSegment& query) const;
+  template <typename Query>
+  double pmf_below(NodeRef top, NodeRef leaf, const Query& query) const;
 
   /// Intensity of all lights, W/sr.
   double intensity() const { return intensity_; }
@@ -108,11 +108,11 @@ class WideLightTree {
     NodeRef leaf;
     double u, chance;  ///< what is left of u in [0, 1); the product of the decisions' probabilities
   };
-  std::optional<Reached> decide(NodeRef top, const WideQuery& query, double u) const;
-  std::optional<Reached> decide(NodeRef top, const WideSegment& query, double u) const;
+  template <typename Query>
+  std::optional<Reached> decide(NodeRef top, const Query& query, double u) const;
   /// The chance with which decide() gives `leaf`, rounded to 0 perhaps; nothing: one of the decisions is impossible.
-  std::optional<double> decided(NodeRef top, NodeRef leaf, const WideQuery& query) const;
-  std::optional<double> decided(NodeRef top, NodeRef leaf, const WideSegment& query) const;
+  template <typename Query>
+  std::optional<double> decided(NodeRef top, NodeRef leaf, const Query& query) const;
   /// The leaf that has the light of this number below `top`; `number` becomes that within the leaf.
   NodeRef numbered(NodeRef top, std::uint32_t& number) const;
 
@@ -132,19 +132,9 @@ class WideLightTree {
   bool step(Descent& d, std::uint32_t index, const Ends& ends) const;
   Choice choice(const Descent& d) const;
   template <typename Query>
-  void descend_all(std::span<const Draw> draws, const Query& query, std::span<std::optional<Choice>> choices) const;
-  template <typename Query>
-  std::optional<Choice> descend(NodeRef top, const Query& query, double u) const;
-  template <typename Query>
   std::optional<Choice> select_by_number(NodeRef top, const Query& query, double u) const;
   template <typename Query>
   bool run(Descent& d, const Query& query) const;
-  template <typename Query>
-  std::optional<Reached> decide_all(NodeRef top, const Query& query, double u) const;
-  template <typename Query>
-  std::optional<double> climb(NodeRef top, NodeRef leaf, const Query& query) const;
-  template <typename Query>
-  double ascend(NodeRef top, NodeRef leaf, const Query& query) const;
 
   BigArray<WideNode> nodes_;  ///< the first is the root
   Cluster all_;

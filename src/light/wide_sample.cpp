@@ -78,7 +78,7 @@ bool WideLightTree::step(Descent& d, std::uint32_t index, const Ends& ends) cons
 }
 
 template <typename Query>
-std::optional<WideLightTree::Choice> WideLightTree::descend(NodeRef top, const Query& query, double u) const {
+std::optional<WideLightTree::Choice> WideLightTree::select_below(NodeRef top, const Query& query, double u) const {
   if (nodes_.empty()) return std::nullopt;
   if (is_leaf(top)) return Choice{nodes_[top / 8].child[top % 8], 1};
   if (u < kByNumber) return select_by_number(top, query, u / kByNumber);
@@ -97,7 +97,7 @@ bool WideLightTree::run(Descent& d, const Query& query) const {
 }
 
 template <typename Query>
-std::optional<WideLightTree::Reached> WideLightTree::decide_all(NodeRef top, const Query& query, double u) const {
+std::optional<WideLightTree::Reached> WideLightTree::decide(NodeRef top, const Query& query, double u) const {
   Descent d{top, top, u, 1, 0};
   if (!is_leaf(top) && !run(d, query)) return std::nullopt;
   return Reached{d.ref, d.u, d.chance};
@@ -106,13 +106,13 @@ std::optional<WideLightTree::Reached> WideLightTree::decide_all(NodeRef top, con
 // In turns: while one waits for its next node, the others go on. Neighbours are often at the same one, which is then looked
 // at once.
 template <typename Query>
-void WideLightTree::descend_all(std::span<const Draw> draws, const Query& query,
-                                std::span<std::optional<Choice>> choices) const {
+void WideLightTree::select_below(std::span<const Draw> draws, const Query& query,
+                                 std::span<std::optional<Choice>> choices) const {
   SmallVector<Descent, 16> under_way;
   for (std::uint32_t i = 0; i < draws.size(); ++i) {
     const auto [top, u] = draws[i];
     if (nodes_.empty() || is_leaf(top) || u < kByNumber) {
-      choices[i] = descend(top, query, u);
+      choices[i] = select_below(top, query, u);
     } else {
       under_way.push_back({top, top, rest(u), 1, i});
     }
@@ -142,7 +142,7 @@ template <typename Query>
 std::optional<WideLightTree::Choice> WideLightTree::select_by_number(NodeRef top, const Query& query, double u) const {
   auto number = static_cast<std::uint32_t>(u * count_of(top));
   const NodeRef ref = numbered(top, number);
-  const double pmf = ascend(top, ref, query);
+  const double pmf = pmf_below(top, ref, query);
   if (!(pmf > 0)) return std::nullopt;
   return Choice{nodes_[ref / 8].child[ref % 8], pmf};
 }
@@ -159,14 +159,14 @@ WideLightTree::NodeRef WideLightTree::numbered(NodeRef top, std::uint32_t& numbe
 }
 
 template <typename Query>
-double WideLightTree::ascend(NodeRef top, NodeRef leaf, const Query& query) const {
+double WideLightTree::pmf_below(NodeRef top, NodeRef leaf, const Query& query) const {
   if (leaf == top) return 1;
-  const auto chance = climb(top, leaf, query);
+  const auto chance = decided(top, leaf, query);
   return chance ? mixed(*chance, count_of(top)) : 0;
 }
 
 template <typename Query>
-std::optional<double> WideLightTree::climb(NodeRef top, NodeRef leaf, const Query& query) const {
+std::optional<double> WideLightTree::decided(NodeRef top, NodeRef leaf, const Query& query) const {
   double chance = 1;
   for (NodeRef ref = leaf; ref != top; ref = nodes_[ref / 8].parent) {
     const ChildImportance children = child_importance(nodes_[ref / 8], query);
@@ -175,36 +175,6 @@ std::optional<double> WideLightTree::climb(NodeRef top, NodeRef leaf, const Quer
     chance *= ends.width(ref % 8) / ends.sum();
   }
   return chance;
-}
-
-std::optional<WideLightTree::Choice> WideLightTree::select_below(NodeRef top, const WideQuery& query, double u) const {
-  return descend(top, query, u);
-}
-std::optional<WideLightTree::Choice> WideLightTree::select_below(NodeRef top, const WideSegment& query, double u) const {
-  return descend(top, query, u);
-}
-void WideLightTree::select_below(std::span<const Draw> draws, const WideQuery& query,
-                                 std::span<std::optional<Choice>> choices) const {
-  descend_all(draws, query, choices);
-}
-void WideLightTree::select_below(std::span<const Draw> draws, const WideSegment& query,
-                                 std::span<std::optional<Choice>> choices) const {
-  descend_all(draws, query, choices);
-}
-double WideLightTree::pmf_below(NodeRef top, NodeRef leaf, const WideQuery& query) const { return ascend(top, leaf, query); }
-double WideLightTree::pmf_below(NodeRef top, NodeRef leaf, const WideSegment& query) const { return ascend(top, leaf, query); }
-
-std::optional<WideLightTree::Reached> WideLightTree::decide(NodeRef top, const WideQuery& query, double u) const {
-  return decide_all(top, query, u);
-}
-std::optional<WideLightTree::Reached> WideLightTree::decide(NodeRef top, const WideSegment& query, double u) const {
-  return decide_all(top, query, u);
-}
-std::optional<double> WideLightTree::decided(NodeRef top, NodeRef leaf, const WideQuery& query) const {
-  return climb(top, leaf, query);
-}
-std::optional<double> WideLightTree::decided(NodeRef top, NodeRef leaf, const WideSegment& query) const {
-  return climb(top, leaf, query);
 }
 
 double WideLightTree::importance(const PointQuery& query) const {
@@ -218,5 +188,16 @@ double WideLightTree::importance(const Segment& query) const {
   const WideSegment local = localize(query);
   return total(children(kAll, local)) * nodes_[0].scale * intensity_ * local.to_world;
 }
+
+template std::optional<WideLightTree::Choice> WideLightTree::select_below(NodeRef, const WideQuery&, double) const;
+template void WideLightTree::select_below(std::span<const Draw>, const WideQuery&, std::span<std::optional<Choice>>) const;
+template double WideLightTree::pmf_below(NodeRef, NodeRef, const WideQuery&) const;
+template std::optional<WideLightTree::Reached> WideLightTree::decide(NodeRef, const WideQuery&, double) const;
+template std::optional<double> WideLightTree::decided(NodeRef, NodeRef, const WideQuery&) const;
+template std::optional<WideLightTree::Choice> WideLightTree::select_below(NodeRef, const WideSegment&, double) const;
+template void WideLightTree::select_below(std::span<const Draw>, const WideSegment&, std::span<std::optional<Choice>>) const;
+template double WideLightTree::pmf_below(NodeRef, NodeRef, const WideSegment&) const;
+template std::optional<WideLightTree::Reached> WideLightTree::decide(NodeRef, const WideSegment&, double) const;
+template std::optional<double> WideLightTree::decided(NodeRef, NodeRef, const WideSegment&) const;
 
 }  // namespace tyndall

@@ -144,7 +144,7 @@ TEST_CASE("the averaged rule: half of each share where the lower bounds say noth
     if (!p) continue;
     CHECK(*other == doctest::Approx(*p == 0 || *p == 1 ? *p : 0.5 * *p + 0.25));
   }
-  SegmentQuery along{.o = {-3, 0.5f, 0}, .d = {1, 0, 0}, .t0 = 0, .t1 = 3, .importance = MediaStrategy::integral};
+  const Segment along({.o = {-3, 0.5f, 0}, .d = {1, 0, 0}, .t0 = 0, .t1 = 3, .importance = MediaStrategy::integral});
   CHECK(*averaged.child_probability(0, along) == doctest::Approx(0.5 * *tree.child_probability(0, along) + 0.25));
 
   // Small triangles that face a surface: their bounds nearly meet, and the shares are those of both.

@@ -19,11 +19,16 @@ struct Masses {
   double dead = 0;          ///< where nothing contributes
 };
 
+/// What a LightTree is asked with.
+inline const PointQuery& asked_with(const PointQuery& query) { return query; }
+inline Segment asked_with(const Segment& query) { return query; }
+
 /// The probabilities of all outcomes by walking the whole tree from the root. `query`: of a point or of a segment.
 template <typename Query>
 Masses walk(const LightTree& tree, const Query& query, std::size_t lights) {
   Masses m{std::vector<double>(lights)};
-  if (!(tree.importance(query) > 0)) return {std::move(m.pmf), 1};
+  const auto q = asked_with(query);
+  if (!(tree.importance(q) > 0)) return {std::move(m.pmf), 1};
   std::vector<std::pair<std::uint32_t, double>> stack{{0, 1.0}};
   while (!stack.empty()) {
     const auto [index, mass] = stack.back();
@@ -31,7 +36,7 @@ Masses walk(const LightTree& tree, const Query& query, std::size_t lights) {
     const LightTree::Node& node = tree.nodes()[index];
     if (node.leaf) {
       m.pmf[node.second_or_light] += mass;
-    } else if (const auto p = tree.child_probability(index, query)) {
+    } else if (const auto p = tree.child_probability(index, q)) {
       if (*p > 0) stack.push_back({index + 1, mass * *p});
       if (*p < 1) stack.push_back({node.second_or_light, mass * (1 - *p)});
     } else {
