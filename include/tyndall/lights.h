@@ -6,11 +6,14 @@
 #include <string>
 #include <string_view>
 #include <variant>
+#include <vector>
 
 #include "tyndall/error.h"
 #include "tyndall/math.h"
 
 namespace tyndall {
+
+struct Image;
 
 struct PointLight {
   Vec3 position;  ///< world space
@@ -74,5 +77,7 @@ inline constexpr std::string_view kUngrouped = "default";
 std::string light_group_channel(std::string_view name);
 /// Whether channels of an image can be named by it: 1 to 64 letters, digits, - and _.
 bool is_light_group_name(std::string_view name);
+/// Names of the groups whose channels R, G and B an image holds, in their order there.
+std::vector<std::string> light_groups_in(const Image& image);
 
 }  // namespace tyndall

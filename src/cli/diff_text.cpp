@@ -10,14 +10,11 @@
 namespace tyndall::cli {
 namespace {
 
-constexpr double kInterval = 1.96;  // standard errors to either side: 95 %
-
 std::string channel_table(const ImageDiff& diff, std::size_t width) {
   std::string text = fmt::format("  {:{}}  {:>11}  {:>11}  {:>11}  {:>24}  {:>10}  at pixel\n", "channel", width, "mean",
                                  "reference", "bias", "95 % interval of bias", "max error");
   for (const ChannelDiff& c : diff.channels) {
-    const double margin = kInterval * c.bias_error;
-    const std::string interval = fmt::format("{:.3e} .. {:.3e}", c.bias - margin, c.bias + margin);
+    const std::string interval = fmt::format("{:.3e} .. {:.3e}", c.bias - c.margin(), c.bias + c.margin());
     text += fmt::format("  {:{}}  {:>11.6g}  {:>11.6g}  {:>+11.3e}  {:>24}  {:>10.4g}  {}\n", c.name, width, c.mean,
                         c.reference_mean, c.bias, interval, c.largest, c.equal ? "(equal)" : fmt::format("({}, {})", c.x, c.y));
   }

@@ -3,16 +3,15 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "report/diff_json.h"
 #include "tyndall/error.h"
 #include "tyndall/io.h"
 
 namespace tyndall::cli {
 
 void ErrorLog::add(double seconds, int samples, const Image& image) {
-  const ErrorMetrics e = reference_.error_of(image);
-  const nlohmann::ordered_json line{
-      {"seconds", seconds}, {"samples", samples}, {"mse", e.mse}, {"relmse", e.relmse}, {"relmse_trimmed", e.relmse_trimmed},
-      {"mape", e.mape},     {"smape", e.smape}};
+  nlohmann::ordered_json line{{"seconds", seconds}, {"samples", samples}};
+  line.update(errors_json(reference_.error_of(image)));
   lines_ += line.dump() + "\n";
   last_samples_ = samples;
   failure_.clear();

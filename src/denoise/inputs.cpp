@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "tyndall/error.h"
+#include "tyndall/lights.h"
 
 namespace tyndall {
 namespace {
@@ -164,13 +165,12 @@ std::vector<Component> components_of(const Image& image, const std::string& name
 }
 
 std::vector<std::string> groups_of(const Image& image) {
-  std::vector<std::string> groups;
-  for (const Channel& c : image.channels) {
-    if (!c.name.starts_with("LightGroup.") || !c.name.ends_with(".R")) continue;
-    const std::string prefix = c.name.substr(0, c.name.size() - 1);
-    if (has_halves(image, names(prefix, kRgb))) groups.push_back(prefix);
+  std::vector<std::string> prefixes;
+  for (const std::string& group : light_groups_in(image)) {
+    const std::string prefix = light_group_channel(group);
+    if (has_halves(image, names(prefix, kRgb))) prefixes.push_back(prefix);
   }
-  return groups;
+  return prefixes;
 }
 
 ColorPlanes read_light(const Image& image) {

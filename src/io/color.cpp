@@ -88,8 +88,4 @@ ConductorRgb conductor_rgb(const Spectrum& eta, const Spectrum& k) {
   return result;
 }
 
-Rgb mul(const std::array<float, 9>& m, Rgb c) {
-  return {m[0] * c.r + m[1] * c.g + m[2] * c.b, m[3] * c.r + m[4] * c.g + m[5] * c.b, m[6] * c.r + m[7] * c.g + m[8] * c.b};
-}
-
 }  // namespace tyndall

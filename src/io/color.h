@@ -71,7 +71,4 @@ struct ColorSpace {
 /// "srgb", "rec2020", "aces2065-1" or "dci-p3" (with white D65, as in pbrt); null for other names.
 const ColorSpace* find_color_space(std::string_view name);
 
-/// Row-major matrix times colour.
-Rgb mul(const std::array<float, 9>& m, Rgb c);
-
 }  // namespace tyndall

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "io/file_text.h"
+#include "math/cie.h"
 
 namespace tyndall::pbrt {
 namespace {
@@ -17,10 +18,10 @@ Rgb clamp(Rgb c, float low, float high) {
 
 Rgb convert_rgb(Reports& reports, const Param& p, Rgb c, ColorUse use) {
   if (c.r < 0 || c.g < 0 || c.b < 0) throw wrong(p, "has a negative component; use values >= 0");
-  if (use == ColorUse::light) return mul(p.color_space->to_rec709, c);
+  if (use == ColorUse::light) return transformed(p.color_space->to_rec709, c);
   if (use == ColorUse::albedo && max_component(c) > 1) throw wrong(p, "has a component above 1; a reflectance is at most 1");
   // Colours of a wide space may lie outside Rec.709.
-  const Rgb rec709 = mul(p.color_space->reflectance_to_rec709, c);
+  const Rgb rec709 = transformed(p.color_space->reflectance_to_rec709, c);
   const Rgb kept = clamp(rec709, 0, use == ColorUse::albedo ? 1.0f : kInfinity);
   const Rgb off = rec709 - kept;
   constexpr float kVisible = 0.005f;
@@ -120,7 +121,7 @@ std::vector<Rgb> find_colors(ParamList& params, std::string_view name, ColorUse 
 
 Rgb light_color(State& state, ParamList& params, std::string_view name) {
   if (const auto color = find_color(state, params, name, ColorUse::light)) return *color;
-  return mul(state.graphics.color_space->to_rec709, Rgb(1.0f));
+  return transformed(state.graphics.color_space->to_rec709, Rgb(1.0f));
 }
 
 RefractiveIndex find_refractive_index(State& state, ParamList& params, std::string_view name) {

@@ -5,20 +5,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kInterval = 1.96;  // standard errors to either side: 95 %
-
-Json as_json(const ErrorMetrics& e) {
-  return {{"mse", e.mse}, {"relmse", e.relmse}, {"relmse_trimmed", e.relmse_trimmed}, {"mape", e.mape}, {"smape", e.smape}};
-}
-
 Json as_json(const ChannelDiff& c) {
-  const double margin = kInterval * c.bias_error;
   return {{"name", c.name},
           {"mean", c.mean},
           {"reference_mean", c.reference_mean},
           {"bias", c.bias},
-          {"bias_low", c.bias - margin},
-          {"bias_high", c.bias + margin},
+          {"bias_low", c.bias - c.margin()},
+          {"bias_high", c.bias + c.margin()},
           {"bias_interval_from", c.error_from_variance ? "variances" : "pixels"},
           {"max_error", c.largest},
           {"x", c.x},
@@ -28,7 +21,7 @@ Json as_json(const ChannelDiff& c) {
 
 Json as_json(const GroupDiff& g) {
   Json j{{"name", g.name}, {"channels", g.channels}};
-  j.update(as_json(g.errors));
+  j.update(errors_json(g.errors));
   if (g.without_noise) {
     const ErrorMetrics& e = *g.without_noise;
     j["without_reference_noise"] = {{"mse", e.mse}, {"relmse", e.relmse}, {"relmse_trimmed", e.relmse_trimmed}};
@@ -90,6 +83,10 @@ void add_findings(const ImageDiff& diff, const DiffSettings& settings, Json& j) 
 }
 
 }  // namespace
+
+Json errors_json(const ErrorMetrics& e) {
+  return {{"mse", e.mse}, {"relmse", e.relmse}, {"relmse_trimmed", e.relmse_trimmed}, {"mape", e.mape}, {"smape", e.smape}};
+}
 
 Json stated_json(const ErrorMetrics& e) {
   const StatedErrors& stated = *e.stated;

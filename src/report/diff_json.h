@@ -7,6 +7,8 @@
 
 namespace tyndall {
 
+nlohmann::ordered_json errors_json(const ErrorMetrics& errors);
+
 /// What a denoised picture states of its errors (`stated` must be there), and how many times that the true ones are.
 nlohmann::ordered_json stated_json(const ErrorMetrics& errors);
 

@@ -35,11 +35,13 @@ struct ChannelDiff {
   std::string name;
   double mean = 0, reference_mean = 0;
   double bias = 0;                   ///< mean difference
-  double bias_error = 0;             ///< one standard error of it; the 95 % interval is bias +- 1.96 of them
+  double bias_error = 0;             ///< one standard error of it
   bool error_from_variance = false;  ///< by the images' Variance channels; else by the spread over pixels
   double largest = 0;                ///< absolute difference; NaN counts as infinite
   int x = 0, y = 0;                  ///< where, in the full frame
   bool equal = false;                ///< in every pixel
+
+  double margin() const { return 1.96 * bias_error; }  ///< of the 95 % interval of the bias, to either side
 };
 
 /// Channels that belong together: R, G, B as "RGB"; Albedo.R, .G, .B as "Albedo"; Z alone as "Z".

@@ -268,7 +268,7 @@ Merged merge_slices(const std::vector<std::string>& paths, const MergeSettings& 
   } else {
     merged.image = weighted_mean(slices, settings, merged.left_out);
     merged.slices = tallies_of(slices);
-    if (has_variances(merged.image)) merged.relmse = estimated_relmse(merged.image);
+    if (has_variances(merged.image)) merged.relmse = relmse_by_variances(merged.image);
   }
   merged.images = slices.size();
   return merged;

@@ -85,7 +85,7 @@ bool has_variances(const Image& image) {
          !image.attributes.contains("tyndall/denoised");
 }
 
-double estimated_relmse(const Image& image) {
+double relmse_by_variances(const Image& image) {
   const Planes means = planes_of(image, kRgb), variances = planes_of(image, kRgb, "Variance.");
   double sum = 0;
   for (std::size_t k = 0; k < means.size(); ++k) {

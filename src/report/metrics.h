@@ -42,7 +42,7 @@ ErrorMetrics measure_error_without_noise(const Image& image, const Image& refere
 
 /// relMSE of a render as estimated from its own noise: mean of Variance / (mean^2 + eps) over pixels and R, G, B, mean^2
 /// less the Variance that is in it.
-double estimated_relmse(const Image& image);
+double relmse_by_variances(const Image& image);
 
 /// Mean without the largest `fraction` of the values, rounded down to whole ones.
 double trimmed_mean(std::vector<double> values, double fraction);

@@ -76,7 +76,7 @@ Reference as_reference(Image image, const std::string& source) {
   if (const int* samples = r.image.attribute<int>("tyndall/samples")) r.samples = *samples;
   if (const auto* seed = r.image.attribute<std::string>("tyndall/seed")) r.seed = *seed;
   r.has_variance = r.has_variance && r.samples != 1;  // one sample says nothing of its variance
-  if (r.has_variance) r.relmse = estimated_relmse(r.image);
+  if (r.has_variance) r.relmse = relmse_by_variances(r.image);
   return r;
 }
 
@@ -103,7 +103,7 @@ Reference render_reference(const World& world, RenderSettings settings, const Re
   r.samples = rendering.report.samples;
   r.seed = std::to_string(settings.seed);
   r.seconds = rendering.report.seconds;
-  if (r.has_variance) r.relmse = estimated_relmse(r.image);
+  if (r.has_variance) r.relmse = relmse_by_variances(r.image);
   return r;
 }
 

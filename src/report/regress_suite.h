@@ -27,7 +27,6 @@ struct RegressSuite {
   std::string folder;
   std::vector<RegressCase> cases;  ///< by name
 
-  std::string scene_path(const RegressCase& c) const { return folder + "/" + c.name + ".pbrt"; }
   std::string reference_path(const RegressCase& c) const { return folder + "/" + c.name + ".exr"; }
   std::string bytes_path(const RegressCase& c) const { return folder + "/" + c.name + ".bytes.exr"; }
 };

@@ -225,18 +225,6 @@ GroupFactor parse_group_factor(const std::string& text) {
   return {text.substr(0, equals), Rgb{numbers[0], numbers[1], numbers[2]}};
 }
 
-std::vector<std::string> light_groups_in(const Image& image) {
-  const std::string begin = "LightGroup.", end = ".R";
-  std::vector<std::string> groups;
-  for (const Channel& c : image.channels) {
-    if (!c.name.starts_with(begin) || !c.name.ends_with(end)) continue;
-    const std::string group = c.name.substr(begin.size(), c.name.size() - begin.size() - end.size());
-    const bool whole = image.find(light_group_channel(group) + "G") && image.find(light_group_channel(group) + "B");
-    if (is_light_group_name(group) && whole) groups.push_back(group);
-  }
-  return groups;
-}
-
 Relit relight(Image image, std::span<const GroupFactor> factors, const std::string& name) {
   const std::vector<std::string> groups = light_groups_in(image);
   if (groups.empty())

@@ -17,9 +17,6 @@ struct GroupFactor {
 /// "key=1.5" or "sky=0.3,0.3,0.5". Throws Error (usage).
 GroupFactor parse_group_factor(const std::string& text);
 
-/// Names of the groups whose channels the image holds, in their order there.
-std::vector<std::string> light_groups_in(const Image& image);
-
 struct Relit {
   Image image;
   std::vector<std::string> left_out;  ///< channels that no factors can be applied to: "SurfaceDirect" ...

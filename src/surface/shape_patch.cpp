@@ -100,16 +100,31 @@ ShapeRoots intersect_patch(const ShapeRay& ray, const std::array<Vec3d, 4>& p) {
 
 namespace {
 
-/// dp/ds for texture coordinates (s, t) given at the corners, by pbrt's rule; dpdu itself where that degenerates.
-Vec3d textured_dpdu(const std::array<Vec2, 4>& st, Vec2 uv, Vec3d dpdu, Vec3d dpdv) {
-  const Vec2 du = (st[1] * (1 - uv.y) + st[3] * uv.y) - (st[0] * (1 - uv.y) + st[2] * uv.y);
-  const Vec2 dv = (st[2] * (1 - uv.x) + st[3] * uv.x) - (st[0] * (1 - uv.x) + st[1] * uv.x);
-  const auto inverse = [](float x) { return std::abs(x) < 1e-8f ? 0.0 : 1.0 / x; };
-  const Vec3d dpds = dpdu * inverse(du.x) + dpdv * inverse(dv.x);
-  const Vec3d dpdt = dpdu * inverse(du.y) + dpdv * inverse(dv.y);
-  const Vec3d n = cross(dpds, dpdt);
-  return dot(n, n) > 0 ? dpds : dpdu;
+std::array<Vec2, 4> texture_coordinates(const PlacedMesh& mesh, const std::array<std::uint32_t, 4>& corner) {
+  std::array<Vec2, 4> st;
+  for (std::size_t i = 0; i < 4; ++i) st[i] = (*mesh.uvs)[corner[i]];
+  return st;
 }
+
+/// Derivatives with respect to the texture coordinates (s, t) from those by the patch's own (u, v).
+class Reparametrized {
+ public:
+  Reparametrized(const std::array<Vec2, 4>& st, double u, double v) {
+    const auto fu = static_cast<float>(u), fv = static_cast<float>(v);
+    const Vec2 du = (st[1] * (1 - fv) + st[3] * fv) - (st[0] * (1 - fv) + st[2] * fv);
+    const Vec2 dv = (st[2] * (1 - fu) + st[3] * fu) - (st[0] * (1 - fu) + st[1] * fu);
+    const auto inverse = [](float x) { return std::abs(x) < 1e-8f ? 0.0 : 1.0 / x; };  // pbrt's rule
+    duds_ = inverse(du.x), dvds_ = inverse(dv.x), dudt_ = inverse(du.y), dvdt_ = inverse(dv.y);
+  }
+
+  void apply(Vec3d& du, Vec3d& dv) const {
+    const Vec3d ds = du * duds_ + dv * dvds_, dt = du * dudt_ + dv * dvdt_;
+    du = ds, dv = dt;
+  }
+
+ private:
+  double duds_, dvds_, dudt_, dvdt_;
+};
 
 /// `v` turned by the rotation that takes unit `from` to unit `to`; opposite ones share their plane.
 Vec3d turn(Vec3d v, Vec3d from, Vec3d to) {
@@ -135,9 +150,11 @@ ShapeSurface patch_surface(const PlacedMesh& mesh, std::uint32_t primitive, doub
   surface.error = 1e-13 * (max_component(abs(surface.p)) + length(p[3] - p[0]) + length(p[2] - p[1]));
 
   if (!mesh.uvs->empty()) {
-    std::array<Vec2, 4> st;
-    for (std::size_t i = 0; i < 4; ++i) st[i] = (*mesh.uvs)[corner[i]];
-    surface.dpdu = textured_dpdu(st, surface.uv, dpdu, dpdv);
+    const std::array<Vec2, 4> st = texture_coordinates(mesh, corner);
+    Vec3d dpds = dpdu, dpdt = dpdv;
+    Reparametrized(st, u, v).apply(dpds, dpdt);
+    const Vec3d across = cross(dpds, dpdt);
+    if (dot(across, across) > 0) surface.dpdu = dpds;
     const float fu = surface.uv.x, fv = surface.uv.y;
     surface.uv = (st[0] * (1 - fv) + st[2] * fv) * (1 - fu) + (st[1] * (1 - fv) + st[3] * fv) * fu;
   }
@@ -155,26 +172,6 @@ ShapeSurface patch_surface(const PlacedMesh& mesh, std::uint32_t primitive, doub
 }
 
 namespace {
-
-/// Derivatives with respect to the texture coordinates (s, t) from those by the patch's own (u, v).
-class Reparametrized {
- public:
-  Reparametrized(const std::array<Vec2, 4>& st, double u, double v) {
-    const auto fu = static_cast<float>(u), fv = static_cast<float>(v);
-    const Vec2 du = (st[1] * (1 - fv) + st[3] * fv) - (st[0] * (1 - fv) + st[2] * fv);
-    const Vec2 dv = (st[2] * (1 - fu) + st[3] * fu) - (st[0] * (1 - fu) + st[1] * fu);
-    const auto inverse = [](float x) { return std::abs(x) < 1e-8f ? 0.0 : 1.0 / x; };  // pbrt's rule
-    duds_ = inverse(du.x), dvds_ = inverse(dv.x), dudt_ = inverse(du.y), dvdt_ = inverse(dv.y);
-  }
-
-  void apply(Vec3d& du, Vec3d& dv) const {
-    const Vec3d ds = du * duds_ + dv * dvds_, dt = du * dudt_ + dv * dvdt_;
-    du = ds, dv = dt;
-  }
-
- private:
-  double duds_, dvds_, dudt_, dvdt_;
-};
 
 /// Weingarten's equations for a bilinear patch, whose only second derivative is the mixed one `d2p`.
 std::array<Vec3d, 2> normal_derivatives(Vec3d dpdu, Vec3d dpdv, Vec3d d2p) {
@@ -198,9 +195,7 @@ ShapeTangents patch_tangents(const PlacedMesh& mesh, std::uint32_t primitive, do
     normal_dv = lerp(u, normal(2), normal(3)) - lerp(u, normal(0), normal(1));
   }
   if (!mesh.uvs->empty()) {
-    std::array<Vec2, 4> st;
-    for (std::size_t i = 0; i < 4; ++i) st[i] = (*mesh.uvs)[corner[i]];
-    const Reparametrized by_st(st, u, v);
+    const Reparametrized by_st(texture_coordinates(mesh, corner), u, v);
     Vec3d dpds = t.dpdu, dpdt = t.dpdv;
     by_st.apply(dpds, dpdt);
     const Vec3d n = cross(dpds, dpdt);

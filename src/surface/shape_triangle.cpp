@@ -27,31 +27,32 @@ std::optional<ShapeRoot> intersect_triangle(const ShapeRay& ray, const std::arra
 
 namespace {
 
-struct Tangent {
-  Vec3d dpdu;
-  Vec2 uv;
+std::array<Vec2, 3> texture_coordinates(const PlacedMesh& mesh, const std::array<std::uint32_t, 3>& corner) {
+  std::array<Vec2, 3> uv{Vec2{0, 0}, Vec2{1, 0}, Vec2{1, 1}};
+  for (std::size_t i = 0; i < 3 && !mesh.uvs->empty(); ++i) uv[i] = (*mesh.uvs)[corner[i]];
+  return uv;
+}
+
+/// The two partial derivatives of what is linear over a triangle, from its differences to corner 2.
+struct Linear {
+  explicit Linear(const std::array<Vec2, 3>& uv)
+      : du02(double(uv[0].x) - uv[2].x),
+        dv02(double(uv[0].y) - uv[2].y),
+        du12(double(uv[1].x) - uv[2].x),
+        dv12(double(uv[1].y) - uv[2].y),
+        determinant(du02 * dv12 - dv02 * du12) {}
+
+  bool degenerate() const { return !(std::abs(determinant) >= 1e-9); }  // pbrt's threshold
+  Vec3d along_u(Vec3d d02, Vec3d d12) const { return (d02 * dv12 - d12 * dv02) * (1 / determinant); }
+  Vec3d along_v(Vec3d d02, Vec3d d12) const { return (d12 * du02 - d02 * du12) * (1 / determinant); }
+
+  double du02, dv02, du12, dv12, determinant;
 };
 
-Tangent triangle_tangent(const PlacedMesh& mesh, const std::array<std::uint32_t, 3>& corner, const std::array<double, 3>& w) {
-  const Vec3d p2 = mesh.position(corner[2]);
-  const Vec3d dp02 = mesh.position(corner[0]) - p2, dp12 = mesh.position(corner[1]) - p2;
-  std::array<Vec2, 3> uv{Vec2{0, 0}, Vec2{1, 0}, Vec2{1, 1}};
-  if (!mesh.uvs->empty()) {
-    for (std::size_t i = 0; i < 3; ++i) uv[i] = (*mesh.uvs)[corner[i]];
-  }
-  Tangent tangent;
-  tangent.uv = {static_cast<float>(w[0] * uv[0].x + w[1] * uv[1].x + w[2] * uv[2].x),
-                static_cast<float>(w[0] * uv[0].y + w[1] * uv[1].y + w[2] * uv[2].y)};
-  const double du02 = double(uv[0].x) - uv[2].x, dv02 = double(uv[0].y) - uv[2].y;
-  const double du12 = double(uv[1].x) - uv[2].x, dv12 = double(uv[1].y) - uv[2].y;
-  const double determinant = du02 * dv12 - dv02 * du12;
-  if (std::abs(determinant) >= 1e-9) {  // pbrt's threshold
-    tangent.dpdu = (dp02 * dv12 - dp12 * dv02) * (1 / determinant);
-  }
-  if (!(dot(tangent.dpdu, tangent.dpdu) > 0)) {
-    tangent.dpdu = Vec3d(Frame::around(to_vec3(normalize(cross(dp02, dp12)))).x);
-  }
-  return tangent;
+/// dp/du, where triangles without one have any direction in their plane.
+Vec3d tangent_of(const std::array<Vec3d, 3>& v, const Linear& linear) {
+  const Vec3d dp02 = v[0] - v[2], dp12 = v[1] - v[2], dpdu = linear.degenerate() ? Vec3d() : linear.along_u(dp02, dp12);
+  return dot(dpdu, dpdu) > 0 ? dpdu : Vec3d(Frame::around(to_vec3(normalize(cross(dp02, dp12)))).x);
 }
 
 /// How far off the plane the ray tracer's single-precision test may put a point of the triangle: a few roundings of
@@ -74,9 +75,10 @@ ShapeSurface triangle_surface(const PlacedMesh& mesh, std::uint32_t primitive, d
   ShapeSurface surface;
   surface.p = v[0] * w[0] + v[1] * w[1] + v[2] * w[2];
   surface.ng = surface.ns = normalize(winding) * (mesh.flip ? -1 : 1);
-  const Tangent tangent = triangle_tangent(mesh, corner, w);
-  surface.uv = tangent.uv;
-  surface.dpdu = tangent.dpdu;
+  const std::array<Vec2, 3> uv = texture_coordinates(mesh, corner);
+  surface.uv = {static_cast<float>(w[0] * uv[0].x + w[1] * uv[1].x + w[2] * uv[2].x),
+                static_cast<float>(w[0] * uv[0].y + w[1] * uv[1].y + w[2] * uv[2].y)};
+  surface.dpdu = tangent_of(v, Linear(uv));
   surface.error = test_error(surface.p, v, length(winding));
   if (mesh.normals.empty()) return surface;
 
@@ -90,33 +92,11 @@ ShapeSurface triangle_surface(const PlacedMesh& mesh, std::uint32_t primitive, d
   return surface;
 }
 
-namespace {
-
-/// The two partial derivatives of what is linear over a triangle, from its differences to corner 2.
-struct Linear {
-  explicit Linear(const std::array<Vec2, 3>& uv)
-      : du02(double(uv[0].x) - uv[2].x),
-        dv02(double(uv[0].y) - uv[2].y),
-        du12(double(uv[1].x) - uv[2].x),
-        dv12(double(uv[1].y) - uv[2].y),
-        determinant(du02 * dv12 - dv02 * du12) {}
-
-  bool degenerate() const { return std::abs(determinant) < 1e-9; }  // pbrt's threshold
-  Vec3d along_u(Vec3d d02, Vec3d d12) const { return (d02 * dv12 - d12 * dv02) * (1 / determinant); }
-  Vec3d along_v(Vec3d d02, Vec3d d12) const { return (d12 * du02 - d02 * du12) * (1 / determinant); }
-
-  double du02, dv02, du12, dv12, determinant;
-};
-
-}  // namespace
-
 ShapeTangents triangle_tangents(const PlacedMesh& mesh, std::uint32_t primitive, double b1, double b2) {
   const auto corner = mesh.corners<3>(primitive);
   const Vec3d p2 = mesh.position(corner[2]);
   const Vec3d dp02 = mesh.position(corner[0]) - p2, dp12 = mesh.position(corner[1]) - p2;
-  std::array<Vec2, 3> uv{Vec2{0, 0}, Vec2{1, 0}, Vec2{1, 1}};
-  for (std::size_t i = 0; i < 3 && !mesh.uvs->empty(); ++i) uv[i] = (*mesh.uvs)[corner[i]];
-  const Linear linear(uv);
+  const Linear linear(texture_coordinates(mesh, corner));
   const Vec3d ng = normalize(cross(dp02, dp12));
 
   ShapeTangents t;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/cie.h"
 #include "math/perlin_noise.h"
 #include "texture/noise_texture.h"
 

@@ -72,7 +72,6 @@ class GridRay {
 
   std::uint32_t node() const { return stack_[level_]; }  ///< kNone where it is empty
   int level() const { return level_; }
-  const Index3& cell() const { return cell_; }
   Index3 corner() const {
     const std::int64_t mask = ~(BrickGrid::extent(level_) - 1);
     return {cell_[0] & mask, cell_[1] & mask, cell_[2] & mask};

@@ -55,7 +55,7 @@ UniformOptics sum_of(MediaView media) {
 UniformPassage passage_of(MediaView media, double d, Rgb beta) {
   const UniformOptics m = sum_of(media);
   UniformPassage passage{m.transmittance(d)};
-  const Rgb mass{std::abs(beta.r), std::abs(beta.g), std::abs(beta.b)};
+  const Rgb mass = absolute(beta);
   const float total = mass.r + mass.g + mass.b;
   if (is_black(m.sigma_s) || !(total > 0)) return passage;  // weighed, never ended
   const Rgb passed = mass * passage.transmittance;
@@ -78,7 +78,7 @@ Flight homogeneous_flight(MediaView media, double t0, double t1, Rgb beta, float
 
   const Rgb s = m.sigma_t();
   const bool grey = s.r == s.g && s.g == s.b;
-  Rgb mass{std::abs(beta.r), std::abs(beta.g), std::abs(beta.b)};
+  Rgb mass = absolute(beta);
   const float total = mass.r + mass.g + mass.b;
   if (!(total > 0)) return flight;
   mass = mass * (1 / total);

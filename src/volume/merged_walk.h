@@ -3,11 +3,11 @@
 
 #include <cstddef>
 #include <memory>
-#include <span>
 #include <vector>
 
 #include "volume/medium.h"
 #include "volume/medium_walk.h"
+#include "volume/tracking.h"
 
 namespace tyndall {
 
@@ -16,8 +16,7 @@ namespace tyndall {
 template <WalkMode Mode>
 class MergedWalk {
  public:
-  MergedWalk(std::span<const ParticipatingMedium* const> media, const Ray& ray, double t0, double t1)
-      : count_(media.size()), t_(t0), t_end_(t0), limit_(t1) {
+  MergedWalk(MediaView media, const Ray& ray, double t0, double t1) : count_(media.size()), t_(t0), t_end_(t0), limit_(t1) {
     walks_ = reinterpret_cast<MediumWalk<Mode>*>(inline_);
     if (count_ > kInline) {
       heap_ = std::make_unique<std::byte[]>(count_ * sizeof(MediumWalk<Mode>));
@@ -106,16 +105,26 @@ class MergedWalk {
   alignas(MediumWalk<Mode>) std::byte inline_[kInline * sizeof(MediumWalk<Mode>)];
 };
 
-/// Call body(walk) with the walk that suits `media`, which must not be empty.
+/// What a walk of rate `rate` meets at a tentative collision; counted.
+template <typename Walk>
+LocalOptics looked_up(Walk& walk, double t, bool emission, float rate, TrackingStats& stats) {
+  const LocalOptics at = walk.optics_at(t, emission);
+  kernel::count_lookup(max_component(at.sigma_t()), rate, stats);
+  return at;
+}
+
+/// What body(walk) gives with the walk that suits `media`, which must not be empty; its steps are counted.
 template <WalkMode Mode, typename Body>
-decltype(auto) with_walk(std::span<const ParticipatingMedium* const> media, const Ray& ray, double t0, double t1,
-                         const Body& body) {
-  if (media.size() == 1) {
-    MediumWalk<Mode> walk(media[0]->data(), ray, t0, t1);
-    return body(walk);
-  }
-  MergedWalk<Mode> walk(media, ray, t0, t1);
-  return body(walk);
+auto with_walk(MediaView media, const Ray& ray, double t0, double t1, TrackingStats& stats, const Body& body) {
+  const auto counted = [&](auto&& walk) {
+    const auto result = body(walk);
+    stats.segments += walk.steps();
+    stats.noise_lookups += walk.noise_lookups();
+    if (walk.capped()) ++stats.caps_hit;
+    return result;
+  };
+  if (media.size() == 1) return counted(MediumWalk<Mode>(media[0]->data(), ray, t0, t1));
+  return counted(MergedWalk<Mode>(media, ray, t0, t1));
 }
 
 }  // namespace tyndall

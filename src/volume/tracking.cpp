@@ -15,7 +15,7 @@ using namespace kernel;
 
 /// Throughput relative to the largest channel at the start, so that products neither under- nor overflow.
 Rgb normalised(Rgb beta) {
-  const float top = std::max({std::abs(beta.r), std::abs(beta.g), std::abs(beta.b)});
+  const float top = max_abs(beta);
   return top > 0 ? Rgb{beta.r / top, beta.g / top, beta.b / top} : Rgb{};
 }
 
@@ -35,9 +35,8 @@ template <typename Walk>
 bool collide(Walk& walk, double t, FlightState& state, Rng& rng, TrackingStats& stats) {
   Flight& flight = state.flight;
   const float rate = walk.rate();
-  const LocalOptics at = walk.optics_at(t, false);
-  const Rgb sigma_t = at.sigma_a + at.sigma_s;
-  count_lookup(max_component(sigma_t), rate, stats);
+  const LocalOptics at = looked_up(walk, t, false, rate, stats);
+  const Rgb sigma_t = at.sigma_t();
 
   // Where nothing scatters a collision would only end the path: weigh instead, until too little is left.
   if (is_black(at.sigma_s)) {
@@ -112,13 +111,11 @@ struct Passing {
 template <typename Walk>
 void gather(Walk& walk, const Passing& passing, EmissionTransmittance& result, Rng& rng, TrackingStats& stats) {
   const auto look = [&](double t, float rate) {
-    const LocalOptics at = walk.optics_at(t, passing.emissive);
-    const Rgb sigma_t = at.sigma_a + at.sigma_s;
-    count_lookup(max_component(sigma_t), rate, stats);
+    const LocalOptics at = looked_up(walk, t, passing.emissive, rate, stats);
     const Rgb emitted = result.transmittance * passing.counted(t, at.emission) * (1 / rate);
     result.emitted += emitted;
     if (passing.look.sink) passing.look.sink->emitted(static_cast<float>(t), emitted);
-    result.transmittance *= Rgb{1.0f} - sigma_t * (1 / rate);
+    result.transmittance *= Rgb{1.0f} - at.sigma_t() * (1 / rate);
   };
   for_each_collision(walk, result.transmittance, rng, stats, look, passing.look.density);
 }
@@ -142,11 +139,10 @@ Flight free_flight(MediaView media, const Ray& ray, float t0, float t1, Rgb beta
   // A channel without throughput stays without: its weights mean nothing and must not overflow.
   state.flight.weight = {state.beta.r == 0 ? 0.0f : 1.0f, state.beta.g == 0 ? 0.0f : 1.0f, state.beta.b == 0 ? 0.0f : 1.0f};
   state.depth = exponential(u_first);
-  with_walk<WalkMode::majorant>(media, ray, t0, t1, [&](auto& walk) {
+  return with_walk<WalkMode::majorant>(media, ray, t0, t1, stats, [&](auto& walk) {
     fly(walk, state, rng, stats);
-    finish(walk, stats);
+    return state.flight;
   });
-  return state.flight;
 }
 
 // NOLINTNEXTLINE(readability-function-size): as free_flight
@@ -163,11 +159,10 @@ EmissionTransmittance emission_and_transmittance(MediaView media, const Ray& ray
             m.transmittance(length)};
   }
   const Passing passing{media, ray, look, any_emissive(media)};
-  with_walk<WalkMode::majorant>(media, ray, t0, t1, [&](auto& walk) {
+  return with_walk<WalkMode::majorant>(media, ray, t0, t1, stats, [&](auto& walk) {
     gather(walk, passing, result, rng, stats);
-    finish(walk, stats);
+    return result;
   });
-  return result;
 }
 
 }  // namespace tyndall

@@ -99,11 +99,4 @@ void for_each_collision(Walk& walk, Rgb& T, Rng& rng, TrackingStats& stats, cons
   }
 }
 
-template <typename Walk>
-void finish(const Walk& walk, TrackingStats& stats) {
-  stats.segments += walk.steps();
-  stats.noise_lookups += walk.noise_lookups();
-  if (walk.capped()) ++stats.caps_hit;
-}
-
 }  // namespace tyndall::kernel

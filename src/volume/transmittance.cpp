@@ -15,10 +15,7 @@ template <typename Walk>
 Rgb ratio_tracking(Walk& walk, Rng& rng, TrackingStats& stats) {
   Rgb T{1.0f};
   for_each_collision(walk, T, rng, stats, [&](double t, float rate) {
-    const LocalOptics at = walk.optics_at(t, false);
-    const Rgb sigma_t = at.sigma_a + at.sigma_s;
-    count_lookup(max_component(sigma_t), rate, stats);
-    T *= Rgb{1.0f} - sigma_t * (1 / rate);
+    T *= Rgb{1.0f} - looked_up(walk, t, false, rate, stats).sigma_t() * (1 / rate);
   });
   return T;
 }
@@ -28,9 +25,7 @@ template <typename Walk>
 Rgb delta_tracking(Walk& walk, Rng& rng, TrackingStats& stats) {
   Rgb T{1.0f};
   for_each_collision(walk, T, rng, stats, [&](double t, float rate) {
-    const LocalOptics at = walk.optics_at(t, false);
-    const Rgb sigma_t = at.sigma_a + at.sigma_s;
-    count_lookup(max_component(sigma_t), rate, stats);
+    const Rgb sigma_t = looked_up(walk, t, false, rate, stats).sigma_t();
     const Rgb null = Rgb{rate} - sigma_t;
     const float real_mass = sum(absolute(T) * sigma_t), null_mass = sum(absolute(T * null));
     const float total = real_mass + null_mass;
@@ -100,24 +95,16 @@ Rgb transmittance(TransmittanceMethod method, MediaView media, const Ray& ray, f
   }
   const TransmittanceStrategy strategy = method.strategy;
   if (strategy == TransmittanceStrategy::raymarch) {
-    return with_walk<WalkMode::march>(media, ray, t0, t1, [&](auto& walk) {
-      const Rgb T = ray_marching(walk, RayMarch::Of::transmittance, method.spacing, rng, stats);
-      finish(walk, stats);
-      return T;
+    return with_walk<WalkMode::march>(media, ray, t0, t1, stats, [&](auto& walk) {
+      return ray_marching(walk, RayMarch::Of::transmittance, method.spacing, rng, stats);
     });
   }
   if (strategy == TransmittanceStrategy::residual) {
-    return with_walk<WalkMode::residual>(media, ray, t0, t1, [&](auto& walk) {
-      const Rgb T = residual_ratio_tracking(walk, rng, stats);
-      finish(walk, stats);
-      return T;
-    });
+    return with_walk<WalkMode::residual>(media, ray, t0, t1, stats,
+                                         [&](auto& walk) { return residual_ratio_tracking(walk, rng, stats); });
   }
-  return with_walk<WalkMode::majorant>(media, ray, t0, t1, [&](auto& walk) {
-    const Rgb T =
-        strategy == TransmittanceStrategy::ratio ? ratio_tracking(walk, rng, stats) : delta_tracking(walk, rng, stats);
-    finish(walk, stats);
-    return T;
+  return with_walk<WalkMode::majorant>(media, ray, t0, t1, stats, [&](auto& walk) {
+    return strategy == TransmittanceStrategy::ratio ? ratio_tracking(walk, rng, stats) : delta_tracking(walk, rng, stats);
   });
 }
 
@@ -128,11 +115,8 @@ Rgb inverse_transmittance(float spacing, MediaView media, const Ray& ray, float 
     ++stats.segments;
     return exp(sum_of(media).sigma_t() * (t1 - t0));
   }
-  return with_walk<WalkMode::march>(media, ray, t0, t1, [&](auto& walk) {
-    const Rgb inverse = ray_marching(walk, RayMarch::Of::inverse, spacing, rng, stats);
-    finish(walk, stats);
-    return inverse;
-  });
+  return with_walk<WalkMode::march>(media, ray, t0, t1, stats,
+                                    [&](auto& walk) { return ray_marching(walk, RayMarch::Of::inverse, spacing, rng, stats); });
 }
 
 }  // namespace tyndall

@@ -28,6 +28,8 @@ inline constexpr float kSplitDepth = 0.1f;
 struct LocalOptics {
   Rgb sigma_a, sigma_s;
   Rgb emission;  ///< sigma_a * Le; filled only on request
+
+  Rgb sigma_t() const { return sigma_a + sigma_s; }
 };
 
 /// Places at even distances on a ray, in one piece of its walk.

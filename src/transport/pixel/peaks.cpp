@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "transport/pixel/chosen_by_brightness.h"
+
 namespace tyndall {
 namespace {
 
@@ -90,22 +92,12 @@ Vec2 Peak::reach() const {
   return {rho * std::hypot(down.x, down.y), rho * std::hypot(right.x, right.y)};
 }
 
-PixelPeaks::PixelPeaks(List peaks) : peaks_(std::move(peaks)) {
-  if (peaks_.size() > kMost) {
-    std::partial_sort(peaks_.begin(), peaks_.begin() + kMost, peaks_.end(), brighter);
-    peaks_.truncate(kMost);
-  }
-  double sum = 0;
-  for (const Peak& peak : peaks_) sum += peak.brightness;
-  if (!(sum > 0)) peaks_.clear();
-  for (Peak& peak : peaks_) peak.brightness = static_cast<float>(peak.brightness / sum);
-}
+PixelPeaks::PixelPeaks(List peaks) : peaks_(std::move(peaks)) { keep_brightest(peaks_, kMost, brighter); }
 
 PixelPeaks::Draw PixelPeaks::draw(float which, Vec2 u) const {
-  const Peak* chosen = peaks_.begin();
-  while (which >= chosen->brightness && chosen != &peaks_.back()) which -= (chosen++)->brightness;
-  const Vec2 x = chosen->draw(u);
-  return {chosen->light, x, pdf(chosen->light, x)};
+  const Peak& chosen = chosen_by_brightness(peaks_, which);
+  const Vec2 x = chosen.draw(u);
+  return {chosen.light, x, pdf(chosen.light, x)};
 }
 
 float PixelPeaks::pdf(LightId light, Vec2 x) const {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "transport/pixel/chosen_by_brightness.h"
+
 namespace tyndall {
 namespace {
 
@@ -46,21 +48,13 @@ float FilmReach::pdf(Vec2 at, Vec2 x) const {
 }
 
 PixelPoints::PixelPoints(const FilmReach& reach, List points) : reach_(reach), points_(std::move(points)) {
-  if (points_.size() > kMost) {
-    std::partial_sort(points_.begin(), points_.begin() + kMost, points_.end(), brighter);
-    points_.truncate(kMost);
-  }
-  double sum = 0;
-  for (const FilmPoint& point : points_) sum += point.brightness;
-  if (!(sum > 0)) points_.clear();
-  for (FilmPoint& point : points_) point.brightness = static_cast<float>(point.brightness / sum);
+  keep_brightest(points_, kMost, brighter);
 }
 
 PixelPoints::Draw PixelPoints::draw(float which, Vec2 around) const {
-  const FilmPoint* chosen = points_.begin();
-  while (which >= chosen->brightness && chosen != &points_.back()) which -= (chosen++)->brightness;
-  const Vec2 x = reach_.draw(chosen->at, around);
-  return {chosen->light, x, pdf(*chosen, x), chosen->g};
+  const FilmPoint& chosen = chosen_by_brightness(points_, which);
+  const Vec2 x = reach_.draw(chosen.at, around);
+  return {chosen.light, x, pdf(chosen, x), chosen.g};
 }
 
 float PixelPoints::pdf(LightId light, Vec2 x) const {

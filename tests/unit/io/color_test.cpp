@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "io/color.h"
+#include "math/cie.h"
 
 using namespace tyndall;
 using doctest::Approx;
@@ -182,14 +183,15 @@ TEST_CASE("colour spaces") {
     CAPTURE(name);
     const ColorSpace* space = find_color_space(name);
     REQUIRE(space);
-    check_rgb(mul(space->from_rec709, mul(space->to_rec709, {0.2f, 0.5f, 0.9f})), {0.2f, 0.5f, 0.9f}, 1e-5);
-    check_rgb(mul(space->reflectance_to_rec709, Rgb(1.0f)), Rgb(1.0f), 1e-5);
+    check_rgb(transformed(space->from_rec709, transformed(space->to_rec709, {0.2f, 0.5f, 0.9f})), {0.2f, 0.5f, 0.9f}, 1e-5);
+    check_rgb(transformed(space->reflectance_to_rec709, Rgb(1.0f)), Rgb(1.0f), 1e-5);
   }
   // ITU-R BT.2087: Rec.2020 to Rec.709
   const ColorSpace* rec2020 = find_color_space("rec2020");
-  check_rgb(mul(rec2020->to_rec709, {1, 0, 0}), {1.6605f, -0.1246f, -0.0182f}, 2e-4);
-  check_rgb(mul(rec2020->to_rec709, Rgb(1.0f)), Rgb(1.0f), 1e-5);
+  check_rgb(transformed(rec2020->to_rec709, {1, 0, 0}), {1.6605f, -0.1246f, -0.0182f}, 2e-4);
+  check_rgb(transformed(rec2020->to_rec709, Rgb(1.0f)), Rgb(1.0f), 1e-5);
   // Light of rgb (1,1,1) in ACES is D60.
-  check_rgb(mul(find_color_space("aces2065-1")->to_rec709, Rgb(1.0f)), illuminant_rgb(*named_spectrum("illum-acesD60")), 1e-5);
+  check_rgb(transformed(find_color_space("aces2065-1")->to_rec709, Rgb(1.0f)), illuminant_rgb(*named_spectrum("illum-acesD60")),
+            1e-5);
   CHECK(find_color_space("srgb")->to_rec709 == std::array<float, 9>{1, 0, 0, 0, 1, 0, 0, 0, 1});
 }

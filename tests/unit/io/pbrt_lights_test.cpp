@@ -1,4 +1,5 @@
 #include "io/color.h"
+#include "math/cie.h"
 #include "unit/io/reader_checks.h"
 
 using namespace tyndall;
@@ -181,13 +182,13 @@ TEST_CASE("a scaled quadric's power, which pbrt scales too, is warned of") {
 TEST_CASE("colours are read in the colour space in force") {
   const ColorSpace& aces = *find_color_space("aces2065-1");
   check_near(light<PointLight>("ColorSpace \"aces2065-1\" LightSource \"point\" \"rgb I\" [1 2 3]").I,
-             mul(aces.to_rec709, {1, 2, 3}));
-  check_near(light<PointLight>("ColorSpace \"aces2065-1\" LightSource \"point\"").I, mul(aces.to_rec709, Rgb(1.0f)));
+             transformed(aces.to_rec709, {1, 2, 3}));
+  check_near(light<PointLight>("ColorSpace \"aces2065-1\" LightSource \"point\"").I, transformed(aces.to_rec709, Rgb(1.0f)));
   // The Attribute's parameters keep the space of their own place.
   check_near(light<PointLight>(
                  "ColorSpace \"aces2065-1\" Attribute \"light\" \"rgb I\" [1 2 3] ColorSpace \"srgb\" LightSource \"point\"")
                  .I,
-             mul(aces.to_rec709, {1, 2, 3}));
+             transformed(aces.to_rec709, {1, 2, 3}));
   const Scene s = read_world("ColorSpace \"aces2065-1\" Material \"diffuse\" \"rgb reflectance\" [.5 .5 .5]");
   check_near(test::constant(s, std::get<DiffuseMaterial>(s.materials[0].kind).reflectance), Rgb(.5f));
 }

@@ -1,4 +1,5 @@
 #include "io/color.h"
+#include "math/cie.h"
 #include "support/scratch.h"
 #include "unit/io/reader_checks.h"
 
@@ -123,8 +124,8 @@ TEST_CASE("sensor and white balance are part of the film's colours") {
   CHECK(film("\"string sensor\" \"cie1931\"").from_rec709 == Film().from_rec709);
   const auto warm = film("\"float whitebalance\" 4000").from_rec709,
              canon = film("\"string sensor\" \"canon_eos_5d\"").from_rec709;
-  CHECK(mul(warm, Rgb(1.0f)).b > 1.5f);
-  CHECK(mul(canon, Rgb(1.0f)).g == doctest::Approx(1).epsilon(0.02));
+  CHECK(transformed(warm, Rgb(1.0f)).b > 1.5f);
+  CHECK(transformed(canon, Rgb(1.0f)).g == doctest::Approx(1).epsilon(0.02));
   CHECK(canon != film("\"string sensor\" \"canon_eos_5d\" \"float whitebalance\" 4000").from_rec709);
   CHECK_CONTAINS(error_of("Film \"rgb\" \"string sensor\" \"canon_eos_5\""), "did you mean \"canon_eos_5d");
   CHECK_CONTAINS(error_of("Film \"rgb\" \"float whitebalance\" -1"), "whitebalance must be 0");

@@ -100,9 +100,10 @@ TEST_CASE("errors that a picture states are held against the true ones") {
 }
 
 TEST_CASE("relMSE as estimated from an image's own variances") {
-  CHECK(close(estimated_relmse(with_variance(flat(4, 4, 1, 1, 1), 0.02f)), 0.02 / 0.99, 1e-5));  // of the square, 0.02 is noise
-  CHECK(close(estimated_relmse(with_variance(flat(4, 4, 0, 0, 0), 0.0202f)), 2.02, 1e-5));
-  CHECK_THROWS_AS(estimated_relmse(flat(4, 4, 1, 1, 1)), Error);
+  CHECK(close(relmse_by_variances(with_variance(flat(4, 4, 1, 1, 1), 0.02f)), 0.02 / 0.99,
+              1e-5));  // of the square, 0.02 is noise
+  CHECK(close(relmse_by_variances(with_variance(flat(4, 4, 0, 0, 0), 0.0202f)), 2.02, 1e-5));
+  CHECK_THROWS_AS(relmse_by_variances(flat(4, 4, 1, 1, 1)), Error);
 }
 
 TEST_CASE("values that are not finite make errors that are not finite") {
