@@ -58,11 +58,14 @@ enum class TransmittanceStrategy { residual, ratio, delta, raymarch };
 /// Of RenderSettings::deep_bins.
 inline constexpr int kMostDeepBins = 256;
 
+/// That can be asked for; the largest int stands for as many as a limit of time or error leaves room for.
+inline constexpr int kMostSamples = 1 << 30;
+
 /// No stop is looked for within a path.
 inline constexpr int kMostBounces = 1 << 20;
 
 struct RenderSettings {
-  int spp = 64;                  ///< samples a pixel, >= 1
+  int spp = 64;                  ///< samples a pixel, 1 to kMostSamples
   std::optional<double> time{};  ///< seconds; stops at the first pass end after it, if spp have not been reached before
   /// relMSE (mean of variance / (mean^2 + 0.01), from the render's own replicates) to stop below; if not `adaptive` looked at
   /// when the samples are 64, 128, 256 ...

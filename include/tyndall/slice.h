@@ -24,6 +24,9 @@ struct SampleRange {
 /// Slices begin at multiples: at an even sample, as replicates do, and where Sobol' points are balanced.
 inline constexpr int kSliceGrain = 16;
 
+/// More would be a damaged header, or a mistake.
+inline constexpr int kMostSlices = 100'000;
+
 /// Slice `index` of `count`, from 1.
 struct SliceChoice {
   int index = 1, count = 1;

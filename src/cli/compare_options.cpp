@@ -42,7 +42,7 @@ void declare(CLI::App& command, CompareOptions& o) {
   auto* time =
       command.add_option("--time", o.time, "seconds that each variant renders for each seed [20]; --time 5")->check(positive());
   command.add_option("--spp", o.spp, "samples a pixel for each variant and seed, instead of --time [none]; --spp 64")
-      ->check(CLI::Range(1, 1 << 30))
+      ->check(CLI::Range(1, kMostSamples))
       ->excludes(time);
   command.add_option("--seeds", o.seeds, "runs of each variant; the intervals come from their spread [5]; --seeds 10")
       ->check(CLI::Range(5, 1000));

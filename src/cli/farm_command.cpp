@@ -233,7 +233,7 @@ void declare(CLI::App& command, FarmOptions& o) {
       ->group("");  // not listed: it is told to those who look for it
   command.add_option("--slices", o.slices, "how many, of each frame; each begins at a multiple of 16 samples; --slices 64")
       ->required()
-      ->check(CLI::Range(1, 100000));
+      ->check(CLI::Range(1, kMostSlices));
   command
       .add_option("--error", o.error, "relMSE that is wanted: merge says how many samples more it takes [none]; --error 0.001")
       ->check(positive());

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <regex>
+#include <set>
 #include <sstream>
 
 #include "report/command_words.h"
@@ -49,11 +51,13 @@ std::string output_of_seed(std::string path, std::uint64_t seed) {
 
 /// One that no sample of the image has.
 std::uint64_t unused_seed(const Image& image) {
-  std::uint64_t largest = 0;
+  std::set<std::uint64_t> used{0};
   const auto* text = image.attribute<std::string>("tyndall/seed");
   std::istringstream seeds(text ? *text : "");
-  for (std::string seed; std::getline(seeds, seed, ',');) largest = std::max<std::uint64_t>(largest, std::stoull(seed));
-  return largest + 1;
+  for (std::string seed; std::getline(seeds, seed, ',');) used.insert(std::strtoull(seed.c_str(), nullptr, 10));
+  std::uint64_t seed = *used.rbegin() + 1;
+  while (used.contains(seed)) ++seed;
+  return seed;
 }
 
 /// For slice `index`: --slice, and the output's name where that holds the number of slice `of`.
@@ -62,15 +66,16 @@ void choose_slice(CommandWords& command, const SliceChoice& of, int index) {
   if (const auto output = command.value(kOutput)) command.change(kOutput, output_for(*output, of.index, index));
 }
 
-/// A command that renders `samples` a pixel more, of another seed; nothing when `tally` does not know how slices were made.
-std::string more_samples(const SliceTally& tally, long long samples, std::uint64_t seed) {
-  if (tally.command.empty()) return "";
+/// A command that renders `samples` a pixel more, of another seed; nothing when `tally` does not know how slices were made, or
+/// no render takes so many.
+std::string more_samples(const SliceTally& tally, double samples, std::uint64_t seed) {
+  const double grain = double{kSliceGrain} * tally.count, rounded = std::ceil(samples / grain) * grain;
+  if (tally.command.empty() || rounded > kMostSamples) return "";
   CommandWords command(tally.command);
   choose_slice(command, tally.of_command, 1);
   if (const auto output = command.value(kOutput)) command.change(kOutput, output_of_seed(*output, seed));
-  const long long grain = static_cast<long long>(kSliceGrain) * tally.count;
   command.drop(kSpp);
-  command.add(kSpp.front(), std::to_string((samples + grain - 1) / grain * grain));
+  command.add(kSpp.front(), std::to_string(static_cast<int>(rounded)));
   command.drop(kSeed);
   command.add(kSeed.front(), std::to_string(seed));
   return command.str();
@@ -90,8 +95,8 @@ std::string about_error(const Merged& merged, std::optional<double> wanted) {
   const int* samples = merged.image.attribute<int>("tyndall/samples");
   if (*merged.relmse <= *wanted) return text + fmt::format(", not above the {:.3g} asked for\n", *wanted);
   if (!samples) return text + fmt::format(", above the {:.3g} asked for\n", *wanted);
-  const auto more = static_cast<long long>(std::ceil(*samples * (*merged.relmse / *wanted - 1)));
-  text += fmt::format("; for {:.3g} about {} samples a pixel more are needed\n", *wanted, more);
+  const double more = std::ceil(*samples * (*merged.relmse / *wanted - 1));
+  text += fmt::format("; for {:.3g} about {:.{}} samples a pixel more are needed\n", *wanted, more, more < 1e9 ? 9 : 3);
   const std::string command = merged.slices.empty() ? "" : more_samples(merged.slices.front(), more, unused_seed(merged.image));
   return command.empty() ? text : text + fmt::format("  they come from slices of another seed, the first: {}\n", command);
 }

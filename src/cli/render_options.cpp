@@ -78,7 +78,7 @@ void declare_task(CLI::App& command, RenderOptions& o) {
   command.add_option("-o,--output", o.output,
                      "image to write, .exr, .png or .pfm [the Film's name, else SCENE.exr]; -o plume.exr");
   command.add_option("--spp", o.spp, "samples a pixel, at most [the Sampler's, else 16]; --spp 256")
-      ->check(CLI::Range(1, 1 << 30));
+      ->check(CLI::Range(1, kMostSamples));
   command
       .add_option("--time", o.time,
                   "seconds to render for, at most; without --spp the samples are as many as that gives [none]; --time 60")

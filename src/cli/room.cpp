@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "cli/checkpoint_file.h"
+#include "session/memory_plan.h"
 #include "session/rendered_pixels.h"
 #include "tyndall/cryptomatte.h"
 #include "tyndall/error.h"
@@ -19,23 +20,21 @@ namespace fs = std::filesystem;
 
 constexpr std::uint64_t kHeader = 1 << 16;
 
-/// R G B A, and at most as many for each AOV, but for mattes.
-std::uint64_t channels_of(const Scene& scene) {
-  std::uint64_t channels = 4;
-  for (const std::string& aov : scene.settings.aovs) channels += is_matte_layer(aov) ? 2 * kMatteRanks : 4;
-  return channels;
+std::uint64_t channels_of_mattes(const Scene& scene) {
+  const auto& aovs = scene.settings.aovs;
+  return 2 * kMatteRanks * static_cast<std::uint64_t>(std::count_if(aovs.begin(), aovs.end(), is_matte_layer));
 }
 
 std::uint64_t largest_image(const Scene& scene, const std::string& path) {
   if (fs::path(path).extension() == ".png") return 3 * pixels_of(scene) + kHeader;
   if (fs::path(path).extension() == ".pfm") return 3 * sizeof(float) * pixels_of(scene) + kHeader;
-  const std::uint64_t sums = scene.settings.slice ? 3 * (3 + channels_of(scene)) : 0;
-  return sizeof(float) * (channels_of(scene) + sums) * pixels_of(scene) + kHeader;
+  const auto [sums, channels] = film_numbers(scene);
+  const std::uint64_t floats = channels + channels_of_mattes(scene) + (scene.settings.slice ? 3 * sums : 0);
+  return sizeof(float) * floats * pixels_of(scene) + kHeader;
 }
 
-/// The film's sums: of colour once for the even and once for the odd samples.
 std::uint64_t largest_checkpoint(const Scene& scene) {
-  return (sizeof(double) + sizeof(float)) * (3 + channels_of(scene)) * pixels_of(scene) + kHeader;
+  return (sizeof(double) + sizeof(float)) * (film_numbers(scene).sums + channels_of_mattes(scene)) * pixels_of(scene) + kHeader;
 }
 
 /// Free on the disk of `path`, and what stands there now and will be replaced.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "math/cie.h"
 #include "tyndall/lights.h"
 
 namespace tyndall {
@@ -41,12 +42,43 @@ std::size_t sums_of(Aov aov) {
 
 bool is_light(Aov aov) { return aov >= Aov::surface_direct && aov <= Aov::emission; }
 
-std::string sum_channel(std::size_t number, std::size_t part) {
-  constexpr std::array kParts{".high", ".mid", ".low"};
-  return "Sum." + std::to_string(number) + kParts[part];
+/// That are means.
+std::size_t channels_of(Aov aov) {
+  switch (aov) {
+    case Aov::variance:
+    case Aov::replicate:
+    case Aov::crypto_object:
+    case Aov::crypto_material:
+    case Aov::crypto_medium:
+      return 0;
+    case Aov::sample_count:
+      return 1;
+    case Aov::z:
+    case Aov::z_volume:
+      return 2;  // with their count
+    case Aov::p:
+      return 4;
+    default:
+      return 3;
+  }
 }
 
+bool holds(const std::vector<Aov>& aovs, Aov aov) { return std::find(aovs.begin(), aovs.end(), aov) != aovs.end(); }
+
 }  // namespace
+
+std::size_t FilmBuffer::sums_of_pixel(const Extras& extras) {
+  std::size_t sums = 0;
+  for (const Aov aov : extras.aovs) sums += sums_of(aov);
+  return kFirstAov + (holds(extras.aovs, Aov::replicate) ? 2 : 1) * sums + kSumsOfGroup * extras.groups.size();
+}
+
+std::size_t FilmBuffer::channels_of_image(const Extras& extras) {
+  const std::size_t groups = extras.groups.size(), variances = holds(extras.aovs, Aov::variance) ? 3 * (1 + groups) : 0;
+  std::size_t means = 4 + 3 * groups + 2;  // with SampleCount and SampleWeight
+  for (const Aov aov : extras.aovs) means += channels_of(aov);
+  return (holds(extras.aovs, Aov::replicate) ? 2 : 1) * means + variances;
+}
 
 FilmBuffer::FilmBuffer(const Film& film, PixelBounds crop, Extras extras)
     : film_(film),
@@ -68,7 +100,7 @@ FilmBuffer::FilmBuffer(const Film& film, PixelBounds crop, Extras extras)
   if (deep_) keyed_.emplace_back(crop.size(), kSumsOfDepth);
 }
 
-bool FilmBuffer::wants(Aov aov) const { return std::find(aovs_.begin(), aovs_.end(), aov) != aovs_.end(); }
+bool FilmBuffer::wants(Aov aov) const { return holds(aovs_, aov); }
 
 FilmTile FilmBuffer::copy(const PixelBounds& tile) const {
   const std::size_t row = static_cast<std::size_t>(tile.width()) * stride_;
@@ -163,10 +195,7 @@ void FilmBuffer::add_aov(Aov aov, std::size_t first, const PathRecord& r, float 
   }
 }
 
-Rgb FilmBuffer::to_film_space(Rgb c) const {
-  const auto& m = film_.from_rec709;
-  return {m[0] * c.r + m[1] * c.g + m[2] * c.b, m[3] * c.r + m[4] * c.g + m[5] * c.b, m[6] * c.r + m[7] * c.g + m[8] * c.b};
-}
+Rgb FilmBuffer::to_film_space(Rgb c) const { return transformed(film_.from_rec709, c); }
 
 void FilmBuffer::store_color(Image& image, const std::string& name, std::size_t offset, const Means& means,
                              Halves halves) const {
@@ -220,38 +249,6 @@ void FilmBuffer::store_aov(Image& image, Aov aov, std::size_t offset, const Mean
       image.channels[first].values[i] = mean_of(s(0), s(1));
     }
   }
-}
-
-void FilmBuffer::store_sums(Image& image) const {
-  for (std::size_t k = 0; k < stride_; ++k) {
-    std::array<float*, 3> parts;
-    for (std::size_t p = 0; p < 3; ++p) parts[p] = image.add_channel(sum_channel(k, p)).values.data();
-    for (std::size_t i = 0; i < crop_.size(); ++i) {
-      const std::array<float, 3> floats = split(sums_.at(i * stride_ + k));
-      for (std::size_t p = 0; p < 3; ++p) parts[p][i] = floats[p];
-    }
-  }
-  store_keyed(image);
-}
-
-bool FilmBuffer::has_sums(const Image& image) const {
-  for (std::size_t k = 0; k < stride_; ++k) {
-    for (std::size_t p = 0; p < 3; ++p) {
-      if (!image.find(sum_channel(k, p))) return false;
-    }
-  }
-  return !image.find(sum_channel(stride_, 0));
-}
-
-void FilmBuffer::add_sums(const Image& image) {
-  for (std::size_t k = 0; k < stride_; ++k) {
-    std::array<const float*, 3> parts;
-    for (std::size_t p = 0; p < 3; ++p) parts[p] = image.find(sum_channel(k, p))->values.data();
-    for (std::size_t i = 0; i < crop_.size(); ++i) {
-      for (const float* part : parts) sums_.add(i * stride_ + k, part[i]);
-    }
-  }
-  add_keyed(image);
 }
 
 void FilmBuffer::store_count(Image& image, const std::string& name, std::size_t offset) const {

@@ -41,6 +41,9 @@ class FilmBuffer {
     std::vector<std::string> groups{};  ///< names of light groups
     std::optional<DeepLayout> deep{};
   };
+  /// Sums of a pixel with these, without KeyedSums; and channels of the image, without those of mattes, or a few more.
+  static std::size_t sums_of_pixel(const Extras& extras);
+  static std::size_t channels_of_image(const Extras& extras);
   /// The film rectangle `crop` and what to gather.
   FilmBuffer(const Film& film, PixelBounds crop, Extras extras);
 
@@ -91,7 +94,7 @@ class FilmBuffer {
   bool has_sums(const Image& image) const;
   void add_sums(const Image& image);
 
-  /// Mean of variance / (mean^2 + 0.01) over pixels and channels, as the two replicates tell; infinity for samples < 2.
+  /// As RenderJob tells.
   double estimated_relmse(int samples) const;
   /// Of a block of pixels that are means over so many samples, 2 or more.
   BlockNoise noise(const PixelBounds& block, int samples) const;

@@ -1,4 +1,5 @@
-/// What a film knows only of some things in each pixel: who covers it, and where in depth its light is from.
+/// What a film knows only of some things in each pixel, who covers it and where in depth its light is from; and all exact sums
+/// as channels of an image.
 #include <array>
 #include <limits>
 
@@ -9,6 +10,11 @@ namespace {
 
 /// Ids that a slice keeps a pixel: what is cut of one would be missing in the sum of all.
 constexpr std::size_t kMatteRanksOfSlice = 12;
+
+std::string sum_channel(std::size_t number, std::size_t part) {
+  constexpr std::array kParts{".high", ".mid", ".low"};
+  return "Sum." + std::to_string(number) + kParts[part];
+}
 
 }  // namespace
 
@@ -54,6 +60,38 @@ void FilmBuffer::store_keyed(Image& image) const {
 
 void FilmBuffer::add_keyed(const Image& image) {
   for (std::size_t layer = 0; layer < keyed_.size(); ++layer) add_keyed_sums(image, keyed_name(layer), keyed_[layer]);
+}
+
+void FilmBuffer::store_sums(Image& image) const {
+  for (std::size_t k = 0; k < stride_; ++k) {
+    std::array<float*, 3> parts;
+    for (std::size_t p = 0; p < 3; ++p) parts[p] = image.add_channel(sum_channel(k, p)).values.data();
+    for (std::size_t i = 0; i < crop_.size(); ++i) {
+      const std::array<float, 3> floats = split(sums_.at(i * stride_ + k));
+      for (std::size_t p = 0; p < 3; ++p) parts[p][i] = floats[p];
+    }
+  }
+  store_keyed(image);
+}
+
+bool FilmBuffer::has_sums(const Image& image) const {
+  for (std::size_t k = 0; k < stride_; ++k) {
+    for (std::size_t p = 0; p < 3; ++p) {
+      if (!image.find(sum_channel(k, p))) return false;
+    }
+  }
+  return !image.find(sum_channel(stride_, 0));
+}
+
+void FilmBuffer::add_sums(const Image& image) {
+  for (std::size_t k = 0; k < stride_; ++k) {
+    std::array<const float*, 3> parts;
+    for (std::size_t p = 0; p < 3; ++p) parts[p] = image.find(sum_channel(k, p))->values.data();
+    for (std::size_t i = 0; i < crop_.size(); ++i) {
+      for (const float* part : parts) sums_.add(i * stride_ + k, part[i]);
+    }
+  }
+  add_keyed(image);
 }
 
 }  // namespace tyndall

@@ -5,11 +5,14 @@
 
 #include "math/process_memory.h"
 #include "session/deep_layout.h"
+#include "session/film_buffer.h"
+#include "session/slice.h"
 #include "transport/planned_memory.h"
 #include "transport/world/light_groups.h"
 #include "tyndall/cryptomatte.h"
 #include "tyndall/deep_image.h"
 #include "tyndall/error.h"
+#include "tyndall/lights.h"
 
 namespace tyndall {
 namespace {
@@ -28,15 +31,12 @@ double plan_keyed(const RenderSettings& settings) {
 
 std::size_t plan_film(const Scene& scene) {
   const double pixels = pixels_of(scene);
-  const auto& aovs = scene.settings.aovs;
-  const bool twice = std::find(aovs.begin(), aovs.end(), "Replicate") != aovs.end();
-  const auto named = static_cast<double>(named_light_groups(scene).size());
-  const double by_group = named > 0 ? 6 * (named + 1) : 0;  // and those of what has none
-  const double channels = (twice ? 2 : 1) * (4 + 4 * static_cast<double>(aovs.size()) + by_group);
+  const FilmNumbers film = film_numbers(scene);
+  const auto sums = static_cast<double>(film.sums), channels = static_cast<double>(film.channels);
   ByteCount sum;
-  sum.add(pixels, 2 * (sizeof(double) + sizeof(float)) * (3 + channels));         // twice: a long pass keeps a copy to undo it
-  sum.add(pixels, 2 * sizeof(float) * channels);                                  // the image, and its encoding
-  if (scene.settings.slice) sum.add(pixels, 3 * sizeof(float) * (3 + channels));  // its sums
+  sum.add(pixels, 2 * (sizeof(double) + sizeof(float)) * sums);         // twice: a long pass keeps a copy to undo it
+  sum.add(pixels, 2 * sizeof(float) * channels);                        // the image, and its encoding
+  if (scene.settings.slice) sum.add(pixels, 3 * sizeof(float) * sums);  // its sums
   sum.add(pixels, plan_keyed(scene.settings));
   return sum.bytes();
 }
@@ -59,6 +59,13 @@ std::string MemoryPlan::str() const {
   std::string text = "in use " + gigabytes(in_use);
   for (const auto& [what, bytes] : parts) text += ", " + what + " " + gigabytes(bytes);
   return text;
+}
+
+FilmNumbers film_numbers(const Scene& scene) {
+  std::vector<std::string> groups = named_light_groups(scene);
+  if (!groups.empty()) groups.emplace_back(kUngrouped);
+  const FilmBuffer::Extras extras{film_aovs(scene.settings), std::move(groups)};
+  return {FilmBuffer::sums_of_pixel(extras), FilmBuffer::channels_of_image(extras)};
 }
 
 MemoryPlan plan_memory(const Scene& scene, std::span<const LightStrategy> lights, KeptFiles* kept) {

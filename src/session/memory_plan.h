@@ -20,6 +20,13 @@ struct MemoryPlan {
   std::size_t total() const;
   std::string str() const;  ///< "film 0.5, geometry 2.1 GB"
 };
+
+/// Of a pixel of the scene's film, without KeyedSums, and of its image, without mattes: a few more at most.
+struct FilmNumbers {
+  std::size_t sums, channels;
+};
+FilmNumbers film_numbers(const Scene& scene);
+
 /// `lights`: the strategies that it is built for. Sizes of images are taken from `kept`.
 MemoryPlan plan_memory(const Scene& scene, std::span<const LightStrategy> lights, KeptFiles* kept = nullptr);
 

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 #include <mutex>
 #include <tuple>
 
@@ -56,6 +57,7 @@ class RenderJob::Impl {
   }
 
   bool advance(int count, const PassWatch& watch, GivenUp if_given_up) {
+    count = std::min(count, std::numeric_limits<int>::max() - samples_);
     for (int done = 0; done < count && !(plan_ && plan_->is_over(samples_));) {
       if (plan_ && plan_->is_open(samples_)) plan_->decide(samples_, block_noise());
       const int part = pass_end(count - done) - samples_;

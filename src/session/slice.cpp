@@ -19,7 +19,9 @@ SampleRange sample_range(const RenderSettings& settings) {
   if (!settings.slice) return {0, is_adaptive(settings) ? SamplePlan::last_end(settings.spp) : settings.spp};
   const auto& [index, count] = *settings.slice;
   const std::string name = std::to_string(index) + "/" + std::to_string(count);
-  if (index < 1 || index > count) throw Error(Failure::usage, "slice " + name + " cannot be; give I/N with I from 1 to N");
+  if (index < 1 || index > count || count > kMostSlices)
+    throw Error(Failure::usage,
+                "slice " + name + " cannot be; give I/N with I from 1 to N, and N up to " + std::to_string(kMostSlices));
   if (has_error_goal(settings))
     throw Error(Failure::usage, "slice " + name +
                                     " cannot stop at an error, which only all slices together have; leave "

@@ -1,6 +1,7 @@
 #include "session/slice_header.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cstdio>
 
 #include "math/stream_hash.h"
@@ -25,24 +26,30 @@ bool take(std::string& text, std::string_view word) {
   return true;
 }
 
+/// Takes a number off the front of `text`.
+bool take(std::string& text, int& number) {
+  const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (problem != std::errc()) return false;
+  text.erase(0, static_cast<std::size_t>(end - text.data()));
+  return true;
+}
+
 /// Takes what slice_text writes off the front of `text`; nothing where it is something else.
 std::optional<SliceInfo> take_choice(std::string& text) {
   SliceInfo info;
-  int used = 0;
-  if (std::sscanf(text.c_str(), "%d/%d of %d%n", &info.choice.index, &info.choice.count, &info.total, &used) != 3)
+  auto& [index, count] = info.choice;
+  if (!(take(text, index) && take(text, "/") && take(text, count) && take(text, " of ") && take(text, info.total)))
     return std::nullopt;
-  if (info.choice.index < 1 || info.choice.index > info.choice.count || info.total < 1) return std::nullopt;
-  text.erase(0, static_cast<std::size_t>(used));
+  if (index < 1 || index > count || count > kMostSlices || info.total < 1) return std::nullopt;
   info.timed = take(text, kTimed);
   return info;
 }
 
 /// Likewise " samples 128..192".
 std::optional<SampleRange> take_samples(std::string& text) {
-  int first = 0, end = 0, used = 0;
-  if (std::sscanf(text.c_str(), " samples %d..%d%n", &first, &end, &used) != 2 || first < 0 || first >= end)
-    return std::nullopt;
-  text.erase(0, static_cast<std::size_t>(used));
+  int first = 0, end = 0;
+  if (!(take(text, " samples ") && take(text, first) && take(text, "..") && take(text, end))) return std::nullopt;
+  if (first < 0 || first >= end) return std::nullopt;
   return SampleRange{first, end - first};
 }
 

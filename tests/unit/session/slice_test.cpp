@@ -6,6 +6,7 @@
 #include <atomic>
 #include <numeric>
 
+#include "session/memory_plan.h"
 #include "support/same_pixels.h"
 #include "support/sphere_scene.h"
 
@@ -62,8 +63,9 @@ TEST_CASE("slices are all samples, each once, in parts of about one size that be
 }
 
 TEST_CASE("slices that cannot be are refused with what to do") {
-  CHECK(refusal(settings_of(64, SliceChoice{0, 4})) == "slice 0/4 cannot be; give I/N with I from 1 to N");
-  CHECK(refusal(settings_of(64, SliceChoice{5, 4})) == "slice 5/4 cannot be; give I/N with I from 1 to N");
+  CHECK(refusal(settings_of(64, SliceChoice{0, 4})) == "slice 0/4 cannot be; give I/N with I from 1 to N, and N up to 100000");
+  CHECK(refusal(settings_of(64, SliceChoice{5, 4})).find("slice 5/4 cannot be") == 0);
+  CHECK(refusal(settings_of(1 << 30, SliceChoice{1, 100'001})).find("slice 1/100001 cannot be") == 0);
   CHECK(refusal(settings_of(16, SliceChoice{1, 4})).find("is empty") != std::string::npos);
   RenderSettings settings = settings_of(64, SliceChoice{1, 4});
   settings.error = 0.1;
@@ -113,11 +115,26 @@ TEST_CASE("a slice tells which samples are in it, and whether these are all of i
   CHECK_FALSE(slice_info(render(world, settings_of(16)).image, "whole"));
 
   Image damaged = job.image();
-  for (const char* text : {"", "3/2 of 64 samples 32..64", "2/2 of 64 samples 64..32", "2/2 of 64 samples 32..64 more",
-                           "2/2 of 64 samples -2147483648..64"}) {
+  for (const char* text :
+       {"", "3/2 of 64 samples 32..64", "2/2 of 64 samples 64..32", "2/2 of 64 samples 32..64 more",
+        "2/2 of 64 samples -2147483648..64", "1/2147483647 of 2147483647 samples 0..64", "2/2 of 99999999999 samples 32..64"}) {
     damaged.attributes["tyndall/slice"] = std::string(text);
     CHECK_THROWS_AS(slice_info(damaged, "part"), Error);
   }
+}
+
+TEST_CASE("a slice has as many sums as were planned, and about as many channels") {
+  Scene scene = read_scene_text(kScene + "LightSource \"point\" \"string lightgroup\" \"key\"\n", "test.pbrt").scene;
+  scene.settings = settings_of(16, SliceChoice{1, 1});
+  const Image image = render(build(scene, {.threads = 2}), scene.settings).image;
+  std::size_t channels = 0, sums = 0;
+  for (const Channel& c : image.channels) {
+    if (c.name.find("Crypto") != std::string::npos) continue;
+    (c.name.starts_with("Sum.") ? sums : channels) += 1;
+  }
+  CHECK(sums == 3 * film_numbers(scene).sums);
+  CHECK(channels <= film_numbers(scene).channels);
+  CHECK(static_cast<double>(channels) > 0.9 * static_cast<double>(film_numbers(scene).channels));
 }
 
 TEST_CASE("a slice of which one bit has changed is refused, and what was added stays") {
