@@ -40,7 +40,7 @@ struct LightStrategyBuild {
 
 /// What was built, for the summary of the command line.
 struct BuildSummary {
-  std::size_t triangles = 0, other_primitives = 0, lights = 0, media = 0;
+  std::size_t triangles = 0, lights = 0, media = 0;
   std::size_t geometry_bytes = 0, light_bytes = 0, volume_bytes = 0;
   double geometry_seconds = 0, light_seconds = 0, volume_seconds = 0;
   std::vector<LightStrategyBuild> light_strategies;  ///< their shares of light_seconds and light_bytes
@@ -77,7 +77,7 @@ struct Progress {
   int samples_done = 0;    ///< per pixel
   double fraction = 0;     ///< of the whole, [0, 1]; with what RenderControl::begin restored
   double seconds = 0;      ///< since the start, of this process
-  double remaining = 0;    ///< estimated
+  double remaining = 0;    ///< estimated; 0 while nothing tells
 };
 
 /// A sample that was not finite and was counted as black.

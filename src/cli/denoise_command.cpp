@@ -37,7 +37,7 @@ nlohmann::ordered_json as_json(const DenoiseOptions& o, const Denoised& d) {
 
 void check_options(const DenoiseOptions& o) {
   require_image_name(o.output, "-o");
-  check_writable(o.output);
+  check_writable(o.output, "-o");
 }
 
 int run_denoise(const DenoiseOptions& o) {

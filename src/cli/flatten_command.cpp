@@ -16,7 +16,7 @@ struct FlattenOptions {
 
 int run_flatten(const FlattenOptions& o) {
   require_image_name(o.output, "-o");
-  check_writable(o.output);
+  check_writable(o.output, "-o");
   const ImageFormat format = image_format(o.format, o.output);
   const DeepImage deep = read_deep_exr(o.image);
   save_image(flatten(deep), o.output, format);

@@ -42,7 +42,7 @@ int run_matte(const MatteOptions& o) {
     throw Error(Failure::usage, "names and -o go together; give both, or none to see which names there are");
   if (o.names.empty()) return list(o);
   require_image_name(o.output, "-o");
-  check_writable(o.output);
+  check_writable(o.output, "-o");
   const ImageFormat format = image_format(o.format, o.output);
   const Image matte = take_matte(read_image(o.image), o.names, o.layer, o.image);
   save_image(matte, o.output, format);

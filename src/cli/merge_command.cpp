@@ -85,7 +85,7 @@ int merge_one(const MergeOptions& options) {
   if (std::filesystem::path(options.output).extension() != ".exr") {
     throw Error(Failure::usage, "output " + options.output + " is not understood; give a name that ends in .exr");
   }
-  check_writable(options.output);
+  check_writable(options.output, "-o");
   if (!options.deep.empty()) {
     require_deep_name(options.deep, options.output);
     check_writable(options.deep, "--deep");

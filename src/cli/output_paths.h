@@ -6,7 +6,7 @@
 namespace tyndall::cli {
 
 /// Throws Error (output) when a file could not be written there: no folder, no permission, or `path` is a folder.
-void check_writable(const std::string& path, const std::string& option = "-o");
+void check_writable(const std::string& path, const std::string& option);
 /// Makes the folder (and those above it) if it is not there. Throws Error (output) when that or writing in it fails.
 void make_folder(const std::string& path);
 

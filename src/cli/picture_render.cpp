@@ -26,9 +26,9 @@ namespace fs = std::filesystem;
 
 /// Before anything is built: whether what comes out of it can be written.
 void check_outputs(const RenderOptions& options, const Scene& scene, const std::string& output) {
-  check_writable(output);
+  check_writable(output, "-o");
   require_room(output, scene, options.keeps_checkpoints());
-  if (!options.error_log.empty()) check_writable(options.error_log);
+  if (!options.error_log.empty()) check_writable(options.error_log, "--error-log");
   if (!options.deep.empty()) check_writable(options.deep, "--deep");
 }
 
@@ -93,16 +93,23 @@ bool PictureRender::holds_deep(const Image& header) const {
   return fs::exists(options_.deep, absent) && is_deep_exr(options_.deep) && says(header, kDeepBins, *settings_.deep_bins);
 }
 
-bool PictureRender::is_finished(std::uint64_t scene_hash) const {
+/// Its mattes go by the names of the scene.
+bool PictureRender::holds_names(const Image& header, std::uint64_t names) const {
+  const auto& aovs = settings_.aovs;
+  return std::none_of(aovs.begin(), aovs.end(), is_matte_layer) || says(header, kMatteNames, std::to_string(names));
+}
+
+bool PictureRender::is_finished(const SceneHashes& of) const {
   std::error_code absent;
   if (settings_.slice || !fs::exists(output_, absent) || fs::exists(checkpoint_.path(), absent)) return false;
   try {
     const Image header = read_exr_header(output_);
     const bool open_end = settings_.time || settings_.error || settings_.error_max;  // it ended where these say
-    return says(header, "tyndall/sceneHash", scene_hash_text(scene_hash, settings_)) &&
+    return says(header, "tyndall/sceneHash", scene_hash_text(of.scene, settings_)) &&
            says(header, "tyndall/seed", std::to_string(settings_.seed)) && says_options(header, settings_) &&
-           !header.attributes.contains("tyndall/stopped") && (open_end || says(header, "tyndall/samples", settings_.spp)) &&
-           says_end(header, settings_) && header.data == pixels_ && holds_all_channels(header) && holds_deep(header);
+           !header.attributes.contains("tyndall/stopped") && !header.attributes.contains("tyndall/relight") &&
+           (open_end || says(header, "tyndall/samples", settings_.spp)) && says_end(header, settings_) &&
+           header.data == pixels_ && holds_all_channels(header) && holds_names(header, of.names) && holds_deep(header);
   } catch (const Error&) {
     return false;  // damaged, or no .exr: it is rendered anew
   }
@@ -186,13 +193,17 @@ void PictureRender::require_log_written() const {
   if (errors_) errors_->require_written();
 }
 
-Summary PictureRender::run(const World& world, const std::string& command_line,
-                           const std::function<void(const Progress&)>& progress) {
+std::optional<Summary> PictureRender::run(const World& world, const std::string& command_line,
+                                          const std::function<void(const Progress&)>& progress) {
   if (reference_) reference_->require_fit(world, settings_, {settings_.seed});
   if (reference_) errors_.emplace(std::move(*reference_), options_.error_log);
   if (page_) page_->begin("rendering", output_);
   Rendering rendering = render_with(world, progress);
   if (settings_.slice) finish_slice(rendering, command_line);
+  if (rendering.report.unrendered == rendering.image.data.size()) {
+    log("{}: not written: stopped before any pixel had a sample\n", output_);
+    return std::nullopt;
+  }
   Summary summary;
   summary.output = output_;
   summary.render = rendering.report;

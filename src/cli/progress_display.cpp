@@ -17,6 +17,8 @@ namespace {
 constexpr double kLineSeconds = 5;
 constexpr int kBarWidth = 40;
 
+std::string left_of(const Progress& p) { return p.remaining > 0 || p.fraction >= 1 ? duration(p.remaining) : "?"; }
+
 }  // namespace
 
 ProgressDisplay::ProgressDisplay(const std::string& kind) : kind_(kind) {
@@ -41,14 +43,14 @@ void ProgressDisplay::show(const Progress& p) {
                                 : p.samples_done > 0 ? fmt::format("  {} spp", p.samples_done)
                                                      : "";
     log("\r{}[{:=<{}}{: <{}}] {:3.0f}%{}  {} left   ", activity_, "", full, "", kBarWidth - full, 100 * p.fraction, samples,
-        duration(p.remaining));
+        left_of(p));
     drawn_ = true;
   } else if (kind_ == "line" && p.seconds - last_line_ >= kLineSeconds) {
     last_line_ = p.seconds;
     const std::string samples = p.preparing          ? "looking at the film, "
                                 : p.samples_done > 0 ? fmt::format("{} spp, ", p.samples_done)
                                                      : "";
-    log("{}{:.0f}%, {}{} done, {} left\n", activity_, 100 * p.fraction, samples, duration(p.seconds), duration(p.remaining));
+    log("{}{:.0f}%, {}{} done, {} left\n", activity_, 100 * p.fraction, samples, duration(p.seconds), left_of(p));
   }
 }
 

@@ -28,7 +28,7 @@ constexpr const char* kRelightFooter =
 
 void check_options(const RelightOptions& o) {
   require_image_name(o.output, "-o");
-  check_writable(o.output);
+  check_writable(o.output, "-o");
 }
 
 int run_relight(const RelightOptions& o) {

@@ -31,8 +31,13 @@ int run_render(const RenderOptions& options, const std::string& command_line) {
 
   catch_stop_signals(kStopping);
   ProgressDisplay display(options.quiet ? "none" : options.progress);
-  Summary summary = picture.run(world, command_line, [&](const Progress& p) { display.show(p); });
+  std::optional<Summary> done = picture.run(world, command_line, [&](const Progress& p) { display.show(p); });
   display.finish();
+  if (!done) {
+    if (page) page->end(picture.output() + ": stopped before any pixel had a sample");
+    return stop_exit_code();
+  }
+  Summary& summary = *done;
   summary.read_seconds = read_seconds;
   summary.build_seconds = build_seconds;
   summary.build = world.summary();

@@ -48,7 +48,13 @@ class Sequence {
     for (const int frame : frames_) {
       if (stop_requested()) break;
       progress_.begin(frame);
-      render_frame(frame);
+      try {
+        render_frame(frame);
+      } catch (const Error& error) {
+        progress_.finish();
+        finish();
+        throw Error(error.failure(), error.what() + (" (frame " + std::to_string(frame) + ")"));
+      }
     }
     progress_.finish();
     return finish();
@@ -99,7 +105,7 @@ class Sequence {
     const RenderOptions options = options_of(frame, file.scene);
     PictureRender picture(options, file.scene, page_.get());
     if (page_) page_->begin("building", picture.output());
-    if (options_.resume && picture.is_finished(hash_of(file.scene, whole))) {
+    if (options_.resume && picture.is_finished(hashes_of(file.scene, whole))) {
       if (whole && outline_) put_back(std::move(file));
       return skip(frame, picture);
     }
@@ -108,19 +114,21 @@ class Sequence {
     if (whole) build(picture, std::move(file));
     times.build_seconds = watch.lap();
     if (picture.is_slice_there(*world_)) return skip(frame, picture);
-    Summary summary = picture.run(*world_, command_line_, [&](const Progress& p) { progress_.show(p); });
-    summary.read_seconds = times.read_seconds;
-    summary.build_seconds = times.build_seconds;
-    summary.build = world_->summary();
+    if (stop_requested()) return;  // what stands there stays
+    std::optional<Summary> summary = picture.run(*world_, command_line_, [&](const Progress& p) { progress_.show(p); });
+    if (!summary) return;
+    summary->read_seconds = times.read_seconds;
+    summary->build_seconds = times.build_seconds;
+    summary->build = world_->summary();
     picture.require_log_written();
-    stopped_ = stopped_ || summary.render.stopped;
+    stopped_ = stopped_ || summary->render.stopped;
     if (!outline_) world_.reset();  // before the next one takes its room
-    summary_.frames.push_back({frame, std::move(summary)});
+    summary_.frames.push_back({frame, std::move(*summary)});
   }
 
-  std::uint64_t hash_of(const Scene& scene, bool whole) {
-    if (whole) hash_ = hash_scene(scene, &kept_);
-    return hash_;
+  const SceneHashes& hashes_of(const Scene& scene, bool whole) {
+    if (whole) hashes_ = {hash_scene(scene, &kept_), hash_names(scene)};
+    return hashes_;
   }
 
   void build(const PictureRender& picture, SceneFile file) {
@@ -156,7 +164,7 @@ class Sequence {
   std::optional<SceneFile> next_;  ///< read, and not built yet
   std::optional<Scene> outline_;   ///< of a scene that all frames share
   std::optional<World> world_;
-  std::uint64_t hash_ = 0;
+  SceneHashes hashes_;
   SequenceProgress progress_;
   SequenceSummary summary_;
   bool stopped_ = false;

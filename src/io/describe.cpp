@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -111,7 +112,8 @@ Description describe_image(const std::string& path) {
 
 Description describe(const std::string& path) {
   const std::filesystem::path p(path);
-  const std::string extension = p.extension() == ".gz" ? p.stem().extension().string() : p.extension().string();
+  std::string extension = p.extension() == ".gz" ? p.stem().extension().string() : p.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
   if (extension == ".vdb" || extension == ".nvdb") return describe_volume(path);
   if (extension == ".pbrt") return describe_scene(path);
   return describe_image(path);

@@ -1,5 +1,7 @@
 #include <cstdio>
+#include <limits>
 #include <map>
+#include <variant>
 
 #include "io/describe_text.h"
 
@@ -7,7 +9,8 @@ namespace tyndall {
 namespace {
 
 // Index of a variant's alternative to its name in the scene language.
-constexpr const char* kTextureKinds[] = {"constant", "scale", "mix", "imagemap", "checkerboard"};
+constexpr const char* kTextureKinds[] = {"constant", "scale",  "mix",          "imagemap", "checkerboard",
+                                         "dots",     "bilerp", "directionmix", "noise"};
 constexpr const char* kMaterialKinds[] = {
     "diffuse",       "conductor",       "dielectric", "thindielectric", "diffusetransmission",
     "coateddiffuse", "coatedconductor", "mix",        "interface"};
@@ -20,6 +23,7 @@ constexpr const char* kShapeKinds[] = {"trianglemesh", "bilinearmesh", "sphere",
 /// "3: 2 point, 1 spot" of anything that has a variant `kind`.
 template <class Items, std::size_t N>
 std::string count_text(const Items& items, const char* const (&names)[N]) {
+  static_assert(N == std::variant_size_v<decltype(Items::value_type::kind)>);
   std::map<std::size_t, std::size_t> counts;
   for (const auto& item : items) ++counts[item.kind.index()];
   std::string text = std::to_string(items.size());
@@ -74,6 +78,7 @@ void add_geometry(const Scene& scene, Description& result) {
   for (const Instance& instance : scene.instances) {
     const Contents& object = objects[instance.object];
     instanced += object.triangles;
+    whole.emissive += object.emissive;
     if (!object.bounds.empty()) whole.bounds.expand(instance.to_world.bounds(object.bounds));
   }
   const auto add = [&](const char* name, const std::string& value) { result.properties.push_back({"geometry", name, value}); };
@@ -96,6 +101,11 @@ void add_camera_and_film(const Scene& scene, Description& result) {
   result.properties.push_back({"camera", "position", number_text(eye.x) + " " + number_text(eye.y) + " " + number_text(eye.z)});
   if (perspective) result.properties.push_back({"camera", "fov", number_text(camera.fov_degrees) + " degrees"});
   result.properties.push_back({"film", "size", std::to_string(scene.film.width) + " x " + std::to_string(scene.film.height)});
+  const PixelBounds crop = scene.settings.crop.value_or(scene.film.crop);
+  if (crop != PixelBounds{0, 0, scene.film.width, scene.film.height})
+    result.properties.push_back({"film", "crop",
+                                 std::to_string(crop.x0) + "," + std::to_string(crop.x1) + "," + std::to_string(crop.y0) + "," +
+                                     std::to_string(crop.y1)});
   if (!scene.film.filename.empty()) result.properties.push_back({"film", "file", scene.film.filename});
 }
 
@@ -103,8 +113,16 @@ void add_settings(const RenderSettings& settings, Description& result) {
   const auto add = [&](const std::string& name, const std::string& value) {
     result.properties.push_back({"settings", name, value});
   };
-  add("spp", std::to_string(settings.spp));
+  const auto add_limit = [&](const std::string& name, const std::optional<double>& value) {
+    if (value) add(name, number_text(*value));
+  };
+  if (settings.spp <= kMostSamples) add("spp", std::to_string(settings.spp));
+  add_limit("time", settings.time);
+  add_limit("error", settings.error);
+  add_limit("error-max", settings.error_max);
   add("max-depth", std::to_string(settings.max_depth));
+  add("seed", std::to_string(settings.seed));
+  for (const std::string& aov : settings.aovs) add("aov", aov);
   for (const StrategyAxis& axis : strategy_axes()) add(std::string(axis.option), std::string(axis.get(settings)));
 }
 

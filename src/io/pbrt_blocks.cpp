@@ -48,11 +48,11 @@ void require_closed(State& state, std::size_t depth) {
 void read_world_begin(State& state, Tokenizer&, const Location&) {
   state.in_world = true;
   state.world_assumed = false;
-  finish_settings(state);
   state.graphics.ctm = Transform();
   state.graphics.singular.reset();
   state.graphics.start_active = true;
   state.coordinate_systems["world"] = {};
+  finish_settings(state);
 }
 
 void read_attribute_begin(State& state, Tokenizer&, const Location& where) { open_block(state, Block::Kind::attribute, where); }

@@ -161,7 +161,10 @@ Medium vdb(State& state, ParamList& params) {
   v.temperature_offset = read_temperature_offset(params);
   v.temperature_scale = params.number("temperaturescale", 1);
   v.Le_scale = params.not_negative("Lescale", 1);
-  v.Le = find_color(state, params, "Le", ColorUse::light).value_or(Rgb(1.0f));
+  const auto Le = find_color(state, params, "Le", ColorUse::light);
+  v.Le = Le.value_or(Rgb(1.0f));
+  v.emission_given = Le || v.temperature_grid_given || params.find("Lescale", {ParamType::number}) ||
+                     params.find("temperaturescale", {ParamType::number});
   Medium m;
   m.optics = read_optics(state, params, params.not_negative("scale", 1));
   m.kind = std::move(v);

@@ -92,6 +92,7 @@ void read_own_options(State& state, ParamList& params) {
   if (const auto crop = params.integers("crop"); !crop.empty()) {
     if (crop.size() != 4) throw params.error("crop", "crop takes four integers: x0 x1 y0 y1");
     s.crop = PixelBounds{crop[0], crop[2], crop[1], crop[3]};
+    state.crop_where = params.where("crop");
   }
 }
 
@@ -105,10 +106,21 @@ void ask_for_foreign_parameters(ParamList& params, const std::string& type) {
   if (type == "sppm") params.integer("photonsperiteration", -1), params.number("radius", 1);
 }
 
+void cut_crop_to_frame(State& state) {
+  const Film& film = state.scene.film;
+  PixelBounds& crop = *state.scene.settings.crop;
+  const PixelBounds cut{std::max(crop.x0, 0), std::max(crop.y0, 0), std::min(crop.x1, film.width),
+                        std::min(crop.y1, film.height)};
+  if (cut.width() < 1 || cut.height() < 1) throw Error(*state.crop_where, "crop leaves no pixel of the frame; widen it");
+  if (cut != crop) state.reports.warn(*state.crop_where, "crop reaches beyond the picture; it is cut to it");
+  crop = cut;
+}
+
 }  // namespace
 
 void finish_settings(State& state) {
   RenderSettings& s = state.scene.settings;
+  if (s.crop && state.crop_where) cut_crop_to_frame(state);
   if (!state.spp_from_sampler && !state.spp_from_integrator && (s.time || s.error || s.error_max))
     s.spp = std::numeric_limits<int>::max();
 }

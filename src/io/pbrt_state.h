@@ -79,7 +79,6 @@ struct State {
   GraphicsState graphics;
   std::vector<Block> blocks;
   std::optional<ObjectId> open_object;
-  std::size_t include_depth = 0;
 
   Names<MediumId> media;
   Names<MaterialId> materials;
@@ -97,10 +96,10 @@ struct State {
   Names<Rgb> spectrum_colors;    ///< of named spectra and black bodies, by use
 
   // Wait for WorldBegin: the film needs the camera's shutter, the camera the film's size, the settings the Film's frame.
-  Location film_where;
   double exposure_time = 1;
   float iso = 100;
   float film_diagonal = 0.035f;                ///< metres
+  std::optional<Location> crop_where;          ///< of the settings
   std::optional<Location> surface_integrator;  ///< one that passes over media in pbrt
   bool spp_from_sampler = false, spp_from_integrator = false, seed_from_integrator = false;
 };

@@ -1,4 +1,5 @@
 #include <png.h>
+#include <algorithm>
 
 #include <array>
 #include <cmath>
@@ -16,20 +17,17 @@ namespace {
 
 png_byte to_byte(float shown) { return static_cast<png_byte>(std::lround(shown * 255)); }
 
-/// To the primaries of sRGB, which are Rec.709's.
-Rgb to_rec709(const std::array<float, 9>& m, Rgb c) {
-  return {m[0] * c.r + m[1] * c.g + m[2] * c.b, m[3] * c.r + m[4] * c.g + m[5] * c.b, m[6] * c.r + m[7] * c.g + m[8] * c.b};
-}
-
 std::vector<png_byte> bytes_shown(const Image& image, const PngSettings& settings) {
+  constexpr float kMost = 1e15f;  // of light that matrices and views take without overflow
   const float scale = std::exp2(settings.exposure);
-  const auto matrix = rec709_from(image.chromaticities.value_or(Chromaticities()), false);
+  const auto to_rec709 = rec709_from(image.chromaticities.value_or(Chromaticities()), false);
   std::vector<png_byte> pixels;
   pixels.reserve(3 * static_cast<std::size_t>(image.width()) * static_cast<std::size_t>(image.height()));
   for (int y = 0; y < image.height(); ++y)
     for (int x = 0; x < image.width(); ++x) {
-      const Rgb c = image.rgb(x, y) * scale;
-      const Rgb shown = displayed(image.chromaticities ? to_rec709(matrix, c) : c, settings.view);
+      Rgb c = image.rgb(x, y) * scale;
+      for (int i = 0; i < 3; ++i) c[i] = std::clamp(c[i], -kMost, kMost);
+      const Rgb shown = displayed(image.chromaticities ? transformed(to_rec709, c) : c, settings.view);
       for (int i = 0; i < 3; ++i) pixels.push_back(to_byte(shown[i]));
     }
   return pixels;

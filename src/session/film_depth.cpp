@@ -66,21 +66,32 @@ DeepPixelSample unveiled(const Place& place, double passing) {
   return sample;
 }
 
-/// c = L / T_front and a = 1 - T, so that `over` gives the sum of all L.
+/// Of all up to each place, never less than before: where noise makes that of one negative, those before it have less, so that
+/// the last is that of all.
+std::vector<double> opacities_up_to(const Places& places) {
+  std::vector<double> sums;
+  double sum = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) sums.push_back(sum += places.at(i).opacity);
+  for (std::size_t i = sums.size(); i-- > 1;) sums[i - 1] = std::min(sums[i - 1], sums[i]);
+  return sums;
+}
+
+/// c = L / T_front and a = 1 - T, so that `over` gives the sum of all L and of all opacities.
 std::vector<DeepPixelSample> samples_of(const Places& places) {
   std::vector<DeepPixelSample> samples;
   Place last;
+  const std::vector<double> opacity = opacities_up_to(places);
   double before = 1, passing = 1;  // what gets to the last sample, and through it: as a reader reckons it
   for (std::size_t i = 0; i < places.size(); ++i) {
     const Place place = places.at(i);
     if (!samples.empty() && passing < kLeastPassing) {
       for (std::size_t k = 0; k < 3; ++k) last.light[k] += place.light[k];
-      last.opacity += place.opacity;
       samples.pop_back();
     } else {
       last = place;
       before = passing;
     }
+    last.opacity = before - (1 - opacity[i]);
     samples.push_back(unveiled(last, before));
     passing = before * (1 - static_cast<double>(samples.back().rgba[3]));
   }

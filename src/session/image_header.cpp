@@ -1,11 +1,13 @@
 #include "session/image_header.h"
 
+#include <algorithm>
 #include <charconv>
 #include <ctime>
 
 #include "session/resolved_settings.h"
 #include "session/scene_hash.h"
 #include "transport/sharing/suffix_reuse.h"
+#include "tyndall/cryptomatte.h"
 #include "tyndall/version.h"
 
 namespace tyndall {
@@ -41,6 +43,7 @@ std::string end_text(const RenderSettings& settings) {
   add("--time", settings.time);
   add("--error", settings.error);
   add("--error-max", settings.error_max);
+  if (!text.empty() && settings.spp <= kMostSamples) text += " --spp " + std::to_string(settings.spp);
   return text;
 }
 
@@ -92,6 +95,8 @@ void write_header(Image& image, const World::Parts& world, const RenderSettings&
   a["tyndall/seed"] = std::to_string(settings.seed);  // 64 bits do not fit an EXR integer
   a["tyndall/options"] = options_text(settings);
   if (const std::string end = end_text(settings); !end.empty()) a[kEnd] = end;
+  if (std::any_of(settings.aovs.begin(), settings.aovs.end(), is_matte_layer))
+    a[kMatteNames] = std::to_string(hash_names(world.built.scene));
   if (settings.deep_bins) a[kDeepBins] = *settings.deep_bins;
   if (!world.built.light_groups.empty()) a[kLightGroups] = joined(world.built.light_groups.names());
   if (settings.reuse == ReuseStrategy::pixels) a["tyndall/sharing"] = static_cast<int>(kMostSharing);

@@ -12,6 +12,7 @@ inline constexpr const char* kLightGroups = "tyndall/lightGroups";
 inline constexpr const char* kEnd = "tyndall/end";
 
 /// Attribute: bins of the deep image that was rendered along.
+inline constexpr const char* kMatteNames = "tyndall/matteNames";  ///< hash_names, with mattes
 inline constexpr const char* kDeepBins = "tyndall/deepBins";
 
 /// Every option of the command line that chooses a method, with its value: "--max-depth 5 --lights tree ...". Settings that

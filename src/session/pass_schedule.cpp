@@ -75,8 +75,9 @@ int PassSchedule::next_pass(const RenderJob& job) {
 }
 
 double PassSchedule::fraction(double samples, double seconds) const {
-  double fraction = samples / samples_wanted_;
-  if (settings_.time) fraction = std::max(fraction, seconds / *settings_.time);
+  double fraction = samples_wanted_ <= kMostSamples ? samples / samples_wanted_ : 0.0;
+  // A time that is up does not end the first sample.
+  if (settings_.time) fraction = std::max(fraction, std::min(seconds / *settings_.time, samples < 1 ? samples : 1.0));
   if (samples_needed_ > 0)
     fraction =
         std::max(fraction, samples / std::max<double>(samples_needed_, adaptive_ ? SamplePlan::kLeast : kFirstErrorCheck));

@@ -29,8 +29,8 @@ constexpr int field_count() {
   if (kOneOf<T, Coating>) return 7;
   if (kOneOf<T, RgbGridMedium>) return 8;
   if (kOneOf<T, Film, Camera, Shape>) return 9;
-  if (kOneOf<T, VdbMedium, ImageTexture>) return 10;
-  if (kOneOf<T, UniformGridMedium>) return 11;
+  if (kOneOf<T, ImageTexture>) return 10;
+  if (kOneOf<T, UniformGridMedium, VdbMedium>) return 11;
   if (kOneOf<T, Scene>) return 13;
   return -1;
 }

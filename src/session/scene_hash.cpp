@@ -113,7 +113,8 @@ class SceneHasher {
     if (eta_rgb) add(eta_rgb);
   }
   void add(const VdbMedium& medium) {
-    const auto& [path, density, temperature, flame, density_given, temperature_given, scale, offset, Le_scale, Le] = medium;
+    const auto& [path, density, temperature, flame, density_given, temperature_given, scale, offset, Le_scale, Le, emission] =
+        medium;
     add_all(FileContent{path}, density, temperature, flame, density_given, temperature_given, scale, offset, Le_scale, Le);
   }
   void add(const Medium& medium) {
@@ -199,6 +200,19 @@ std::uint64_t hash_scene(const Scene& scene, KeptFiles* kept) {
   SceneHasher hasher(kept);
   hasher.add(scene);
   return hasher.value();
+}
+
+std::uint64_t hash_names(const Scene& scene) {
+  StreamHash hash;
+  const auto add = [&](const auto& named) {
+    for (const auto& one : named) hash.add(one.name.data(), one.name.size() + 1);  // with the 0 that ends it
+  };
+  add(scene.shapes);
+  for (const Object& object : scene.objects) add(object.shapes);
+  add(scene.objects);
+  add(scene.materials);
+  add(scene.media);
+  return hash.value();
 }
 
 std::string scene_hash_text(std::uint64_t scene_hash, const RenderSettings& settings) {

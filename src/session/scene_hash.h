@@ -16,6 +16,9 @@ class KeptFiles;  // tyndall/frames.h
 /// cannot be read.
 std::uint64_t hash_scene(const Scene& scene, KeptFiles* kept = nullptr);
 
+/// Hash of the names that mattes go by, which hash_scene leaves out.
+std::uint64_t hash_names(const Scene& scene);
+
 /// The scene with what the settings say about the right picture, as 16 hexadecimal digits: World::scene_hash.
 std::string scene_hash_text(std::uint64_t scene_hash, const RenderSettings& settings);
 

@@ -259,11 +259,14 @@ void build(const VdbMedium& vdb, const BuildContext& context, MediumData& data) 
     emission.values = std::move(grids.temperature);
     emission.temperature_scale = vdb.temperature_scale;
     emission.temperature_offset = vdb.temperature_offset;
-  } else if (burns && !grids.temperature && !is_black(vdb.Le)) {
+  } else if (burns && !is_black(vdb.Le)) {
     emission.kind = EmissionField::Kind::constant;
     emission.Le = vdb.Le;
   }
   if (burns && emission.kind != EmissionField::Kind::none) emission.scale = std::move(grids.flame);
+  if (emission.kind == EmissionField::Kind::none && vdb.emission_given)
+    context.notes.push_back("warning: " + context.name() +
+                            ": emits nothing, as no temperature of its file glows; scale that, or " + "name a flame grid");
 }
 
 /// Denormals are flushed to zero while rendering, and what lies near the largest float overflows: a medium that comes to

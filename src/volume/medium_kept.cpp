@@ -43,10 +43,11 @@ class Details {
 std::string details_of(const Medium& medium, const VdbMedium& vdb, const MediumBuildOptions& options) {
   const auto& [kind, optics, to_world, name, where, group] = medium;
   const auto& [sigma_a, sigma_s, phase] = optics;
-  const auto& [path, density, temperature, flame, density_given, temperature_given, scale, offset, Le_scale, Le] = vdb;
+  const auto& [path, density, temperature, flame, density_given, temperature_given, scale, offset, Le_scale, Le, emission] =
+      vdb;
   Details details;
   details.add(sigma_a, sigma_s, phase, to_world.matrix());
-  details.add(density, temperature, flame, density_given, temperature_given, scale, offset, Le_scale, Le);
+  details.add(density, temperature, flame, density_given, temperature_given, scale, offset, Le_scale, Le, emission);
   details.add(options.sanitize, options.float_bricks);
   return details.text();
 }

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "tyndall/error.h"
+#include "tyndall/utf8.h"
 #include "volume/vdb_remote.h"
 
 namespace tyndall {
@@ -13,7 +14,7 @@ namespace tyndall {
 std::string printable(const std::string& text) {
   constexpr std::size_t kLongest = 300;
   std::string result;
-  for (const char c : text.substr(0, kLongest)) result += c >= ' ' && c <= '~' ? c : ' ';
+  for (const char c : valid_utf8(text.substr(0, kLongest))) result += (c >= '\0' && c < ' ') || c == '\x7f' ? ' ' : c;
   if (text.size() > kLongest) result += "...";
   return result;
 }

@@ -89,7 +89,7 @@ class NanoSource : public VoxelSource {
   void fill_background() {
     if (root_->mBackground == ValueT(0)) return;
     clip_ = active_box();
-    if (!clip_->empty()) blocks_.push_back({*clip_, VoxelBlock::kConstant, background()});
+    if (!clip_->empty() && is_something(background())) blocks_.push_back({*clip_, VoxelBlock::kConstant, background()});
   }
 
   void visit_root(const Tile& tile) {

@@ -37,10 +37,8 @@ class TreeSource : public VoxelSource {
     openvdb::CoordBBox active;
     if (!tree.evalActiveVoxelBoundingBox(active)) return;  // nothing active: an empty grid
     const ValueT background = tree.background();
-    if (background != openvdb::zeroVal<ValueT>()) {
-      clip_ = box_of(active);
-      blocks_.push_back({*clip_, VoxelBlock::kConstant, channels_of(background)});
-    }
+    if (background != openvdb::zeroVal<ValueT>()) clip_ = box_of(active);
+    if (is_something(channels_of(background))) blocks_.push_back({*clip_, VoxelBlock::kConstant, channels_of(background)});
     auto tile = tree.cbeginValueAll();
     tile.setMaxDepth(tile.getLeafDepth() - 1);
     for (; tile; ++tile) {

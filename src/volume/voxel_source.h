@@ -1,6 +1,7 @@
 /// Voxels that a BrickGrid is built from, whatever library or array they come from.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -30,6 +31,12 @@ struct VoxelBlock {
   std::uint32_t leaf = kConstant;  ///< what read_leaf() is asked for
   std::array<float, 6> value{};    ///< of a constant box, one a channel
 };
+
+/// Whether a background of such values is more than empty space, which it is not below 0, nor where it is no number.
+inline bool is_something(const std::array<float, 6>& background) {
+  return std::all_of(background.begin(), background.end(), [](float v) { return std::isfinite(v); }) &&
+         std::any_of(background.begin(), background.end(), [](float v) { return v > 0; });
+}
 
 /// Where voxels come from. Those in no block are 0; where blocks overlap, the later one in the list counts.
 class VoxelSource {

@@ -82,6 +82,32 @@ expect 0 "$T" render long.pbrt --frames 1-2 --seed 9 --reproducible --resume --p
 says "1 of 2 frames rendered, 1 there before (2)" err.txt
 expect 0 "$T" render long.pbrt --frames 1-2 --seed 9 --reproducible --aov Z --resume --progress none -o 'shots/b.%04d.exr'
 says "2 of 2 frames rendered" err.txt
+# Nor where more samples are asked for beside a limit, where mattes have other names, or where it was relit.
+expect 0 "$T" render still.pbrt --frames 1 --time 60 --spp 2 --quiet -o 'shots/c.%d.exr'
+expect 0 "$T" render still.pbrt --frames 1 --time 60 --spp 2 --resume --progress none -o 'shots/c.%d.exr'
+says "1 there before" err.txt
+expect 0 "$T" render still.pbrt --frames 1 --time 60 --spp 4 --resume --progress none -o 'shots/c.%d.exr'
+says "1 of 1 frames rendered" err.txt
+expect 0 "$T" render still.pbrt --frames 1 --aov CryptoMedium --spp 2 --quiet -o 'shots/m.%d.exr'
+expect 0 "$T" render still.pbrt --frames 1 --aov CryptoMedium --spp 2 --resume --progress none -o 'shots/m.%d.exr'
+says "1 there before" err.txt
+sed 's/"hot"/"warm"/' still.pbrt >warm.pbrt
+expect 0 "$T" render warm.pbrt --frames 1 --aov CryptoMedium --spp 2 --resume --progress none -o 'shots/m.%d.exr'
+says "1 of 1 frames rendered" err.txt
+sed 's/^LightSource .*/& "string lightgroup" "key"/' still.pbrt >groups.pbrt
+expect 0 "$T" render groups.pbrt --frames 1 --spp 2 --quiet -o 'shots/g.%d.exr'
+expect 0 "$T" relight shots/g.1.exr key=3 -o shots/g.1.exr
+expect 0 "$T" render groups.pbrt --frames 1 --spp 2 --resume --progress none -o 'shots/g.%d.exr'
+says "1 of 1 frames rendered" err.txt
+# A frame that cannot be rendered: those before it are told of, and which one it was.
+head -c 300 smoke/smoke.0002.vdb >smoke/broken.0002.vdb
+cp smoke/smoke.0003.vdb smoke/broken.0001.vdb && cp smoke/smoke.0003.vdb smoke/broken.0003.vdb
+sed 's/smoke\.%04d/broken.%04d/' shot.pbrt >broken.pbrt
+expect 3 "$T" render broken.pbrt --frames 1-3 --spp 1 --progress none --json -o 'shots/e.%d.exr'
+says "1 of 3 frames rendered" err.txt
+says "(frame 2)" err.txt
+says '"frame": 1' out.txt
+[ -s shots/e.1.exr ] && [ ! -e shots/e.2.exr ] || fail "not frame 1 alone is there"
 # Interrupted: what is there stays, and the code says so.
 interrupted INT rendering "$T" render long.pbrt --frames 1-8 --time 600 --checkpoint 60 --progress json -o 'shots/i.%d.exr'
 [ $code = 130 ] || fail "an interrupted sequence does not exit with 130"

@@ -58,6 +58,39 @@ AttributeEnd
   CHECK(value(d, "geometry", "bounds") == "(-1 -2 -2) to (3 2 9)");
 }
 
+TEST_CASE("a scene's description has a name for every kind of texture, its limits and its crop, and lights in objects") {
+  const test::Scratch folder;
+  write_file(R"(
+Integrator "volpath" "float time" 3 "integer crop" [0 8 2 6]
+Film "rgb" "integer xresolution" 20 "integer yresolution" 10
+WorldBegin
+Texture "a" "float" "constant"
+Texture "b" "float" "scale"
+Texture "c" "float" "mix"
+Texture "d" "float" "checkerboard"
+Texture "e" "float" "dots"
+Texture "f" "float" "bilerp"
+Texture "g" "float" "directionmix"
+Texture "h" "float" "wrinkled"
+Texture "i" "spectrum" "marble"
+ObjectBegin "bulb"
+  AreaLightSource "diffuse"
+  Shape "sphere"
+ObjectEnd
+ObjectInstance "bulb"
+ObjectInstance "bulb"
+)",
+             folder / "a.pbrt");
+  const Description d = describe(folder / "a.pbrt");
+  const std::string textures = value(d, "textures", "textures");
+  for (const char* kind : {"scale", "mix", "checkerboard", "1 dots", "1 bilerp", "1 directionmix", "2 noise"})
+    CHECK_MESSAGE(textures.find(kind) != std::string::npos, textures);
+  CHECK(value(d, "settings", "time") == "3");
+  CHECK(value(d, "settings", "spp") == "none");
+  CHECK(value(d, "film", "crop") == "0,8,2,6");
+  CHECK(value(d, "lights", "emissive shapes") == "2");
+}
+
 TEST_CASE("describe refuses what is missing or broken") {
   const test::Scratch folder;
   CHECK_THROWS_AS(describe(folder / "none.pbrt"), Error);

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "io/exr.h"
@@ -227,6 +228,20 @@ TEST_CASE("a PNG shows colours of other primaries as they are") {
   CHECK(shown.r == Approx(0.25).epsilon(0.02));
   CHECK(shown.g == Approx(0.5).epsilon(0.02));
   CHECK(shown.b == Approx(0.125).epsilon(0.02));
+}
+
+TEST_CASE("a PNG shows light without bounds as white") {
+  const Scratch folder;
+  Image image;
+  image.data = image.display = {0, 0, 1, 1};
+  const float light[] = {1e6f, 1e30f, 1e-9f};
+  for (int i = 0; i < 3; ++i) image.add_channel(std::string(1, "RGB"[i])).values = {light[i]};
+  image.chromaticities = Chromaticities();
+  for (const DisplayView view : {DisplayView::srgb, DisplayView::filmic, DisplayView::agx}) {
+    write_png(image, folder / "a.png", {.exposure = 64, .view = view});
+    const Rgb shown = read_image(folder / "a.png").rgb(0, 0);
+    CHECK(std::min({shown.r, shown.g, shown.b}) > 0.9f);
+  }
 }
 
 }  // namespace

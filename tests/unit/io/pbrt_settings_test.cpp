@@ -62,6 +62,14 @@ TEST_CASE("Tyndall's own options stand on the Integrator line") {
   CHECK_CONTAINS(error_of("Integrator \"volpath\" \"float time\" 0"), "above 0 seconds");
 }
 
+TEST_CASE("a crop on the Integrator line is cut to the frame with a warning, and refused where nothing is left") {
+  const std::string film = " Film \"rgb\" \"integer xresolution\" 40 \"integer yresolution\" 20";
+  CHECK(*settings("Integrator \"volpath\" \"integer crop\" [-5 100 3 99]" + film).crop == PixelBounds{0, 3, 40, 20});
+  CHECK_CONTAINS(error_of("Integrator \"volpath\" \"integer crop\" [100 200 0 10]" + film + " WorldBegin"),
+                 "crop leaves no pixel");
+  CHECK_CONTAINS(error_of("Integrator \"volpath\" \"integer crop\" [5 5 0 10]" + film + " WorldBegin"), "crop leaves no pixel");
+}
+
 TEST_CASE("a limit of time or error alone leaves the samples open") {
   CHECK(settings("Integrator \"volpath\" \"float time\" 3").spp == std::numeric_limits<int>::max());
   CHECK(settings("Integrator \"volpath\" \"float error\" 0.01 Sampler \"sobol\"").spp == std::numeric_limits<int>::max());

@@ -6,6 +6,7 @@
 
 #include "math/rng.h"
 #include "support/relative.h"
+#include "tyndall/deep_image.h"
 #include "tyndall/error.h"
 
 using namespace tyndall;
@@ -182,4 +183,21 @@ TEST_CASE("samples count for their share, in every mean and in what is not weigh
   CHECK(value("Replicate.SampleCount") == 2);
   CHECK(value("Replicate.SampleWeight") == 4);
   CHECK(buffer.image(8).find("SampleWeight") == nullptr);
+}
+
+TEST_CASE("opacity that noise makes negative in one depth is taken from those before it, so that all of it stays") {
+  const DepthBins bins(1, 5, 4);
+  for (const std::array<float, 3>& opacity :
+       {std::array{0.3f, -0.1f, 0.4f}, std::array{0.3f, 0.4f, -0.1f}, std::array{-0.1f, 0.3f, 0.4f}}) {
+    FilmBuffer buffer(Film(), {0, 0, 1, 1}, {{}, {}, DeepLayout{bins, 1}});
+    std::vector<DeepSample::Part> parts;
+    for (int i = 0; i < 3; ++i) parts.push_back({bins.media_key(i + 1), Rgb(0.2f), opacity[static_cast<std::size_t>(i)], 0, 0});
+    buffer.add_deep({0, 0, 0}, parts, 1);
+    const auto deep = buffer.deep_image(1);
+    REQUIRE(deep);
+    CHECK(deep->samples.size() == 3);
+    const Image flat = flatten(*deep);
+    CHECK(flat.find("A")->values[0] == doctest::Approx(0.6));
+    CHECK(flat.find("R")->values[0] == doctest::Approx(0.6));
+  }
 }

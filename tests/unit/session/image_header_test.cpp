@@ -44,7 +44,7 @@ TEST_CASE("an image tells what it was to end by") {
     for (const RenderSettings& other : all) CHECK(says_end(image, other) == (&s == &other));
   }
   CHECK_FALSE(rendered(plain).attributes.contains(kEnd));
-  CHECK(std::get<std::string>(rendered(both).attributes.at(kEnd)) == "--time 1000 --error-max 0.25");
+  CHECK(std::get<std::string>(rendered(both).attributes.at(kEnd)) == "--time 1000 --error-max 0.25 --spp 2");
 }
 
 TEST_CASE("no matrix takes the world to the frame of a spherical or a realistic camera") {

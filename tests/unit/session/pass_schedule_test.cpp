@@ -2,7 +2,9 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <chrono>
+#include <limits>
 #include <thread>
 
 #include "support/sphere_scene.h"
@@ -67,6 +69,33 @@ TEST_CASE("the time that a running pass takes counts before it has ended") {
   CHECK(job.samples() == 1);
   CHECK(during->samples_done == 0);
   CHECK(during->fraction > 1e-3);  // the share of the samples is 1e-6
+}
+
+TEST_CASE("a time that is up before the first sample has ended is not all that is to be done") {
+  const World world = test::world_of(test::sphere_scene(16, 16), {.threads = 1});
+  RenderSettings settings{.spp = std::numeric_limits<int>::max(), .threads = 1};
+  settings.time = 1e-9;
+  RenderJob job(world, settings);
+  PassSchedule schedule(settings, false);
+  double largest = 0;
+  job.advance(schedule.next_pass(job), [&](double samples) {
+    const auto progress = schedule.progress(job, samples);
+    if (progress && samples < 0.9) largest = std::max(largest, progress->fraction);
+    return true;
+  });
+  CHECK(largest < 0.9);
+}
+
+TEST_CASE("what takes until the error is small is not told before there is one") {
+  const World world = test::world_of(test::sphere_scene(16, 16), {.threads = 1});
+  RenderSettings settings{.spp = std::numeric_limits<int>::max(), .threads = 1};
+  settings.error = 1e-3;
+  RenderJob job(world, settings);
+  PassSchedule schedule(settings, false);
+  CHECK(schedule.next_pass(job) > 0);
+  const auto begun = schedule.progress(job, 0.5);
+  REQUIRE(begun);
+  CHECK(begun->remaining == 0);
 }
 
 // The pilot comes before the second sample of one pass.

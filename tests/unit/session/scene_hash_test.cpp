@@ -145,6 +145,9 @@ std::set<const void*> without_effect(Scene& s) {
   for (Texture& t : s.textures) collect.visit(t.where);
   for (Material& m : s.materials) collect.visit(m.where), collect.visit(m.name);
   for (Medium& m : s.media) collect.visit(m.where), collect.visit(m.name);
+  for (Medium& m : s.media) {
+    if (auto* vdb = std::get_if<VdbMedium>(&m.kind)) collect.visit(vdb->emission_given);
+  }
   for (Light& l : s.lights) collect.visit(l.where);
   for (Shape& shape : s.shapes) collect.visit(shape.where), collect.visit(shape.name);
   for (Object& o : s.objects) {

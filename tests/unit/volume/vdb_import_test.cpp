@@ -137,6 +137,16 @@ TEST_CASE("temperature and flame make light; what is cold, empty or absent makes
   const Import burning = import(path, vdb);
   CHECK(burning.medium.at({8, 8, 8}).Le.r == doctest::Approx(k.Le.r / 4).epsilon(1e-3));
   CHECK(burning.medium.at({2, 8, 8}).Le.r == 0);
+  vdb.Le = {1, 0.5f, 0.25f};
+  vdb.temperature_scale = 1e-3f;  // too cold: the flame is alone
+  CHECK(import(path, vdb).medium.at({8, 8, 8}).Le.g == doctest::Approx(2 * 0.5 * 0.25));
+  vdb.flame_grid.clear();
+  CHECK_FALSE(contains(import(path, vdb).notes, "emits nothing"));
+  vdb.emission_given = true;
+  CHECK(contains(import(path, vdb).notes, "emits nothing"));
+  vdb.temperature_scale = 4000;
+  CHECK_FALSE(contains(import(path, vdb).notes, "emits nothing"));
+  vdb.flame_grid = "flame";
 
   test::write_vdb(path, {density, flame});
   vdb.Le = {1, 0.5f, 0.25f};
@@ -178,6 +188,35 @@ TEST_CASE("voxels that are no amount: negative ones become 0 with one warning, o
   const Import clean = import(path, {}, {.sanitize = true});
   CHECK(clean.medium.sigma_maj() == doctest::Approx(2));
   CHECK(contains(clean.notes, "set to 0"));
+}
+
+TEST_CASE("a background that is no amount is empty space, and counts as no voxel") {
+  const test::Scratch scratch;
+  const std::string path = scratch / "background.vdb";
+  VdbGrid grid;
+  grid.boxes = {{{0, 0, 0}, {15, 15, 15}, 1}};
+  for (const float background : {-0.5f, std::nanf(""), std::numeric_limits<float>::infinity()}) {
+    grid.background = background;
+    test::write_vdb(path, {grid});
+    const Import loaded = import(path);
+    CHECK_FALSE(contains(loaded.notes, "set to 0"));
+    CHECK(loaded.medium.at({8, 8, 8}).sigma_a.r == doctest::Approx(1));
+    CHECK(loaded.medium.at({20, 8, 8}).sigma_a.r == 0);
+  }
+}
+
+TEST_CASE("grids are chosen by names in any script") {
+  const test::Scratch scratch;
+  const std::string path = scratch / "names.vdb";
+  VdbGrid grid;
+  grid.boxes = {{{0, 0, 0}, {15, 15, 15}, 1}};
+  VdbGrid other = grid;
+  grid.name = "Dichte \u00fc";
+  other.name = "\u7159";
+  test::write_vdb(path, {grid, other});
+  CHECK(import(path, named(grid.name)).medium.at({8, 8, 8}).sigma_a.r == doctest::Approx(1));
+  CHECK(import(path, named(other.name)).medium.at({8, 8, 8}).sigma_a.r == doctest::Approx(1));
+  CHECK(contains(error_of(path, named("none")), grid.name));
 }
 
 TEST_CASE("what is no fog is refused by name") {
