@@ -103,8 +103,9 @@ void declare_task(CLI::App& command, RenderOptions& o) {
   declare_progress(command, o.progress);
 }
 
-void declare(CLI::App& command, RenderOptions& o) {
-  declare_task(command, o);
+namespace {
+
+void declare_end(CLI::App& command, RenderOptions& o) {
   command
       .add_option("--error", o.error,
                   "stop when the estimated relMSE, mean of variance / (mean^2 + 0.01), is below this; looked at when "
@@ -125,6 +126,9 @@ void declare(CLI::App& command, RenderOptions& o) {
       "--slice", o.slice,
       "only the I-th of N slices of the samples, of which --spp is the number of all; tyndall merge adds them up to the "
       "same image, bit for bit [all samples]; --slice 3/16");
+}
+
+void declare_more_pictures(CLI::App& command, RenderOptions& o) {
   auto* deep = command.add_option("--deep", o.deep,
                                   "deep image to write as well, .exr: light and opacity by depth, for compositing in smoke "
                                   "[none]; --deep plume.deep.exr");
@@ -141,6 +145,9 @@ void declare(CLI::App& command, RenderOptions& o) {
                   "--preview-every 30")
       ->check(positive())
       ->needs(denoise);
+}
+
+void declare_viewers(CLI::App& command, RenderOptions& o) {
   command.add_option(
       "--display", o.display,
       "HOST:PORT of a viewer that speaks tev's protocol: it is shown the picture at 1, 2, 4 ... samples and at the "
@@ -150,6 +157,9 @@ void declare(CLI::App& command, RenderOptions& o) {
                   "PORT or HOST:PORT of a page that shows the render as it goes to browsers of this machine, or of those that "
                   "reach HOST [none; without a port one that is free]; --serve 8080")
       ->expected(0, 1);
+}
+
+void declare_records(CLI::App& command, RenderOptions& o) {
   auto* reference = command.add_option("--reference", o.reference,
                                        "image that the error is measured against for --error-log; --reference best.exr");
   auto* log = command.add_option("--error-log", o.error_log,
@@ -165,6 +175,16 @@ void declare(CLI::App& command, RenderOptions& o) {
   command.add_flag(
       "--resume", o.resume,
       "go on from OUTPUT.checkpoint if there is one: the same bits as an unbroken render; an interrupt saves there again");
+}
+
+}  // namespace
+
+void declare(CLI::App& command, RenderOptions& o) {
+  declare_task(command, o);
+  declare_end(command, o);
+  declare_more_pictures(command, o);
+  declare_viewers(command, o);
+  declare_records(command, o);
   declare(command, o.image);
   declare_memory(command, o.max_memory);
   command.add_flag("--quiet", o.quiet, "no progress, notes or summary; errors only");

@@ -45,9 +45,11 @@ class CoarseRay {
   SmallVector<Local, 2> locals_;
 };
 
+/// Reads of a medium that tell its depth well enough for choices.
+inline constexpr int kCoarseTaps = 4;
 /// Integral of sigma_t over [t0, t1], t1 may be infinite. Exact for homogeneous media; of any other, means are read at no
 /// more than `taps` points, evenly in the part of the ray inside it.
-float coarse_optical_depth(MediaView media, const Ray& ray, float t0, float t1, int taps);
+float coarse_optical_depth(MediaView media, const Ray& ray, float t0, float t1, int taps = kCoarseTaps);
 
 /// The same from the ray's origin, where it is looked at closely, up to t1 and no further than a value of `most`.
 float nearby_optical_depth(MediaView media, const Ray& ray, float t1, float most);

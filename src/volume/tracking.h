@@ -42,11 +42,14 @@ struct Flight {
 Flight free_flight(MediaView media, const Ray& ray, float t0, float t1, Rgb beta, float u_first, Rng& rng,
                    TrackingStats& stats);
 
+/// How closely `raymarch` looks along shadow rays, and along segments that are marched once for all that is gathered there.
+inline constexpr float kShadowSpacing = 0.5f, kSegmentSpacing = 0.25f;
+
 /// An estimator of transmittance, and how closely it looks.
 struct TransmittanceMethod {
   TransmittanceStrategy strategy;
   /// Of the look-ups of `raymarch` where nothing is attenuated yet, > 0, in optical depth that its controls may be wrong by.
-  float spacing = 0.5f;
+  float spacing = kShadowSpacing;
 };
 
 /// Estimate exp(-integral of sigma_t over [t0, t1]); exact when all media are homogeneous.

@@ -14,7 +14,6 @@ constexpr float kMostVaried = 2.5f;
 /// Looks at the media of each part, and the transmittance beyond which there is nothing to see.
 constexpr int kLooks = 8;
 constexpr float kOpaque = 0.05f;
-constexpr int kReads = 4;  ///< of a segment's optical depth
 
 /// How light that is found at collisions alone varies: a path collides in look i with probability w_i, and finds E(t) =
 /// 1 / d(t)^2 there, d being the distance to the nearest light: E[x^2] / E[x]^2 = sum_i w_i <E^2>_i / (sum_i w_i <E>_i)^2.
@@ -101,7 +100,7 @@ bool collisions_suffice(const LightContext& context, const Ray& ray, const Inter
 }
 
 bool is_deep(const Ray& ray, const Interval& inside) {
-  const float depth = coarse_optical_depth(inside.view(), ray, inside.t0, inside.t1, kReads);
+  const float depth = coarse_optical_depth(inside.view(), ray, inside.t0, inside.t1);
   return -std::expm1(-depth) * kMostVaried > 1;
 }
 

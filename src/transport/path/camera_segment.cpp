@@ -7,15 +7,6 @@
 #include "transport/media/transmittance_walk.h"
 
 namespace tyndall {
-namespace {
-
-/// Probability of estimating the transmittance, over the chance of passing.
-constexpr double kSeenMore = 2;
-/// Step of marching, as for what the path itself gathers along the ray.
-constexpr float kSpacing = 0.25f;
-
-}  // namespace
-
 const std::optional<SpanProfile>& CameraSegment::profile() {
   if (!looked_) {
     looked_ = true;
@@ -34,7 +25,7 @@ DistanceSampler CameraSegment::distances_to(Vec3 p) {
 Rgb CameraSegment::transmittance(TransmittanceStrategy strategy, TrackingStats& stats) {
   const double chance = std::min(1.0, kSeenMore * double{chance_of_passing()});
   if (!(rng_.uniform_wide() < chance)) return {};
-  return TransmittanceWalk({strategy, kSpacing}, span_, rng_, stats).to(span_.t_end) * static_cast<float>(1 / chance);
+  return TransmittanceWalk({strategy, kSegmentSpacing}, span_, rng_, stats).to(span_.t_end) * static_cast<float>(1 / chance);
 }
 
 }  // namespace tyndall

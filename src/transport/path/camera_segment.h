@@ -12,6 +12,9 @@ namespace tyndall {
 
 class DistanceSampler;
 
+/// Probability of looking at what is behind media, over the chance of passing them.
+inline constexpr float kSeenMore = 2;
+
 /// Wherever the path goes by itself, it is one of those that might have collided anywhere along the ray, or passed. What that
 /// takes is looked up when somebody asks.
 class CameraSegment {

@@ -13,8 +13,6 @@
 namespace tyndall {
 namespace {
 
-/// Probability of evaluating what is behind media, over the transmittance of the clearest channel.
-constexpr float kSeenMore = 2;
 /// The step beyond all others whose numbers receiving takes.
 constexpr int kReceivingStep = (1 << 30) + 1;
 

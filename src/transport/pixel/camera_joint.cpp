@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "transport/media/scattering.h"
+#include "transport/pixel/directly_visible.h"
 #include "transport/sample/deep_sample.h"
 #include "transport/sample/grouped_light.h"
 #include "transport/techniques/joint.h"
@@ -12,10 +13,6 @@
 
 namespace tyndall {
 namespace {
-
-constexpr int kReads = 4;
-/// Optical depth before a light, roughly: beyond it less than a hundredth of its light gets through.
-constexpr float kDeepest = 5;
 
 bool is_wanted(const BuiltWorld& world, const RenderSettings& settings) {
   return searches_film(settings) && settings.max_depth > 0 && world.has_media() && world.camera.is_pinhole();
@@ -46,7 +43,7 @@ Surroundings around(const std::vector<Place>& places, const Ray& ray, float dist
     if (!place.box.contains(ray.at(distance))) continue;
     found.media.push_back(place.medium);
     const float enters = std::max(distance - exit_distance(place.box, {ray.at(distance), -ray.d}), 0.0f);
-    found.depth += coarse_optical_depth({&place.medium, 1}, ray, enters, distance, kReads);
+    found.depth += coarse_optical_depth({&place.medium, 1}, ray, enters, distance);
   }
   return found;
 }
@@ -57,7 +54,7 @@ std::optional<FilmPoint> film_point(const BuiltWorld& world, const std::vector<P
   const float distance = length(to_point);
   const Ray ray{world.camera.center(), to_point * (1 / distance)};
   const auto [media, depth] = around(places, ray, distance);
-  if (media.empty() || !(depth < kDeepest)) return std::nullopt;
+  if (media.empty() || !(depth < kDeepestSeen)) return std::nullopt;
   const float sigma_s = CoarseRay({media.data(), media.size()}, ray).at(distance).sigma_s;
   const auto power = static_cast<float>(world.lights.power(light));
   return FilmPoint{.light = light,

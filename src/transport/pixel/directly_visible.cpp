@@ -8,10 +8,6 @@
 namespace tyndall {
 namespace {
 
-/// Optical depth, roughly.
-constexpr float kDeepest = 5;
-constexpr int kReads = 4;
-
 SpanWalk walk_to(const BuiltWorld& world, const Ray& ray, const Trace& trace) {
   return SpanWalk(world.media_context(), world.media_at_start(ray.o), trace.crossings, trace.t_end);
 }
@@ -43,8 +39,8 @@ float attenuated_roughly(const BuiltWorld& world, const Ray& ray, const Directly
   if (!world.has_media()) return 1;
   float depth = 0;
   SpanWalk walk = walk_to(world, ray, seen.trace);
-  while (const auto i = walk.next()) depth += coarse_optical_depth(i->view(), ray, i->t0, i->t1, kReads);
-  return depth < kDeepest ? std::exp(-depth) : 0.0f;
+  while (const auto i = walk.next()) depth += coarse_optical_depth(i->view(), ray, i->t0, i->t1);
+  return depth < kDeepestSeen ? std::exp(-depth) : 0.0f;
 }
 
 }  // namespace tyndall

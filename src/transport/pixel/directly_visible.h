@@ -7,6 +7,9 @@
 
 namespace tyndall {
 
+/// Optical depth before a light, roughly: beyond it less than a hundredth of its light gets through.
+inline constexpr float kDeepestSeen = 5;
+
 /// The surface that it hits first, if that is emissive.
 struct DirectlyVisible {
   LightId light;

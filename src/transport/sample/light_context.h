@@ -66,12 +66,12 @@ inline const LightSelector& selector(const LightContext& context, bool with_volu
 
 /// Transmittance along shadow rays. Half the step for single scattering, whose noise nothing else hides (docs/measurements.md).
 inline TransmittanceMethod shadow_method(const LightContext& context) {
-  return {context.settings.transmittance, is_single_scattering(context) ? 0.25f : 0.5f};
+  return {context.settings.transmittance, (is_single_scattering(context) ? 0.5f : 1.0f) * kShadowSpacing};
 }
 
 /// Transmittance along the path's own segment: marched once for all that is gathered along it.
 inline TransmittanceMethod span_method(const LightContext& context) {
-  return {context.settings.transmittance, is_single_scattering(context) ? 0.125f : 0.25f};
+  return {context.settings.transmittance, (is_single_scattering(context) ? 0.5f : 1.0f) * kSegmentSpacing};
 }
 
 }  // namespace tyndall

@@ -9,8 +9,8 @@
 namespace tyndall {
 namespace {
 
-/// Steps of marching: as for shadow rays, and half of it for inverses, whose noise has a longer tail.
-constexpr float kSpacing = 0.5f, kInverseSpacing = 0.25f;
+/// Half of shadow rays', as the noise of inverses has a longer tail.
+constexpr float kInverseSpacing = 0.5f * kShadowSpacing;
 /// Reads of a grid for the chance of passing it.
 constexpr int kReads = 16;
 
@@ -97,7 +97,7 @@ void Link::pass_varying(const Interval& interval, Passage& passage) const {
   const float t0 = interval.t0, t1 = interval.t1;
   TrackingStats& stats = between_.counters.tracking;
   passage.weight *= own_ ? inverse_transmittance(kInverseSpacing, media, ray_, t0, t1, find_.rng, stats)
-                         : transmittance({between_.transmittance, kSpacing}, media, ray_, t0, t1, find_.rng, stats);
+                         : transmittance({between_.transmittance}, media, ray_, t0, t1, find_.rng, stats);
   const float passes = std::exp(-coarse_optical_depth(media, ray_, t0, t1, kReads));
   passage.chance *= passes;
   passage.likely *= passes;

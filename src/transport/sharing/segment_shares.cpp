@@ -10,8 +10,6 @@
 namespace tyndall {
 namespace {
 
-/// Step of marching along the camera's ray, as for the path itself.
-constexpr float kSpacing = 0.25f;
 /// Distances toward several finds are spread by the golden ratio.
 constexpr float kGolden = 0.618034f;
 
@@ -175,7 +173,7 @@ void SegmentShares::receive(std::size_t k) {
   }
   if (candidates.empty()) return;
   std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) { return a.t < b.t; });
-  TransmittanceWalk walk({between_.transmittance, kSpacing}, segment.span(), segment.rng(), between_.counters.tracking);
+  TransmittanceWalk walk({between_.transmittance, kSegmentSpacing}, segment.span(), segment.rng(), between_.counters.tracking);
   for (const Candidate& candidate : candidates) {
     const Rgb T = walk.to(candidate.t);
     if (is_black(T)) return;

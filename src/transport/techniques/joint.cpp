@@ -13,7 +13,6 @@ namespace {
 constexpr CutSettings kOneLight{.candidates = 1, .splitting = 0};
 /// Optical depth toward a light, roughly: behind more of it, little of what is drawn arrives (docs/measurements.md).
 constexpr float kDeepest = 3;
-constexpr int kReads = 4;
 
 /// Whether there may be a medium that scatters near the light, and little enough in between for it to be worth two rays. It
 /// depends only on the collision and the light, as both sides of MIS ask.
@@ -22,7 +21,7 @@ bool in_reach(const JointSearch& search, Vec3 point) {
   const float distance = length(to_point);
   if (!search.reach.contains(point) || !(distance > 0)) return false;
   const MediaView media{search.media.data(), search.media.size()};
-  return coarse_optical_depth(media, {search.query.p, to_point * (1 / distance)}, 0, distance, kReads) < kDeepest;
+  return coarse_optical_depth(media, {search.query.p, to_point * (1 / distance)}, 0, distance) < kDeepest;
 }
 
 /// By one light that was chosen.

@@ -17,7 +17,6 @@ namespace {
 
 /// Transmittances below this do not count as less in choices: the medium may be thinner than it looks.
 constexpr float kLeastTransmittance = 1e-3f;
-constexpr int kShadowReads = 4;
 
 /// A pair of a light and a distance, evaluated without visibility.
 struct Pair {
@@ -81,7 +80,7 @@ class PairFinder {
   float attenuation(const SpanPart& part, float t, Vec3 p, const LightSample& light) const {
     const Ray ray{p, light.wi};
     const float end = std::min(light.distance, exit_distance(part.box, ray));
-    const float depth = coarse_optical_depth(part.view(), ray, 0, end, kShadowReads);
+    const float depth = coarse_optical_depth(part.view(), ray, 0, end);
     return std::max(search_.profile.transmittance(t) * std::exp(-depth), kLeastTransmittance);
   }
 
