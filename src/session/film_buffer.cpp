@@ -51,11 +51,10 @@ std::size_t channels_of(Aov aov) {
     case Aov::crypto_material:
     case Aov::crypto_medium:
       return 0;
-    case Aov::sample_count:
-      return 1;
-    case Aov::z:
+    case Aov::sample_count:  // with SampleWeight
+    case Aov::z:             // with their count
     case Aov::z_volume:
-      return 2;  // with their count
+      return 2;
     case Aov::p:
       return 4;
     default:
@@ -75,9 +74,9 @@ std::size_t FilmBuffer::sums_of_pixel(const Extras& extras) {
 
 std::size_t FilmBuffer::channels_of_image(const Extras& extras) {
   const std::size_t groups = extras.groups.size(), variances = holds(extras.aovs, Aov::variance) ? 3 * (1 + groups) : 0;
-  std::size_t means = 4 + 3 * groups + 2;  // with SampleCount and SampleWeight
+  std::size_t means = 4 + 3 * groups;
   for (const Aov aov : extras.aovs) means += channels_of(aov);
-  return (holds(extras.aovs, Aov::replicate) ? 2 : 1) * means + variances;
+  return holds(extras.aovs, Aov::replicate) ? 2 * means + 1 + variances : means + variances;  // with Replicate.SampleCount
 }
 
 FilmBuffer::FilmBuffer(const Film& film, PixelBounds crop, Extras extras)

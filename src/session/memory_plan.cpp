@@ -18,14 +18,15 @@ namespace tyndall {
 namespace {
 
 /// Bytes a pixel of what is kept by keys, and of the images made of it: of mattes, about four ids in each layer; of depth,
-/// light in every bin.
-double plan_keyed(const RenderSettings& settings) {
+/// light in every bin of the media, or where there are none of a few surfaces.
+double plan_keyed(const Scene& scene) {
+  const RenderSettings& settings = scene.settings;
   constexpr double kSum = sizeof(double) + sizeof(float), kKey = sizeof(std::uint32_t), kList = 40;
   const auto& aovs = settings.aovs;
   const auto layers = static_cast<double>(std::count_if(aovs.begin(), aovs.end(), is_matte_layer));
   double bytes = layers * (kList + 4 * (kKey + kSum) + 2 * 2 * kMatteRanks * sizeof(float));
-  if (settings.deep_bins)
-    bytes += kList + (*settings.deep_bins + 2) * (kKey + kSumsOfDepth * kSum + 2 * sizeof(DeepPixelSample));
+  const int places = scene.media.empty() ? 4 : settings.deep_bins.value_or(0) + 2;
+  if (settings.deep_bins) bytes += kList + places * (kKey + kSumsOfDepth * kSum + 2 * sizeof(DeepPixelSample));
   return bytes;
 }
 
@@ -37,7 +38,7 @@ std::size_t plan_film(const Scene& scene) {
   sum.add(pixels, 2 * (sizeof(double) + sizeof(float)) * sums);         // twice: a long pass keeps a copy to undo it
   sum.add(pixels, 2 * sizeof(float) * channels);                        // the image, and its encoding
   if (scene.settings.slice) sum.add(pixels, 3 * sizeof(float) * sums);  // its sums
-  sum.add(pixels, plan_keyed(scene.settings));
+  sum.add(pixels, plan_keyed(scene));
   return sum.bytes();
 }
 

@@ -78,7 +78,11 @@ TEST_CASE("mattes and deep images are planned where they are asked for") {
   CHECK(film() >= bare + 500'000 * 12 * 4);
   scene.settings.aovs.clear();
   scene.settings.deep_bins = 16;
+  const std::size_t surfaces = film();
+  CHECK(surfaces >= bare + 500'000 * 4 * 76);
+  scene.media.emplace_back();
   const std::size_t deep = film();
+  CHECK(deep - bare > 3 * (surfaces - bare));
   CHECK(deep >= bare + 500'000 * 16 * 76);
   scene.settings.deep_bins = 34;
   CHECK(film() - bare >= 2 * (deep - bare) - 500'000 * 40);
