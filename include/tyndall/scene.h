@@ -206,7 +206,7 @@ struct VdbMedium {
   bool density_grid_given = false, temperature_grid_given = false;
   float temperature_scale = 1, temperature_offset = 0;  ///< kelvin = (value - offset) * scale
   float Le_scale = 1;
-  Rgb Le{1.0f};                 ///< colour of flame emission sigma_a * Le_scale * Le * flame where no temperature glows
+  Rgb Le{1.0f};                 ///< colour of flame emission sigma_a * Le_scale * Le * flame where no temperature emits
   bool emission_given = false;  ///< the scene speaks of emission: without any there is a warning
 };
 struct Medium {

@@ -93,16 +93,16 @@ template <typename Body>
 void Environment::for_each_texel(int pieces, const Body& body) const {
   const float fine = 1.0f / static_cast<float>(pieces);
   const auto place = [&](int i, int size) { return (static_cast<float>(i) + 0.5f) * fine / static_cast<float>(size); };
+  const bool square_map = layout_ == Layout::equal_area;
   std::vector<Meridian> meridians;
-  for (int x = 0; x < image_->width() * pieces; ++x) meridians.push_back(meridian(place(x, image_->width())));
+  for (int x = 0; x < image_->width() * pieces && !square_map; ++x) meridians.push_back(meridian(place(x, image_->width())));
   for (int y = 0; y < image_->height() * pieces; ++y) {
     const float t = place(y, image_->height());
-    const bool even = layout_ == Layout::equal_area;
-    const Parallel row = even ? Parallel{} : parallel(t);
+    const Parallel row = square_map ? Parallel{} : parallel(t);
     const double part = texel_solid_angle(texel_of({0, t}).y) / (double(pieces) * pieces);
     for (int x = 0; x < image_->width() * pieces; ++x) {
       const Vec2 st{place(x, image_->width()), t};
-      body(texel_of(st), even ? direction(st) : toward(meridians[static_cast<std::size_t>(x)], row), part);
+      body(texel_of(st), square_map ? direction(st) : toward(meridians[static_cast<std::size_t>(x)], row), part);
     }
   }
 }

@@ -266,7 +266,7 @@ void build(const VdbMedium& vdb, const BuildContext& context, MediumData& data) 
   if (burns && emission.kind != EmissionField::Kind::none) emission.scale = std::move(grids.flame);
   if (emission.kind == EmissionField::Kind::none && vdb.emission_given)
     context.notes.push_back("warning: " + context.name() +
-                            ": emits nothing, as no temperature of its file glows; scale that, or " + "name a flame grid");
+                            ": emits nothing, as all temperatures of its file are too low; scale them, or name a flame grid");
 }
 
 /// Denormals are flushed to zero while rendering, and what lies near the largest float overflows: a medium that comes to

@@ -20,6 +20,9 @@ RenderJob resumed(const World& world, const RenderSettings& settings) {
   return after;
 }
 
+/// As many samples as a limit leaves room for.
+RenderSettings without_end() { return {.spp = std::numeric_limits<int>::max(), .threads = 1}; }
+
 TEST_CASE("what is left of a resumed render is measured by what was done here") {
   const World world = test::world_of(test::sphere_scene(16, 16), {.threads = 1});
   RenderSettings settings{.spp = 16, .threads = 1};
@@ -73,7 +76,7 @@ TEST_CASE("the time that a running pass takes counts before it has ended") {
 
 TEST_CASE("a time that is up before the first sample has ended is not all that is to be done") {
   const World world = test::world_of(test::sphere_scene(16, 16), {.threads = 1});
-  RenderSettings settings{.spp = std::numeric_limits<int>::max(), .threads = 1};
+  RenderSettings settings = without_end();
   settings.time = 1e-9;
   RenderJob job(world, settings);
   PassSchedule schedule(settings, false);
@@ -88,7 +91,7 @@ TEST_CASE("a time that is up before the first sample has ended is not all that i
 
 TEST_CASE("what takes until the error is small is not told before there is one") {
   const World world = test::world_of(test::sphere_scene(16, 16), {.threads = 1});
-  RenderSettings settings{.spp = std::numeric_limits<int>::max(), .threads = 1};
+  RenderSettings settings = without_end();
   settings.error = 1e-3;
   RenderJob job(world, settings);
   PassSchedule schedule(settings, false);
