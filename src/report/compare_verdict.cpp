@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace tyndall {
 namespace {
 
@@ -24,9 +26,16 @@ std::string times(const VariantResult& v, Measure measure, const std::string& ba
   return fmt::format("{:.3g} times as efficient as {} (95 % interval {:.3g} to {:.3g})", i.value, base, i.low, i.high);
 }
 
-std::string undecided(const VariantResult& by_mse, const VariantResult& trimmed) {
-  const bool mse = by_mse.efficiency->low < 1 && by_mse.efficiency->high > 1;
-  const bool cut = trimmed.efficiency_trimmed->low < 1 && trimmed.efficiency_trimmed->high > 1;
+/// Whether the seeds leave open that the first, which all are held against, or a rival of it is as good as the leader.
+bool is_undecided(std::span<const VariantResult> variants, const VariantResult& leader, Measure measure) {
+  if (&leader != &variants.front()) return (leader.*measure)->low < 1;
+  const auto may_lead = [&](const VariantResult& v) { return v.*measure && (v.*measure)->high > 1; };
+  return std::any_of(variants.begin() + 1, variants.end(), may_lead);
+}
+
+std::string undecided(std::span<const VariantResult> variants, const VariantResult& by_mse, const VariantResult& trimmed) {
+  const bool mse = is_undecided(variants, by_mse, &VariantResult::efficiency);
+  const bool cut = is_undecided(variants, trimmed, &VariantResult::efficiency_trimmed);
   if (mse && cut) return "; the seeds decide neither";
   if (mse) return "; by MSE the seeds do not decide";
   return cut ? fmt::format("; {} the seeds do not decide", kTrimmed) : "";
@@ -39,17 +48,18 @@ std::string compare_verdict(std::span<const VariantResult> variants) {
   const VariantResult &base = variants.front(), *by_mse = leader(variants, &VariantResult::efficiency),
                       *trimmed = leader(variants, &VariantResult::efficiency_trimmed);
   if (!by_mse || !trimmed) return {};
+  const std::string doubt = undecided(variants, *by_mse, *trimmed);
   if (by_mse == trimmed) {
-    if (by_mse == &base) return fmt::format("{} is the most efficient, by MSE and {}.", base.name, kTrimmed);
+    if (by_mse == &base) return fmt::format("{} is the most efficient, by MSE and {}{}.", base.name, kTrimmed, doubt);
     return fmt::format("{} is the most efficient: by MSE {}, {} {}{}.", by_mse->name,
                        times(*by_mse, &VariantResult::efficiency, base.name), kTrimmed,
-                       times(*trimmed, &VariantResult::efficiency_trimmed, base.name), undecided(*by_mse, *trimmed));
+                       times(*trimmed, &VariantResult::efficiency_trimmed, base.name), doubt);
   }
   const auto lead = [&](const VariantResult& v, Measure measure) {
     return v.name + (&v == &base ? " leads" : " leads, " + times(v, measure, base.name));
   };
   return fmt::format("The two measures disagree: by MSE {}; {} {}{}.", lead(*by_mse, &VariantResult::efficiency), kTrimmed,
-                     lead(*trimmed, &VariantResult::efficiency_trimmed), undecided(*by_mse, *trimmed));
+                     lead(*trimmed, &VariantResult::efficiency_trimmed), doubt);
 }
 
 }  // namespace tyndall

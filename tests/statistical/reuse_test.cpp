@@ -125,6 +125,34 @@ TEST_CASE("sharing changes the noise alone: mirrors, and a room behind a pane") 
   check_sharing("as neighbouring rays see it alike", camera(3, 14) + bright + alike, {}, 1.5);
 }
 
+// Surfaces that scatter each path in its own way offer the light that comes to them from where their path went on: narrow and
+// wide metals, rough glass that others look through, and a sheet that lets light through, in a room where most paths meet them
+// second. Paths whose colour the glass has split keep what they find.
+TEST_CASE("sharing changes the noise alone: metals, rough glass and thin sheets") {
+  const auto wall = [](const std::string& material, const std::string& corners) {
+    return block("Material " + material + "\nShape \"bilinearmesh\" \"point3 P\" [" + corners + "]\n");
+  };
+  const std::string metal = "\"conductor\" \"rgb reflectance\" [0.9 0.7 0.4] \"float roughness\" ";
+  const std::string floor = "-2 -1.8 -4  2 -1.8 -4  -2 -1.8 2  2 -1.8 2", left = "-2 -1.8 -4  -2 -1.8 2  -2 1.8 -4  -2 1.8 2";
+  const std::string others = sharing_wall("0.7 0.7 0.7", "-2 1.8 -4  2 1.8 -4  -2 1.8 2  2 1.8 2") +
+                             sharing_wall("0.1 0.7 0.2", "2 -1.8 -4  2 -1.8 2  2 1.8 -4  2 1.8 2") + sharing_end(2) +
+                             sharing_end(-4) + emitting_square({0.6f, 0.9f, 1.9f}, 0.25f, 9);
+  const std::string room = camera(5) + others + wall(metal + "0.05", floor) + wall(metal + "0.4", left);
+  check_sharing("metals", room, {}, 3, kMany);
+  const auto glass = [](const std::string& eta) {
+    return block("Material \"dielectric\" " + eta + " \"float roughness\" 0.2\nTranslate 0.3 -1 0.2\n" +
+                 box_mesh({{-0.8f, -0.7f, -0.5f}, {0.7f, 0.7f, 0.5f}}));
+  };
+  const std::string white = camera(6) + others + sharing_wall("0.6 0.6 0.6", floor) + sharing_wall("0.8 0.1 0.1", left);
+  check_sharing("glass", white + glass("\"float eta\" 1.5"), {}, 1.5, kMany);
+  check_sharing("glass of many colours", white + glass("\"spectrum eta\" \"glass-F11\""), {}, 1, kMany);
+  const std::string sheet = "\"diffusetransmission\" \"rgb reflectance\" [0.3 0.2 0.3] \"rgb transmittance\" [0.4 0.6 0.3]";
+  check_sharing("sheet",
+                camera(5) + others + sharing_wall("0.6 0.6 0.6", floor) + wall(sheet, left) +
+                    wall(sheet, "-1.2 -1.6 0.2  1 -1.6 0.6  -1.2 0.8 0.2  1 0.8 0.6"),
+                {}, 0.9, kMany);
+}
+
 TEST_CASE("sharing changes the noise alone: smoke that leaves some ways open, from which paths are sent toward it") {
   Coefficients smoke = kThin;
   smoke.sigma_s = {3, 2, 1.5f};

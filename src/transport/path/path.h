@@ -87,7 +87,7 @@ class Path {
   void offer_environment();
   void take_environment(Rgb factor, Vec3 wi, Received where);
   Rgb environment_from(const PathOffer& offer, LightId light, Vec3 wi) const;
-  bool completes_collision() const;
+  bool completes_one_direction() const;
   std::optional<Vertex> next_vertex();
   std::optional<Vertex> arrive(const Trace& trace);
   std::optional<Vertex> collide_untraced();

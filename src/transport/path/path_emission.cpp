@@ -64,9 +64,9 @@ class Path::ScatteredEmission final : public EmissionGauge {
   const Path& path_;
 };
 
-/// What the ray of an offered collision passes comes to it from one direction, as later light does, and is shared like that.
+/// What the ray from such a find passes comes to it from one direction, as later light does, and is shared like that.
 /// What next-event estimation weighs against, which is the path's own, is not.
-int Path::bounces_of_emission(bool weighed) const { return completes_collision() && !weighed ? depth_ + 1 : depth_; }
+int Path::bounces_of_emission(bool weighed) const { return completes_one_direction() && !weighed ? depth_ + 1 : depth_; }
 
 /// All of it that reaches the span's origin: how far the path goes does not matter.
 void Path::add_volume_emission(const Span& span) {

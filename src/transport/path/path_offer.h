@@ -13,8 +13,8 @@ namespace tyndall {
 /// Most paths that share.
 inline constexpr std::size_t kMostSharing = 64;
 
-/// What the path met after its first vertex that spreads light, a diffuse surface or a collision, and the light that is
-/// scattered there; or an environment, where it left the scene.
+/// What the path met after its first vertex that spreads light, a surface or a collision, and the light that is scattered
+/// there; or an environment, where it left the scene.
 struct PathOffer {
   /// For bounce number context.bounce.
   PathOffer(const LightContext& context, const Vertex& vertex, Rgb throughput)
@@ -39,14 +39,16 @@ struct PathOffer {
   Rgb flown;                    ///< the part of it that the flight through media weighs
   Rng rng{0};                   ///< for the connections of others
 
-  /// An estimate: of what a surface scatters to all on the side of `first`; of what comes to a collision from `wi`. Of an
-  /// environment, which all know, what its own path counts.
+  /// An estimate: of what a diffuse surface scatters to all on the side of `first`; of what comes to other finds from `wi`. Of
+  /// an environment, which all know, what its own path counts.
   Rgb radiance;
-  Vec3 wi;                         ///< where the path went on from a collision
+  Vec3 wi;                         ///< where the path went on from `at`
   std::optional<Aureole> aureole;  ///< by which that was drawn
-  Rgb scattered{1.0f};             ///< phase function toward `first`, over its density
-  Rgb own;                         ///< light that a collision scatters toward `first` and that only the path itself counts
+  Rgb scattered{1.0f};             ///< what `at` scatters of that toward `first`, over its density
+  Rgb own;                         ///< light that `at` scatters toward `first` and that only the path itself counts
 
+  /// Of a find, whether what it sends to all on its side is known. Else what comes to it from `wi` is.
+  bool scatters_evenly() const { return at->on_surface() && at->surface()->bsdf.diffuse(); }
   bool found() const { return at || escaped; }
   /// Radiance of an environment that comes from `w`, were nothing in between.
   Rgb environment(LightId light, Vec3 w) const { return lights.environment(light, {first.p(), w}); }

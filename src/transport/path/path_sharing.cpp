@@ -39,7 +39,7 @@ void Path::complete_offer() {
   sharing_ = Sharing::completing;
   follow(offer_->at);
   sharing_ = Sharing::none;
-  const Rgb scattered = offer_->at->on_surface() ? Rgb(1.0f) : offer_->scattered;
+  const Rgb scattered = offer_->scatters_evenly() ? Rgb(1.0f) : offer_->scattered;
   offer_->radiance = divided(record_.radiance(), scattered);
   record_ = before;
   add(offer_->arrived * offer_->own, offer_->bounces + 1);
@@ -103,7 +103,7 @@ void Path::take_environment(Rgb factor, Vec3 wi, Received where) {
   }
 }
 
-bool Path::completes_collision() const { return sharing_ == Sharing::completing && !offer_->at->on_surface(); }
+bool Path::completes_one_direction() const { return sharing_ == Sharing::completing && !offer_->scatters_evenly(); }
 
 /// At the first vertex that spreads light, which may be behind mirrors and panes; of collisions only on the camera's ray, along
 /// which others receive. Not where dispersion has left a single channel: others want them all.
@@ -114,17 +114,23 @@ bool Path::may_offer(const Vertex& first) const {
 
 /// It is at the vertex of its offer: the next may be a find.
 bool Path::leaves_first() const { return sharing_ == Sharing::offering && offer_ && depth_ == offer_->bounces; }
-/// Light of so many bounces is what the collision that it found scatters toward the first vertex: none but itself counts that.
-bool Path::is_scattered_by_find(int bounces) const { return completes_collision() && bounces == offer_->bounces + 1; }
+/// Light of so many bounces is scattered toward the first vertex by the find itself, not a diffuse surface: none but its own
+/// path counts that.
+bool Path::is_scattered_by_find(int bounces) const { return completes_one_direction() && bounces == offer_->bounces + 1; }
 
 /// Not where others could not tell how likely the path went where it did.
 bool Path::may_share(const Vertex& first) const { return first.has_smooth() && first.has_exact_pdf(); }
 
-/// What the surface sends back must not depend on which of the paths looks at it. Of a collision's light only that of the
-/// next bounce and later is shared.
+/// What a diffuse surface sends back does not depend on which of the paths looks at it. Elsewhere only the light of the next
+/// bounce and later is shared, by the direction it comes from: whose density others must be able to tell, without what guides
+/// one path there, and for all channels.
 bool Path::is_offered(const Vertex& second) const {
   if (!leaves_first() || !light_sampled_) return false;
-  return second.on_surface() ? second.surface()->bsdf.diffuse() : limits_.max_depth > offer_->bounces + 1;
+  if (second.on_surface()) {
+    if (second.surface()->bsdf.diffuse()) return true;
+    if (channel_ || !may_share(second) || guides_everywhere(context_)) return false;
+  }
+  return limits_.max_depth > offer_->bounces + 1;
 }
 
 }  // namespace tyndall

@@ -30,7 +30,10 @@ Connection scattered_back(const PathOffer& find, Vec3 w) {
   const SurfaceHit& hit = find.at->surface()->hit;
   if (!same_side(hit.ng, -w, find.at->wo()) || !same_side(hit.ns, -w, find.at->wo())) return {};
   const float cosine = abs_dot(hit.ng, w);
-  return {Rgb(cosine), cosine};
+  if (find.scatters_evenly()) return {Rgb(cosine), cosine};
+  const Bsdf& bsdf = find.at->surface()->bsdf;
+  const Rgb f = bsdf.eval(-w, find.wi);
+  return {f * cosine, has_all_channels(f) ? bsdf.pdf(-w, find.wi) * cosine : 0};
 }
 
 Connection connect_to_environment(const PathOffer& from, Vec3 w) {

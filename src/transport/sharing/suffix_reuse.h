@@ -1,8 +1,8 @@
 /// Light found by the ray from the first bounce, shared by the paths of neighbouring pixels [Bekaert et al. 2002].
 ///
-/// Neighbours see much the same, yet each path looks in one direction. What its ray from the first vertex meets, a diffuse
-/// surface, a collision in a medium or an environment, is received by the pixels of the other paths too, whose paths might have
-/// met it as well: on the surfaces that they see (vertex_shares.h) or anywhere along their rays through media
+/// Neighbours see much the same, yet each path looks in one direction. What its ray from the first vertex meets, a surface, a
+/// collision in a medium or an environment, is received by the pixels of the other paths too, whose paths might have met it as
+/// well: on the surfaces that they see (vertex_shares.h) or anywhere along their rays through media
 /// (segment_shares.h). A connection costs a shadow ray whatever it brings: finds that are worth little play roulette.
 #pragma once
 

@@ -17,8 +17,8 @@ float guided_pdf_ratio(float pdf, float scattered) {
 /// All where volume emission is found by such rays alone.
 bool guides(const LightContext& context, const Vertex& vertex) {
   if (context.settings.guiding == GuidingStrategy::off || context.world.bright_media.empty()) return false;
-  const bool all = context.world.bright_media.emission_share() > 0 && !seeks_volume_lights(context);
-  return (context.smooth_bounces == 0 || all) && !is_last_bounce(context) && vertex.on_surface() && vertex.has_smooth();
+  const bool here = context.smooth_bounces == 0 || guides_everywhere(context);
+  return here && !is_last_bounce(context) && vertex.on_surface() && vertex.has_smooth();
 }
 
 /// What goes on from the last bounce finds lights alone, which is what next-event estimation is for.
@@ -63,6 +63,11 @@ std::optional<Aureole> aureole_at(const LightContext& context, const Vertex& ver
 }
 
 }  // namespace
+
+bool guides_everywhere(const LightContext& context) {
+  return context.settings.guiding != GuidingStrategy::off && context.world.bright_media.emission_share() > 0 &&
+         !seeks_volume_lights(context);
+}
 
 Directions::Directions(const LightContext& context, const Vertex& vertex) : vertex_(vertex) {
   const bool toward_suns = follows_suns(context, vertex), toward_media = guides(context, vertex);

@@ -11,6 +11,9 @@
 
 namespace tyndall {
 
+/// Whether rays are guided from surfaces of all bounces: nothing else finds volume emission.
+bool guides_everywhere(const LightContext& context);
+
 /// Path guiding by a mixture of densities [Vorba et al. 2014], from what is known of the scene instead of learned.
 class Directions {
  public:

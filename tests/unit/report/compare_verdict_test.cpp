@@ -26,8 +26,21 @@ TEST_CASE("a comparison's sentence names the leader by both measures, with their
         "tree is the most efficient: by MSE 3.14 times as efficient as plain (95 % interval 2.5 to 4), without the worst 0.1 % "
         "of "
         "pixels 2 times as efficient as plain (95 % interval 1.9 to 2.1).");
-  CHECK(verdict({kBase, variant("power", {{0.5, 0.4, 0.6}}, {{0.9, 0.8, 1.1}})}) ==
+  CHECK(
+      verdict({kBase, variant("power", {{0.5, 0.4, 0.6}}, {{0.9, 0.8, 1.1}})}) ==
+      "plain is the most efficient, by MSE and without the worst 0.1 % of pixels; without the worst 0.1 % of pixels the seeds "
+      "do not decide.");
+  CHECK(verdict({kBase, variant("power", {{0.5, 0.4, 0.6}}, {{0.9, 0.8, 0.95}})}) ==
         "plain is the most efficient, by MSE and without the worst 0.1 % of pixels.");
+}
+
+TEST_CASE("a comparison's sentence names no leader without doubt where the first leads but rivals may be as good") {
+  CHECK(verdict({kBase, variant("tree", {{0.5, 0.4, 0.6}}, {{0.5, 0.4, 0.6}}),
+                 variant("b", {{0.8, 0.5, 1.4}}, {{0.8, 0.5, 1.3}})}) ==
+        "plain is the most efficient, by MSE and without the worst 0.1 % of pixels; the seeds decide neither.");
+  CHECK(verdict({kBase, variant("a", {{2, 1.5, 3}}, {{0.9, 0.8, 1.2}})}) ==
+        "The two measures disagree: by MSE a leads, 2 times as efficient as plain (95 % interval 1.5 to 3); without the worst "
+        "0.1 % of pixels plain leads; without the worst 0.1 % of pixels the seeds do not decide.");
 }
 
 TEST_CASE("a comparison's sentence says when the measures disagree and when the seeds do not decide") {
