@@ -53,7 +53,7 @@ RenderSettings resolved(RenderSettings settings, const World::Parts& world) {
   if (settings.reuse == ReuseStrategy::automatic)
     settings.reuse = ours && !filtered ? ReuseStrategy::pixels : ReuseStrategy::off;
   const bool finds = settings.max_depth > 1 || (settings.max_depth == 1 && !world.built.lights.infinite().empty());
-  if (!finds || !world.built.opaque) settings.reuse = ReuseStrategy::off;
+  if (!finds) settings.reuse = ReuseStrategy::off;
   if (settings.budget == BudgetStrategy::automatic) settings.budget = ours ? BudgetStrategy::measured : BudgetStrategy::fixed;
   if (settings.media == MediaStrategy::vertex) settings.distance = DistanceStrategy::tracking;
   return settings;

@@ -153,6 +153,23 @@ TEST_CASE("sharing changes the noise alone: metals, rough glass and thin sheets"
                 {}, 0.9, kMany);
 }
 
+// Veils that stop half of the rays by chance, each as a hash of it says: what one path has passed another may not, but where
+// the first went it has passed. Before walls, before fog, and before a sky. Most of the noise is what the camera's rays meet,
+// which none share: nothing must be lost.
+TEST_CASE("sharing changes the noise alone: veils with alpha") {
+  const auto veil = [](const std::string& alpha, const std::string& corners) {
+    return block("Material \"diffuse\" \"rgb reflectance\" [0.3 0.6 0.7]\nShape \"bilinearmesh\" \"float alpha\" " + alpha +
+                 " \"point3 P\" [" + corners + "]\n");
+  };
+  const std::string veils = veil("0.5", "-1.6 -1.7 0.4  1.5 -1.7 0.1  -1.6 1.2 0.4  1.5 1.2 0.1") +
+                            veil("0.3", "0.5 -1.7 -2  0.6 -1.7 1  0.5 0.9 -2  0.6 0.9 1");
+  check_sharing("veils", camera(5) + soft_room() + veils, {}, 0.95, kMany);
+  const std::string fog = homogeneous("m", kThin) + medium_box("m", "", {{-3, -3, -5}, {3, 3, 3}});
+  check_sharing("veils in fog", camera(4) + soft_room() + veils + fog, {}, 0.95, kMany);
+  const std::string open = sharing_sides() + sharing_end(-4) + sharing_things();
+  check_sharing("veils before a sky", camera(3) + open + veils + environment(1), {}, 0.95);
+}
+
 TEST_CASE("sharing changes the noise alone: smoke that leaves some ways open, from which paths are sent toward it") {
   Coefficients smoke = kThin;
   smoke.sigma_s = {3, 2, 1.5f};

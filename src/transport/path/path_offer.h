@@ -35,6 +35,7 @@ struct PathOffer {
 
   std::optional<Vertex> at;     ///< what was met; nothing: others may still have found something for this path
   std::optional<Vec3> escaped;  ///< instead of it: the direction to an environment, a find at infinity
+  Ray ray;                      ///< on which it came there: what alpha lets pass depends on that
   Rgb arrived;                  ///< throughput with which the path itself came there
   Rgb flown;                    ///< the part of it that the flight through media weighs
   Rng rng{0};                   ///< for the connections of others

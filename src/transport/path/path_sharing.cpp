@@ -24,6 +24,7 @@ void Path::run_until_offer() {
   if (!offer_) return;
   if (vertex) offer_->at.emplace(std::move(*vertex));
   if (!offer_->found()) return;
+  offer_->ray = ray_;
   offer_->arrived = beta_;
   offer_->flown = flown_;
   context_.sampler.begin_step(kSharingStep);

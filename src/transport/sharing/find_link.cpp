@@ -56,8 +56,8 @@ Connection connect(const PathOffer& from, const PathOffer& find) {
 
 Link::Link(const Between& between, const Vertex& from, PathOffer& find, bool own) : between_(between), find_(find), own_(own) {
   const Geometry& geometry = between.world.geometry;
-  const Vec3 w = find.escaped ? *find.escaped : normalize(find.at->p() - from.p());
-  ray_ = {from.origin(geometry, w), w};
+  const Vec3 w = own ? find.ray.d : find.escaped ? *find.escaped : normalize(find.at->p() - from.p());
+  ray_ = own ? find.ray : Ray{from.origin(geometry, w), w};
   media_ = from.media_toward(geometry, w);
 }
 

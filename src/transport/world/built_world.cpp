@@ -117,11 +117,6 @@ BuiltWorld::BuiltWorld(Scene unit_scene, const BuildSettings& settings, std::siz
       camera_media(find_camera_media(scene.camera.medium, camera.center(), geometry)),
       volume_lights(settings.volume_lights ? VolumeLights(media, geometry, camera_media.unbounded()) : VolumeLights()),
       has_volume_lights(settings.volume_lights) {
-  const auto all_opaque = [](const std::vector<Shape>& shapes) {
-    return std::none_of(shapes.begin(), shapes.end(), [](const Shape& s) { return s.alpha.has_value(); });
-  };
-  opaque = all_opaque(scene.shapes) &&
-           std::all_of(scene.objects.begin(), scene.objects.end(), [&](const Object& o) { return all_opaque(o.shapes); });
   media_emit = std::any_of(media.begin(), media.end(), [](const ParticipatingMedium& m) { return m.emissive(); });
   const Timer watch;
   const Emitters emitters = find_emitters(scene, geometry, summary);

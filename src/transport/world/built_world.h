@@ -51,7 +51,6 @@ struct BuiltWorld {
   /// No medium anywhere: nothing of src/volume needs to run.
   bool has_media() const { return !media.empty(); }
   bool media_emit;  ///< some medium does
-  bool opaque;      ///< no shape has alpha: whatever ray is traced between two points, it meets the same
   MaterialId material_of(const SurfaceHit& hit) const { return geometry.placed()[hit.shape].shape->material; }
   /// Whether there are lights that a ray can hit: emissive surfaces and environments.
   bool rays_find_lights() const { return lights.stats().emitters > 0 || !lights.infinite().empty(); }
