@@ -133,7 +133,7 @@ class CellGrid {
     return place(DenseSource(size_, std::move(planes)), what, negative_to_zero);
   }
   PlacedGrid place(const DenseSource& source, const std::string& what, bool negative_to_zero, const Index3& first = {}) const {
-    const VoxelRules rules{negative_to_zero, context_.options.sanitize, std::nullopt};
+    const VoxelRules rules{negative_to_zero, context_.options.sanitize, std::nullopt, {}};
     const VoxelReport found = inspect(source, rules);
     if (found.non_finite > 0 && !rules.sanitize)
       context_.fail(std::to_string(found.non_finite) + " values of " + what +

@@ -62,7 +62,7 @@ class GridLoader {
     refuse_unfit(entry(index), use);
     refuse_large(entry(index));
     const VolumeGrid grid = file_->load(index);
-    const VoxelRules rules{use.negative_to_zero, options_.sanitize, grid.clip};
+    const VoxelRules rules{use.negative_to_zero, options_.sanitize, grid.clip, grid.background.values()};
     report(entry(index), inspect(*grid.source, rules), rules);
     const Transform index_to_world = medium_.to_world * grid.index_to_world;
     if (to_world) *to_world = index_to_world;
@@ -203,10 +203,16 @@ VdbGrids load_vdb_grids(const Medium& medium, const VdbMedium& vdb, const Medium
       loader.find(vdb.temperature_grid, stand_ins(vdb.temperature_grid, vdb.temperature_grid_given, kTemperatureAliases));
   if (!temperature && vdb.temperature_grid_given)
     loader.fail("has no grid " + in_quotes(vdb.temperature_grid) + "; it holds " + loader.listing());
-  // One that was not asked for by name is passed over when it cannot be read as numbers.
-  if (temperature && (vdb.temperature_grid_given || loader.entry(*temperature).values == VolumeGridEntry::Values::scalar)) {
-    chosen += ", temperature grid " + in_quotes(loader.entry(*temperature).name);
-    grids.temperature = loader.load(*temperature, {.role = "temperature", .level_set = true, .negative_to_zero = false});
+  // One that was not asked for by name stops nothing.
+  if (temperature && (vdb.temperature_grid_given || vdb.Le_scale > 0)) {
+    const VolumeGridEntry& entry = loader.entry(*temperature);
+    const bool fits = entry.values == VolumeGridEntry::Values::scalar && entry.linear;
+    if (fits || vdb.temperature_grid_given) {
+      chosen += ", temperature grid " + in_quotes(entry.name);
+      grids.temperature = loader.load(*temperature, {.role = "temperature", .level_set = true, .negative_to_zero = false});
+    } else {
+      loader.note("temperature grid " + in_quotes(entry.name) + " is passed over: it holds no numbers, or in a frustum");
+    }
   }
   if (!vdb.flame_grid.empty()) {
     const auto flame = loader.find(vdb.flame_grid, stand_ins(vdb.flame_grid, true, kFlameAliases));

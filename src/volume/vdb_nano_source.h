@@ -51,13 +51,13 @@ class NanoSource : public VoxelSource {
   void read_leaf(std::uint32_t leaf, float* out) const override {
     for (std::uint32_t i = 0; i < kLeafVoxels; ++i) {
       const std::uint32_t x = i >> 6, y = i >> 3 & 7, z = i & 7;  // NanoVDB: z fastest
-      const std::array<float, 6> value = channels_of(leaves_[leaf]->getValue(i));
+      const std::array<float, 6> value = background_.read(channels_of(leaves_[leaf]->getValue(i)));
       for (int c = 0; c < channels(); ++c)
         out[c * kLeafVoxels + static_cast<int>(z << 6 | y << 3 | x)] = value[static_cast<std::size_t>(c)];
     }
   }
 
-  std::array<float, 6> background() const { return channels_of(root_->mBackground); }
+  const Background& background() const { return background_; }
   VoxelBox active_box() const {
     const auto& b = root_->mBBox;
     return {{b.min()[0], b.min()[1], b.min()[2]}, {b.max()[0], b.max()[1], b.max()[2]}};
@@ -87,9 +87,10 @@ class NanoSource : public VoxelSource {
   }
 
   void fill_background() {
+    background_ = Background(channels_of(root_->mBackground));
     if (root_->mBackground == ValueT(0)) return;
     clip_ = active_box();
-    if (!clip_->empty() && is_something(background())) blocks_.push_back({*clip_, VoxelBlock::kConstant, background()});
+    if (!clip_->empty() && !background_.is_empty()) blocks_.push_back({*clip_, VoxelBlock::kConstant, background_.values()});
   }
 
   void visit_root(const Tile& tile) {
@@ -121,7 +122,7 @@ class NanoSource : public VoxelSource {
   }
 
   void add_tile(const ValueT& value, const Index3& origin, std::int64_t size) {
-    if (value == root_->mBackground) return;
+    if (background_.is(channels_of(value))) return;
     const Index3 last{origin[0] + size - 1, origin[1] + size - 1, origin[2] + size - 1};
     blocks_.push_back({{origin, last}, VoxelBlock::kConstant, channels_of(value)});
   }
@@ -155,6 +156,7 @@ class NanoSource : public VoxelSource {
 
   const NanoBlob* blob_;
   const typename Root::DataType* root_ = nullptr;
+  Background background_{{}};
   std::vector<VoxelBlock> blocks_;
   std::vector<const typename Leaf::DataType*> leaves_;
   std::optional<VoxelBox> clip_;

@@ -32,18 +32,17 @@ class TreeSource : public VoxelSource {
  public:
   using ValueT = typename GridT::ValueType;
 
-  explicit TreeSource(typename GridT::ConstPtr grid) : grid_(std::move(grid)) {
+  explicit TreeSource(typename GridT::ConstPtr grid) : grid_(std::move(grid)), background_(channels_of(grid_->background())) {
     const auto& tree = grid_->constTree();
     openvdb::CoordBBox active;
     if (!tree.evalActiveVoxelBoundingBox(active)) return;  // nothing active: an empty grid
-    const ValueT background = tree.background();
-    if (background != openvdb::zeroVal<ValueT>()) clip_ = box_of(active);
-    if (is_something(channels_of(background))) blocks_.push_back({*clip_, VoxelBlock::kConstant, channels_of(background)});
+    if (tree.background() != openvdb::zeroVal<ValueT>()) clip_ = box_of(active);
+    if (!background_.is_empty()) blocks_.push_back({*clip_, VoxelBlock::kConstant, background_.values()});
     auto tile = tree.cbeginValueAll();
     tile.setMaxDepth(tile.getLeafDepth() - 1);
     for (; tile; ++tile) {
-      if (tile.getValue() == background) continue;
-      blocks_.push_back({box_of(tile.getBoundingBox()), VoxelBlock::kConstant, channels_of(tile.getValue())});
+      const auto value = channels_of(tile.getValue());
+      if (!background_.is(value)) blocks_.push_back({box_of(tile.getBoundingBox()), VoxelBlock::kConstant, value});
     }
     for (auto leaf = tree.cbeginLeaf(); leaf; ++leaf) {
       blocks_.push_back({box_of(leaf->getNodeBoundingBox()), static_cast<std::uint32_t>(leaves_.size()), {}});
@@ -54,11 +53,12 @@ class TreeSource : public VoxelSource {
   int channels() const override { return openvdb::VecTraits<ValueT>::IsVec ? 3 : 1; }
   const std::vector<VoxelBlock>& blocks() const override { return blocks_; }
   const std::optional<VoxelBox>& clip() const { return clip_; }
+  const Background& background() const { return background_; }
   void read_leaf(std::uint32_t leaf, float* out) const override {
     const auto* data = leaves_[leaf]->buffer().data();
     for (openvdb::Index i = 0; i < kLeafVoxels; ++i) {
       const openvdb::Index x = i >> 6, y = i >> 3 & 7, z = i & 7;  // OpenVDB: z fastest
-      const std::array<float, 6> value = channels_of(data[i]);
+      const std::array<float, 6> value = background_.read(channels_of(data[i]));
       for (int c = 0; c < channels(); ++c)
         out[c * kLeafVoxels + static_cast<int>(z << 6 | y << 3 | x)] = value[static_cast<std::size_t>(c)];
     }
@@ -66,6 +66,7 @@ class TreeSource : public VoxelSource {
 
  private:
   typename GridT::ConstPtr grid_;
+  Background background_;
   std::vector<VoxelBlock> blocks_;
   std::vector<const typename GridT::TreeType::LeafNodeType*> leaves_;
   std::optional<VoxelBox> clip_;
@@ -145,6 +146,7 @@ class OpenVdbFile : public VolumeFile {
       using GridT = std::decay_t<decltype(typed)>;
       auto source = std::make_unique<TreeSource<GridT>>(openvdb::gridConstPtrCast<GridT>(grids_[index]));
       result.clip = source->clip();
+      result.background = source->background();
       result.source = std::move(source);
     });
     if (!result.source)

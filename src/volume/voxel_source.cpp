@@ -57,7 +57,14 @@ void DenseSource::read_leaf(std::uint32_t leaf, float* out) const {
 
 namespace {
 
-void inspect_value(float value, std::int64_t count, const Index3& index, VoxelReport& report) {
+struct Voxels {
+  float value, background;
+  std::int64_t count;
+};
+
+void inspect_value(const Voxels& voxels, const Index3& index, VoxelReport& report) {
+  const auto [value, background, count] = voxels;
+  if (value == background) return;
   if (!std::isfinite(value)) {
     if (report.non_finite == 0) report.first_non_finite = index;
     report.non_finite += count;
@@ -78,7 +85,7 @@ VoxelReport inspect(const VoxelSource& source, const VoxelRules& rules) {
     if (box.empty()) continue;
     if (block.leaf == VoxelBlock::kConstant) {
       const std::int64_t count = (box.hi[0] - box.lo[0] + 1) * (box.hi[1] - box.lo[1] + 1) * (box.hi[2] - box.lo[2] + 1);
-      for (std::size_t c = 0; c < channels; ++c) inspect_value(block.value[c], count, box.lo, report);
+      for (std::size_t c = 0; c < channels; ++c) inspect_value({block.value[c], rules.background[c], count}, box.lo, report);
       continue;
     }
     source.read_leaf(block.leaf, values.data());
@@ -86,7 +93,8 @@ VoxelReport inspect(const VoxelSource& source, const VoxelRules& rules) {
       if (values[i] >= 0 && values[i] <= std::numeric_limits<float>::max()) continue;
       const auto local = static_cast<std::int64_t>(i % VoxelSource::kLeafVoxels);
       const Index3 index{block.box.lo[0] + (local & 7), block.box.lo[1] + (local >> 3 & 7), block.box.lo[2] + (local >> 6)};
-      if (box.contains({index, index})) inspect_value(values[i], 1, index, report);
+      if (box.contains({index, index}))
+        inspect_value({values[i], rules.background[i / VoxelSource::kLeafVoxels], 1}, index, report);
     }
   }
   return report;

@@ -32,11 +32,29 @@ struct VoxelBlock {
   std::array<float, 6> value{};    ///< of a constant box, one a channel
 };
 
-/// Whether a background of such values is more than empty space, which it is not below 0, nor where it is no number.
-inline bool is_something(const std::array<float, 6>& background) {
-  return std::all_of(background.begin(), background.end(), [](float v) { return std::isfinite(v); }) &&
-         std::any_of(background.begin(), background.end(), [](float v) { return v > 0; });
-}
+/// What a grid holds where nothing was set. One that is no number is empty space.
+class Background {
+ public:
+  using Values = std::array<float, 6>;  ///< one a channel
+  explicit Background(const Values& stored) : stored_(stored) {}
+
+  /// 0 in empty space.
+  Values values() const { return is_number() ? stored_ : Values{}; }
+  bool is_empty() const { return values() == Values{}; }
+  /// Whether a voxel is not set.
+  bool is(const Values& voxel) const {
+    const auto same = [](float a, float b) { return a == b || (std::isnan(a) && std::isnan(b)); };
+    return std::equal(voxel.begin(), voxel.end(), stored_.begin(), same);
+  }
+  /// What a voxel reads as.
+  Values read(const Values& voxel) const { return is_number() || !is(voxel) ? voxel : Values{}; }
+
+ private:
+  bool is_number() const {
+    return std::all_of(stored_.begin(), stored_.end(), [](float v) { return std::isfinite(v); });
+  }
+  Values stored_;
+};
 
 /// Where voxels come from. Those in no block are 0; where blocks overlap, the later one in the list counts.
 class VoxelSource {
@@ -66,9 +84,10 @@ class DenseSource : public VoxelSource {
 
 /// What to do with voxels that are no valid amount.
 struct VoxelRules {
-  bool negative_to_zero = true;  ///< densities; temperatures keep their sign
-  bool sanitize = false;         ///< NaN and infinity to 0
-  std::optional<VoxelBox> clip;  ///< voxels outside read 0
+  bool negative_to_zero = true;       ///< densities; temperatures keep their sign
+  bool sanitize = false;              ///< NaN and infinity to 0
+  std::optional<VoxelBox> clip;       ///< voxels outside read 0
+  std::array<float, 6> background{};  ///< one a channel: such voxels are not set, so none is reported to be below 0
 
   /// What is kept of a value. One that is not finite has been reported by inspect() and only comes here to become 0.
   float kept(float value) const {

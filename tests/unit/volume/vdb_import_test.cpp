@@ -205,6 +205,62 @@ TEST_CASE("a background that is no amount is empty space, and counts as no voxel
   }
 }
 
+// Between the box and a voxel of its own there are some that nobody has set, in leaves as well.
+TEST_CASE("voxels that were not set are empty space where the background is no amount") {
+  const test::Scratch scratch;
+  const std::string path = scratch / "corner.vdb";
+  VdbGrid grid;
+  grid.boxes = {{{0, 0, 0}, {11, 11, 11}, 1}};
+  grid.voxels = {{{40, 2, 2}, 1.0f}};
+  for (const float background : {-0.5f, std::nanf(""), std::numeric_limits<float>::infinity()}) {
+    grid.background = background;
+    test::write_vdb(path, {grid});
+    const Import loaded = import(path);
+    CHECK_FALSE(contains(loaded.notes, "set to 0"));
+    CHECK(loaded.medium.at({11, 8, 8}).sigma_a.r == doctest::Approx(1));
+    CHECK(loaded.medium.at({40, 2, 2}).sigma_a.r == doctest::Approx(1));
+    CHECK(loaded.medium.at({13, 8, 8}).sigma_a.r == 0);
+    CHECK(loaded.medium.at({30, 2, 2}).sigma_a.r == 0);
+  }
+}
+
+TEST_CASE("temperatures have the sign of their background") {
+  const test::Scratch scratch;
+  const std::string path = scratch / "celsius.vdb";
+  VdbGrid density, temperature;
+  density.boxes = {{{0, 0, 0}, {47, 15, 15}, 0.5f}};
+  temperature.name = "temperature";
+  temperature.background = -2000;
+  temperature.boxes = {{{0, 0, 0}, {11, 15, 15}, 0}};
+  temperature.voxels = {{{47, 15, 15}, -2000.0f}};
+  test::write_vdb(path, {density, temperature});
+  VdbMedium vdb;
+  vdb.temperature_offset = -2000;
+  const Import loaded = import(path, vdb);
+  CHECK(loaded.medium.at({8, 8, 8}).Le.r > 0);
+  for (const float x : {13.0f, 20.0f, 30.0f, 44.0f}) CHECK(loaded.medium.at({x, 8, 8}).Le.r == 0);
+}
+
+TEST_CASE("temperatures that nobody asked for stop no density") {
+  const test::Scratch scratch;
+  const std::string path = scratch / "cold.vdb";
+  VdbGrid density, temperature;
+  density.boxes = temperature.boxes = {{{0, 0, 0}, {15, 15, 15}, 0.5f}};
+  temperature.name = "temperature";
+  temperature.frustum = true;
+  test::write_vdb(path, {density, temperature});
+  const Import bent = import(path);
+  CHECK_FALSE(bent.medium.emissive());
+  CHECK(contains(bent.notes, "temperature grid \"temperature\" is passed over"));
+  temperature.frustum = false;
+  temperature.voxels = {{{1, 1, 1}, std::nanf("")}};
+  test::write_vdb(path, {density, temperature});
+  CHECK(contains(error_of(path), "NaN"));
+  VdbMedium dark;
+  dark.Le_scale = 0;
+  CHECK_FALSE(import(path, dark).medium.emissive());
+}
+
 TEST_CASE("grids are chosen by names in any script") {
   const test::Scratch scratch;
   const std::string path = scratch / "names.vdb";
