@@ -4,7 +4,7 @@ namespace tyndall::python {
 namespace {
 
 PixelBounds to_bounds(py::handle window) {
-  const auto [x0, y0, x1, y1] = window.cast<std::array<int, 4>>();
+  const auto [x0, y0, x1, y1] = as<std::array<int, 4>>(window, "a window of an image");
   return {x0, y0, x1, y1};
 }
 
@@ -22,19 +22,17 @@ struct AttributeToPython {
   py::object operator()(int value) const { return py::int_(value); }
   py::object operator()(float value) const { return py::module_::import("numpy").attr("float32")(value); }
   py::object operator()(double value) const { return py::float_(value); }
-  py::object operator()(const std::string& value) const {
-    return py::reinterpret_steal<py::object>(
-        PyUnicode_DecodeUTF8(value.data(), static_cast<py::ssize_t>(value.size()), "replace"));
-  }
+  py::object operator()(const std::string& value) const { return from_text(value); }
   py::object operator()(const std::array<float, 16>& rows) const { return py::array_t<float>({4, 4}, rows.data()); }
 };
 
 Attribute to_attribute(py::handle value) {
-  if (py::isinstance<py::str>(value)) return value.cast<std::string>();
-  if (py::isinstance<py::int_>(value)) return value.cast<int>();
-  if (py::isinstance<py::float_>(value)) return value.cast<double>();
-  if (!py::isinstance<py::array>(value)) return value.cast<float>();
-  const auto matrix = value.cast<Floats>();
+  constexpr const char* kName = "an image attribute";
+  if (py::isinstance<py::str>(value)) return as<std::string>(value, kName);
+  if (py::isinstance<py::int_>(value)) return as<int>(value, kName);
+  if (py::isinstance<py::float_>(value)) return as<double>(value, kName);
+  if (!py::isinstance<py::array>(value)) return as<float>(value, kName);
+  const auto matrix = as<Floats>(value, kName);
   if (matrix.size() != 16) throw py::value_error("an image attribute that is an array must be 4 x 4");
   std::array<float, 16> rows{};
   std::copy_n(matrix.data(), 16, rows.begin());
@@ -50,7 +48,7 @@ py::object from_chromaticities(const std::optional<Chromaticities>& c) {
 
 std::optional<Chromaticities> to_chromaticities(py::handle value) {
   if (value.is_none()) return std::nullopt;
-  const auto p = value.cast<std::array<std::array<float, 2>, 4>>();
+  const auto p = as<std::array<std::array<float, 2>, 4>>(value, "chromaticities");
   return Chromaticities{{p[0][0], p[0][1]}, {p[1][0], p[1][1]}, {p[2][0], p[2][1]}, {p[3][0], p[3][1]}};
 }
 
@@ -62,16 +60,16 @@ Image to_image(py::handle image) {
   result.display = to_bounds(image.attr("display_window"));
   result.chromaticities = to_chromaticities(image.attr("chromaticities"));
   for (const auto& [name, value] : get<py::dict>(image, "attributes"))
-    result.attributes[name.cast<std::string>()] = to_attribute(value);
+    result.attributes[to_name(name, "an image attribute's name")] = to_attribute(value);
   for (const auto& [name, plane] : image.cast<py::dict>())
-    result.channels.push_back({name.cast<std::string>(), to_floats(plane.cast<Floats>())});
+    result.channels.push_back({to_name(name, "a channel"), to_floats(as<Floats>(plane, "a channel"))});
   return result;
 }
 
 py::object from_image(Image image) {
   py::dict channels, attributes;
-  for (Channel& c : image.channels) channels[py::str(c.name)] = plane_of(std::move(c.values), image.width(), image.height());
-  for (const auto& [name, value] : image.attributes) attributes[py::str(name)] = std::visit(AttributeToPython{}, value);
+  for (Channel& c : image.channels) channels[from_name(c.name)] = plane_of(std::move(c.values), image.width(), image.height());
+  for (const auto& [name, value] : image.attributes) attributes[from_name(name)] = std::visit(AttributeToPython{}, value);
   return python_class("tyndall.image", "Image")(channels, "data_window"_a = from_bounds(image.data),
                                                 "display_window"_a = from_bounds(image.display), "attributes"_a = attributes,
                                                 "chromaticities"_a = from_chromaticities(image.chromaticities));

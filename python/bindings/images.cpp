@@ -1,4 +1,5 @@
 #include "define.h"
+#include "numbers.h"
 #include "tyndall/compare.h"
 #include "tyndall/denoise.h"
 #include "tyndall/io.h"
@@ -7,19 +8,18 @@
 namespace tyndall::python {
 namespace {
 
-py::object read(const std::string& path) {
+py::object read(py::handle path) {
+  const std::string name = to_name(path, "path");
   std::optional<Image> image;
-  {
-    const py::gil_scoped_release free;
-    image = read_image(path);
-  }
+  Watched watched;
+  run_watched(watched, [&] { image = read_image(name); });
   return from_image(std::move(*image));
 }
 
 /// The enum whose names these are.
 template <typename Enum>
 Enum chosen(py::handle value, const char* what, const std::vector<std::string_view>& names) {
-  const auto name = value.cast<std::string>();
+  const auto name = as<std::string>(value, what);
   std::string known;
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (names[i] == name) return static_cast<Enum>(i);
@@ -29,40 +29,40 @@ Enum chosen(py::handle value, const char* what, const std::vector<std::string_vi
 }
 
 PngSettings to_png(py::handle exposure, py::handle view) {
-  return {.exposure = exposure.cast<float>(), .view = chosen<DisplayView>(view, "view", view_names())};
+  return {.exposure = static_cast<float>(between("exposure", exposure, -kMostStops, kMostStops)),
+          .view = chosen<DisplayView>(view, "view", view_names())};
 }
 
-void save(py::handle image, const std::string& path, const py::dict& format) {
+void save(py::handle image, py::handle path, const py::dict& format) {
   const Image value = to_image(image);
+  const std::string name = to_name(path, "path");
   ImageFormat settings;
   settings.png = to_png(format["exposure"], format["view"]);
-  settings.exr.half = format["half"].cast<bool>();
-  settings.exr.parts = format["parts"].cast<bool>();
+  settings.exr.half = entry<bool>(format, "half");
+  settings.exr.parts = entry<bool>(format, "parts");
   settings.exr.compression = chosen<ExrCompression>(format["compression"], "compression", exr_compression_names());
-  const py::gil_scoped_release free;
-  write_image(value, path, settings);
+  Watched watched;
+  run_watched(watched, [&] { write_image(value, name, settings); });
 }
 
 py::bytes as_png(py::handle image, py::handle exposure, py::handle view) {
   const Image value = to_image(image);
   const PngSettings settings = to_png(exposure, view);
   std::string bytes;
-  {
-    const py::gil_scoped_release free;
-    bytes = encode_png(value, settings);
-  }
+  Watched watched;
+  run_watched(watched, [&] { bytes = encode_png(value, settings); });
   return bytes;
 }
 
 DiffQuestion to_question(const py::dict& q) {
-  return {.channels = q["channels"].cast<std::vector<std::string>>(),
-          .reference_noise = q["reference_noise"].cast<bool>(),
-          .flip = q["flip"].cast<bool>(),
-          .test = q["test"].cast<bool>(),
-          .exact = q["exact"].cast<bool>(),
-          .max_error = q["max_error"].cast<std::optional<double>>(),
-          .max_relmse = q["max_relmse"].cast<std::optional<double>>(),
-          .max_flip = q["max_flip"].cast<std::optional<double>>()};
+  return {.channels = entry<std::vector<std::string>>(q, "channels"),
+          .reference_noise = entry<bool>(q, "reference_noise"),
+          .flip = entry<bool>(q, "flip"),
+          .test = entry<bool>(q, "test"),
+          .exact = entry<bool>(q, "exact"),
+          .max_error = entry<std::optional<double>>(q, "max_error"),
+          .max_relmse = entry<std::optional<double>>(q, "max_relmse"),
+          .max_flip = entry<std::optional<double>>(q, "max_flip")};
 }
 
 /// JSON
@@ -76,11 +76,12 @@ std::string diff(py::handle image, py::handle reference, const py::dict& questio
 }
 
 /// (image, {"seconds", "missing", "noisy_relmse", "relmse"})
-py::tuple filtered(py::handle image, int threads) {
+py::tuple filtered(py::handle image, py::handle threads) {
   const Image noisy = to_image(image);
+  const DenoiseSettings settings{.threads = whole("threads", threads, 0, kMostThreads)};
   std::optional<Denoised> result;
   Watched watched;
-  run_watched(watched, [&] { result = denoise(noisy, {.threads = threads}); });
+  run_watched(watched, [&] { result = denoise(noisy, settings); });
   const DenoiseReport& r = result->report;
   const py::dict report("seconds"_a = r.seconds, "missing"_a = r.missing, "noisy_relmse"_a = r.noisy_relmse,
                         "relmse"_a = r.relmse);

@@ -34,16 +34,16 @@ struct FieldsOf {
     return py::dict("direction"_a = from_vec3(l.direction), "E"_a = from_rgb(l.E));
   }
   py::dict operator()(const InfiniteLight& l) const {
-    return py::dict("to_world"_a = from_transform(l.to_world), "L"_a = from_rgb(l.L), "path"_a = l.path,
+    return py::dict("to_world"_a = from_transform(l.to_world), "L"_a = from_rgb(l.L), "path"_a = from_name(l.path),
                     "to_rec709"_a = py::tuple(py::cast(l.to_rec709)), "illuminance"_a = optional(l.illuminance),
                     "portal"_a = from_portal(l.portal));
   }
   py::dict operator()(const GoniometricLight& l) const {
-    return py::dict("to_world"_a = from_transform(l.to_world), "I"_a = from_rgb(l.I), "path"_a = l.path,
+    return py::dict("to_world"_a = from_transform(l.to_world), "I"_a = from_rgb(l.I), "path"_a = from_name(l.path),
                     "power"_a = optional(l.power));
   }
   py::dict operator()(const ProjectionLight& l) const {
-    return py::dict("to_world"_a = from_transform(l.to_world), "I"_a = from_rgb(l.I), "path"_a = l.path,
+    return py::dict("to_world"_a = from_transform(l.to_world), "I"_a = from_rgb(l.I), "path"_a = from_name(l.path),
                     "fov"_a = l.fov_degrees, "power"_a = optional(l.power));
   }
 };
@@ -60,15 +60,15 @@ decltype(Light::kind) kind_of(const std::string& name, py::handle l) {
   if (name == "InfiniteLight")
     return InfiniteLight{to_transform(l.attr("to_world")),
                          to_rgb(l.attr("L")),
-                         get<std::string>(l, "path"),
+                         to_name(l.attr("path"), "path"),
                          get<std::array<float, 9>>(l, "to_rec709"),
                          get<std::optional<float>>(l, "illuminance"),
                          to_portal(l.attr("portal"))};
   if (name == "GoniometricLight")
-    return GoniometricLight{to_transform(l.attr("to_world")), to_rgb(l.attr("I")), get<std::string>(l, "path"),
+    return GoniometricLight{to_transform(l.attr("to_world")), to_rgb(l.attr("I")), to_name(l.attr("path"), "path"),
                             get<std::optional<float>>(l, "power")};
   if (name == "ProjectionLight")
-    return ProjectionLight{to_transform(l.attr("to_world")), to_rgb(l.attr("I")), get<std::string>(l, "path"),
+    return ProjectionLight{to_transform(l.attr("to_world")), to_rgb(l.attr("I")), to_name(l.attr("path"), "path"),
                            get<float>(l, "fov"), get<std::optional<float>>(l, "power")};
   throw py::type_error(name +
                        " is no light; give a tyndall.PointLight, SpotLight, DistantLight, InfiniteLight, "
@@ -104,13 +104,13 @@ Light to_light(py::handle light) {
   const auto name = get<std::string>(py::type::of(light), "__name__");
   Light result{kind_of(name, light), {}, {}};
   result.where = to_location(light.attr("where"));
-  result.group = get<std::string>(light, "group");
+  result.group = to_name(light.attr("group"), "group");
   return result;
 }
 
 py::object from_light(const Light& light) {
   py::dict fields = std::visit(FieldsOf{}, light.kind);
-  fields["group"] = light.group;
+  fields["group"] = from_name(light.group);
   fields["where"] = from_location(light.where);
   return python_class("tyndall.lights", kNames[light.kind.index()])(**fields);
 }

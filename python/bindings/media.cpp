@@ -51,8 +51,8 @@ BoxedMedium to_medium(py::handle m) {
   Medium& medium = result.medium;
   medium.optics.phase = HenyeyGreenstein{get<float>(m, "g")};
   medium.to_world = to_transform(m.attr("to_world"));
-  medium.name = get<std::string>(m, "name");
-  medium.group = get<std::string>(m, "group");
+  medium.name = to_name(m.attr("name"), "name");
+  medium.group = to_name(m.attr("group"), "group");
   result.bounds = to_box(voxels.attr("bounds"));
   const auto kind = get<std::string>(voxels, "kind");
   if (kind == "rgb") {  // its arrays are coefficients already

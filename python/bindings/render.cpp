@@ -1,8 +1,12 @@
 #include "tyndall/render.h"
 
+#include <algorithm>
+
 #include "define.h"
+#include "numbers.h"
 #include "settings.h"
 #include "tyndall/compare.h"
+#include "tyndall/memory.h"
 #include "watch.h"
 
 namespace tyndall::python {
@@ -42,17 +46,24 @@ py::tuple render_world(const World& world, const RenderSettings& settings, const
   return py::make_tuple(from_image(std::move(rendering->image)), from_report(rendering->report));
 }
 
+/// Bytes, of GB; None is what the process may hold.
+std::size_t memory_limit(py::handle gigabytes) {
+  constexpr double kMost = 9e18;
+  if (gigabytes.is_none()) return usable_memory();
+  return static_cast<std::size_t>(std::min(positive("max_memory", gigabytes) * 1e9, kMost));
+}
+
 struct BuildOptions {
   bool sanitize = false;
-  std::optional<double> max_memory;  ///< GB
+  std::size_t max_memory;
 };
 
 World build_scene(const Scene& scene, const RenderSettings& settings, const BuildOptions& options) {
-  BuildSettings how{.lights = {settings.lights},
-                    .volume_lights = settings.emission != EmissionStrategy::paths,
-                    .sanitize = options.sanitize,
-                    .threads = settings.threads};
-  if (options.max_memory) how.max_memory = static_cast<std::size_t>(*options.max_memory * 1e9);
+  const BuildSettings how{.lights = {settings.lights},
+                          .volume_lights = settings.emission != EmissionStrategy::paths,
+                          .sanitize = options.sanitize,
+                          .threads = settings.threads,
+                          .max_memory = options.max_memory};
   Watched watched;
   std::optional<World> world;
   run_watched(watched, [&] { world.emplace(build(scene, how)); });
@@ -60,16 +71,21 @@ World build_scene(const Scene& scene, const RenderSettings& settings, const Buil
 }
 
 MethodRace to_race(const Scene& scene, const py::dict& methods, const py::dict& plan) {
+  const auto seconds = [&](const char* name) {
+    return unless_none(plan[name], [&](py::handle value) { return positive(name, value); });
+  };
+  RenderSettings base = scene.settings;
+  base.adaptive = false;  // but for methods that ask for it
   MethodRace race;
   for (const auto& [name, options] : methods)
-    race.methods.push_back({name.cast<std::string>(), with_options(scene.settings, options.cast<py::dict>())});
-  race.seconds = plan["time"].cast<std::optional<double>>();
-  race.samples = plan["spp"].cast<std::optional<int>>();
-  race.seeds = plan["seeds"].cast<int>();
-  race.seed = plan["seed"].cast<std::uint64_t>();
-  race.reference_relmse = plan["reference_error"].cast<double>();
-  race.reference_seconds = plan["reference_time"].cast<std::optional<double>>();
-  race.threads = plan["threads"].cast<int>();
+    race.methods.push_back({to_name(name, "the name of a method"), with_method(base, as<py::dict>(options, "a method"))});
+  race.seconds = seconds("time");
+  race.samples = unless_none(plan["spp"], [](py::handle value) { return whole("spp", value, 1, kMostSamples); });
+  race.seeds = whole("seeds", plan["seeds"], 2, 1000);
+  race.seed = seed("seed", plan["seed"]);
+  race.reference_relmse = positive("reference_error", plan["reference_error"]);
+  race.reference_seconds = seconds("reference_time");
+  race.threads = whole("threads", plan["threads"], 0, kMostThreads);
   for (NamedMethod& m : race.methods) m.settings.threads = race.threads;
   if (!plan["reference"].is_none()) race.reference = to_image(plan["reference"]);
   return race;
@@ -86,7 +102,7 @@ py::tuple compare_methods(const Scene& scene, const py::dict& methods, const py:
   std::optional<MethodRaceResult> result;
   run_watched(watched, [&] { result = race_methods(scene, race, control); });
   py::dict images;
-  for (NamedImage& i : result->images) images[py::str(i.name)] = from_image(std::move(i.image));
+  for (NamedImage& i : result->images) images[from_name(i.name)] = from_image(std::move(i.image));
   return py::make_tuple(result->json, from_image(std::move(result->reference)), images);
 }
 
@@ -94,13 +110,15 @@ py::tuple compare_methods(const Scene& scene, const py::dict& methods, const py:
 
 void define_render(py::module_& m) {
   py::class_<World>(m, "World")
-      .def("render",
-           [](const World& world, const Scene& scene, const py::dict& options, const py::object& progress) {
-             return render_world(world, with_options(scene.settings, options), progress);
-           })
-      .def("notes", [](const World& world) { return world.summary().notes; });
-  m.def("build", [](const Scene& scene, const py::dict& options, bool sanitize, std::optional<double> max_memory) {
-    return build_scene(scene, with_options(scene.settings, options), {sanitize, max_memory});
+      .def("render", [](const World& world, const Scene& scene, const py::dict& options,
+                        const py::object& progress) { return render_world(world, with_options(scene, options), progress); })
+      .def("notes", [](const World& world) {
+        py::list notes;
+        for (const std::string& note : world.summary().notes) notes.append(from_text(note));
+        return notes;
+      });
+  m.def("build", [](const Scene& scene, const py::dict& options, bool sanitize, py::handle max_memory) {
+    return build_scene(scene, with_options(scene, options), {sanitize, memory_limit(max_memory)});
   });
   m.def("compare", compare_methods);
   m.def("aov_names", [] {

@@ -14,14 +14,16 @@ namespace {
 /// (scene, [(file, line, column, warning)])
 py::tuple from_file(SceneFile file) {
   py::list warnings;
-  for (const Warning& w : file.warnings) warnings.append(py::make_tuple(w.where.file, w.where.line, w.where.column, w.message));
+  for (const Warning& w : file.warnings)
+    warnings.append(py::make_tuple(from_name(w.where.file), w.where.line, w.where.column, from_text(w.message)));
   return py::make_tuple(std::move(file.scene), warnings);
 }
 
-py::tuple read(const std::string& path, std::optional<int> frame) {
+py::tuple read(py::handle path, std::optional<int> frame) {
+  const std::string name = to_name(path, "path");
   Watched watched;
   std::optional<SceneFile> file;
-  run_watched(watched, [&] { file = read_scene(path, {.frame = frame}); });
+  run_watched(watched, [&] { file = read_scene(name, {.frame = frame}); });
   return from_file(std::move(*file));
 }
 
@@ -39,11 +41,11 @@ void set_lights(Scene& scene, const py::list& lights) {
 }
 
 template <typename Named>
-std::vector<std::string> names_of(const std::vector<Named>& list) {
+py::list names_of(const std::vector<Named>& list) {
   std::vector<std::string> names;
   for (const Named& n : list)
     if (!n.name.empty()) names.push_back(n.name);
-  return names;
+  return from_names(names);
 }
 
 void place_medium(Scene& scene, py::handle value) {
@@ -52,7 +54,8 @@ void place_medium(Scene& scene, py::handle value) {
 }
 
 /// The shapes that hold it stay, and so does its place.
-void replace_medium(Scene& scene, const std::string& name, py::handle value) {
+void replace_medium(Scene& scene, py::handle called, py::handle value) {
+  const std::string name = to_name(called, "name");
   Medium& old = scene.media[medium_named(scene, name)];
   Medium medium = to_medium(value).medium;
   medium.name = name;
@@ -60,11 +63,11 @@ void replace_medium(Scene& scene, const std::string& name, py::handle value) {
   old = std::move(medium);
 }
 
-std::optional<AreaLight> to_emission(py::handle radiance, const std::string& group) {
+std::optional<AreaLight> to_emission(py::handle radiance, std::string group) {
   if (radiance.is_none()) return std::nullopt;
   AreaLight light;
   light.L = to_rgb(radiance);
-  light.group = group;
+  light.group = std::move(group);
   return light;
 }
 
@@ -72,8 +75,8 @@ std::optional<AreaLight> to_emission(py::handle radiance, const std::string& gro
 Shape to_shape(const Scene& scene, py::handle look) {
   Shape shape;
   shape.to_world = to_transform(look.attr("to_world"));
-  shape.material = material_named(scene, get<std::string>(look, "material"));
-  shape.emission = to_emission(look.attr("emission"), get<std::string>(look, "group"));
+  shape.material = material_named(scene, to_name(look.attr("material"), "material"));
+  shape.emission = to_emission(look.attr("emission"), to_name(look.attr("group"), "group"));
   return shape;
 }
 
@@ -118,6 +121,16 @@ void set_resolution(Scene& scene, int width, int height) {
   scene.settings.crop.reset();
 }
 
+/// Of four rows that are affine.
+bool is_invertible(py::handle matrix) {
+  try {
+    to_transform(matrix);
+    return true;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
 }  // namespace
 
 void define_scene(py::module_& m) {
@@ -131,24 +144,24 @@ void define_scene(py::module_& m) {
       .def("resolution", [](const Scene& scene) { return py::make_tuple(scene.film.width, scene.film.height); })
       .def("set_resolution", set_resolution)
       .def("settings", [](const Scene& scene) { return from_settings(scene.settings); })
-      .def("set_settings",
-           [](Scene& scene, const py::dict& options) { scene.settings = with_options(scene.settings, options); })
+      .def("set_settings", [](Scene& scene, const py::dict& options) { scene.settings = with_options(scene, options); })
       .def("media", [](const Scene& scene) { return names_of(scene.media); })
       .def("add_medium", place_medium)
       .def("replace_medium", replace_medium)
       .def("materials", [](const Scene& scene) { return names_of(scene.materials); })
-      .def("add_material",
-           [](Scene& scene, const std::string& name, py::handle color) { add_diffuse_material(scene, name, to_rgb(color)); })
+      .def("add_material", [](Scene& scene, py::handle name,
+                              py::handle color) { add_diffuse_material(scene, to_name(name, "name"), to_rgb(color)); })
       .def("add_mesh",
            [](Scene& scene, Floats positions, Indices indices, Floats normals, Floats uvs, py::handle look) {
              add_mesh(scene, {std::move(positions), std::move(normals), std::move(uvs), std::move(indices)}, look);
            })
       .def("add_sphere", add_sphere)
-      .def("source", [](const Scene& scene) { return scene.source; });
+      .def("source", [](const Scene& scene) { return from_name(scene.source); });
   m.def("read_scene", read);
-  m.def("read_scene_text", [](const std::string& text, const std::string& name, const std::string& folder) {
-    return from_file(read_scene_text(text, name, folder));
+  m.def("read_scene_text", [](const std::string& text, py::handle name, py::handle folder) {
+    return from_file(read_scene_text(text, to_name(name, "name"), to_name(folder, "folder")));
   });
+  m.def("is_invertible", is_invertible);
   m.def("camera_to_world", [](py::handle eye, py::handle look, py::handle up) {
     return from_transform(Transform::look_at(to_vec3(eye), to_vec3(look), to_vec3(up)).inverse());
   });

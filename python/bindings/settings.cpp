@@ -4,12 +4,17 @@
 #include <functional>
 #include <limits>
 
+#include "numbers.h"
+#include "tyndall/cryptomatte.h"
+#include "tyndall/denoise.h"
+
 namespace tyndall::python {
 namespace {
 
+constexpr int kOpen = std::numeric_limits<int>::max();  ///< of spp: as many as a limit of time or error leaves room for
+
 PixelBounds to_crop(py::handle value) {
-  const auto [x0, y0, x1, y1] = value.cast<std::array<int, 4>>();
-  if (x0 >= x1 || y0 >= y1) throw py::value_error("crop is (x0, y0, x1, y1) with x0 < x1 and y0 < y1");
+  const auto [x0, y0, x1, y1] = as<std::array<int, 4>>(value, "crop");
   return {x0, y0, x1, y1};
 }
 
@@ -18,47 +23,87 @@ py::object from_crop(const std::optional<PixelBounds>& crop) {
   return py::make_tuple(crop->x0, crop->y0, crop->x1, crop->y1);
 }
 
-void set_aovs(RenderSettings& settings, py::handle value) {
+/// The AOVs that a name stands for, as on the command line.
+std::vector<std::string> aovs_named(const std::string& name) {
+  if (name == "Denoise") return denoise_aovs();
+  if (name == "Cryptomatte") return {kMatteLayers.begin(), kMatteLayers.end()};
   const auto known = aov_names();
-  settings.aovs.clear();
-  for (const py::handle item : value.cast<py::list>()) {
-    const auto name = item.cast<std::string>();
-    if (std::find(known.begin(), known.end(), name) == known.end())
-      throw py::value_error("no AOV is called \"" + name + "\"; tyndall.aov_names() lists them");
-    settings.aovs.push_back(name);
+  if (std::find(known.begin(), known.end(), name) == known.end())
+    throw py::value_error("no AOV is called \"" + name + "\"; tyndall.aov_names() lists them");
+  return {name};
+}
+
+/// A text would be taken for the list of its letters.
+void set_aovs(RenderSettings& settings, py::handle value) {
+  if (py::isinstance<py::str>(value) || !py::isinstance<py::iterable>(value))
+    throw py::type_error("aovs = " + py::repr(value).cast<std::string>() + " is not understood; give a list of names");
+  std::vector<std::string> aovs;
+  for (const py::handle item : value) {
+    const auto named = aovs_named(as<std::string>(item, "an AOV"));
+    aovs.insert(aovs.end(), named.begin(), named.end());
   }
+  settings.aovs = std::move(aovs);
 }
 
 struct Option {
   const char* name;
   std::function<void(RenderSettings&, py::handle)> set;
   std::function<py::object(const RenderSettings&)> get;
+  bool of_method = false;  ///< leaves the right picture as it is
 };
 
-/// An option whose value Python converts by itself.
-template <typename T>
-Option plain(const char* name, T RenderSettings::*member) {
-  return {name, [member](RenderSettings& s, py::handle value) { s.*member = value.cast<T>(); },
+/// An option whose value `read` makes of its name and Python's.
+template <typename T, typename Read>
+Option option(const char* name, T RenderSettings::*member, Read read) {
+  return {name, [=](RenderSettings& s, py::handle value) { s.*member = read(name, value); },
           [member](const RenderSettings& s) { return py::cast(s.*member); }};
+}
+
+Option of_method(Option option) {
+  option.of_method = true;
+  return option;
+}
+
+template <typename Read>
+auto or_none(Read read) {
+  return [read](const char* name, py::handle value) {
+    return unless_none(value, [&](py::handle given) { return read(name, given); });
+  };
+}
+
+auto from_to(int least, int most) {
+  return [=](const char* name, py::handle value) { return whole(name, value, least, most); };
+}
+
+bool yes_or_no(const char* name, py::handle value) { return as<bool>(value, name); }
+
+float share(const char* name, py::handle value) { return static_cast<float>(between(name, value, 0, 1)); }
+
+/// None stands for a number that is left open; given, it changes nothing, as if it was not.
+Option samples() {
+  return {"spp",
+          [](RenderSettings& s, py::handle value) {
+            if (!value.is_none()) s.spp = whole("spp", value, 1, kMostSamples);
+          },
+          [](const RenderSettings& s) { return s.spp == kOpen ? py::object(py::none()) : py::object(py::int_(s.spp)); }};
 }
 
 const std::vector<Option>& options() {
   static const std::vector<Option> kOptions{
-      plain("spp", &RenderSettings::spp),
-      plain("time", &RenderSettings::time),
-      plain("error", &RenderSettings::error),
-      plain("error_max", &RenderSettings::error_max),
-      plain("adaptive", &RenderSettings::adaptive),
-      plain("max_depth", &RenderSettings::max_depth),
-      plain("seed", &RenderSettings::seed),
-      plain("threads", &RenderSettings::threads),
-      plain("candidates", &RenderSettings::candidates),
-      plain("shadow_rays", &RenderSettings::shadow_rays),
-      plain("splitting", &RenderSettings::splitting),
-      plain("reproducible", &RenderSettings::reproducible),
+      samples(),
+      option("time", &RenderSettings::time, or_none(positive)),
+      option("error", &RenderSettings::error, or_none(positive)),
+      option("error_max", &RenderSettings::error_max, or_none(positive)),
+      of_method(option("adaptive", &RenderSettings::adaptive, or_none(yes_or_no))),
+      option("max_depth", &RenderSettings::max_depth, from_to(0, kMostBounces)),
+      option("seed", &RenderSettings::seed, seed),
+      option("threads", &RenderSettings::threads, from_to(0, kMostThreads)),
+      of_method(option("candidates", &RenderSettings::candidates, or_none(from_to(0, kMostLights)))),
+      of_method(option("shadow_rays", &RenderSettings::shadow_rays, or_none(from_to(0, kMostLights)))),
+      of_method(option("splitting", &RenderSettings::splitting, or_none(share))),
+      option("reproducible", &RenderSettings::reproducible, yes_or_no),
       {"aovs", set_aovs, [](const RenderSettings& s) { return py::cast(s.aovs); }},
-      {"crop",
-       [](RenderSettings& s, py::handle value) { s.crop = value.is_none() ? std::nullopt : std::optional(to_crop(value)); },
+      {"crop", [](RenderSettings& s, py::handle value) { s.crop = unless_none(value, to_crop); },
        [](const RenderSettings& s) { return from_crop(s.crop); }},
   };
   return kOptions;
@@ -68,7 +113,7 @@ const std::vector<Option>& options() {
 bool set_strategy(RenderSettings& settings, const std::string& name, py::handle value) {
   for (const StrategyAxis& axis : strategy_axes()) {
     if (axis.option != name) continue;
-    const auto choice = value.cast<std::string>();
+    const auto choice = as<std::string>(value, name.c_str());
     if (axis.set(settings, choice)) return true;
     std::string known;
     for (const std::string_view n : axis.names) known += (known.empty() ? "" : ", ") + std::string(n);
@@ -77,29 +122,65 @@ bool set_strategy(RenderSettings& settings, const std::string& name, py::handle 
   return false;
 }
 
-void set(RenderSettings& settings, const std::string& name, py::handle value) {
+/// False: no option that `may` be set has this name.
+template <typename May>
+bool set(RenderSettings& settings, const std::string& name, py::handle value, May may) {
   for (const Option& option : options()) {
-    if (option.name != name) continue;
-    try {
-      return option.set(settings, value);
-    } catch (const py::cast_error&) {
-      throw py::type_error(name + " = " + py::repr(value).cast<std::string>() + " is not understood");
-    }
+    if (option.name != name || !may(option)) continue;
+    option.set(settings, value);
+    return true;
   }
-  if (set_strategy(settings, name, value)) return;
-  std::string known;
-  for (const Option& option : options()) known += std::string(option.name) + ", ";
-  for (const StrategyAxis& axis : strategy_axes()) known += std::string(axis.option) + ", ";
-  throw py::type_error("\"" + name + "\" is no option of a render; choose from " + known.substr(0, known.size() - 2));
+  return set_strategy(settings, name, value);
+}
+
+template <typename May>
+std::string names_of_options(May may) {
+  std::string names;
+  for (const Option& option : options())
+    if (may(option)) names += std::string(option.name) + ", ";
+  for (const StrategyAxis& axis : strategy_axes()) names += std::string(axis.option) + ", ";
+  return names.substr(0, names.size() - 2);
+}
+
+bool is_any(const Option&) { return true; }
+bool is_of_method(const Option& option) { return option.of_method; }
+
+/// A limit of time or error alone leaves the number of samples open; without any, an open one would never end.
+void settle_samples(RenderSettings& settings, const py::dict& given) {
+  const auto has = [&](const char* name) { return given.contains(name) && !given[name].is_none(); };
+  const bool limited = settings.time || settings.error || settings.error_max;
+  if (!has("spp") && (has("time") || has("error") || has("error_max"))) settings.spp = kOpen;
+  if (!limited && settings.spp == kOpen) settings.spp = RenderSettings{}.spp;
+}
+
+void require_within(const Film& film, const PixelBounds& crop) {
+  const auto is_range = [](int from, int to, int size) { return 0 <= from && from < to && to <= size; };
+  if (is_range(crop.x0, crop.x1, film.width) && is_range(crop.y0, crop.y1, film.height)) return;
+  throw py::value_error("crop is (x0, y0, x1, y1) within " + std::to_string(film.width) + " x " + std::to_string(film.height) +
+                        ", x0 below x1 and y0 below y1");
 }
 
 }  // namespace
 
-RenderSettings with_options(RenderSettings settings, const py::dict& given) {
-  for (const auto& [name, value] : given) set(settings, name.cast<std::string>(), value);
-  // A limit of time or error alone leaves the number of samples open.
-  const auto has = [&](const char* name) { return given.contains(name) && !given[name].is_none(); };
-  if (!has("spp") && (has("time") || has("error") || has("error_max"))) settings.spp = std::numeric_limits<int>::max();
+RenderSettings with_options(const Scene& scene, const py::dict& given) {
+  RenderSettings settings = scene.settings;
+  for (const auto& [key, value] : given) {
+    const auto name = as<std::string>(key, "the name of an option");
+    if (!set(settings, name, value, is_any))
+      throw py::type_error("\"" + name + "\" is no option of a render; choose from " + names_of_options(is_any));
+  }
+  if (given.contains("crop") && settings.crop) require_within(scene.film, *settings.crop);
+  settle_samples(settings, given);
+  return settings;
+}
+
+RenderSettings with_method(RenderSettings settings, const py::dict& given) {
+  for (const auto& [key, value] : given) {
+    const auto name = as<std::string>(key, "the name of an option");
+    if (!set(settings, name, value, is_of_method))
+      throw py::type_error("\"" + name + "\" is no option of a method; choose from " + names_of_options(is_of_method) +
+                           ", and what changes the right picture is for all: give it to scene.settings or compare itself");
+  }
   return settings;
 }
 

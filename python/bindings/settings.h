@@ -5,8 +5,11 @@
 
 namespace tyndall::python {
 
-/// `settings` changed by `options`. Throws TypeError for a name that is no option, ValueError for a value that cannot be.
-RenderSettings with_options(RenderSettings settings, const py::dict& options);
+/// The scene's settings changed by `options`. Throws TypeError for a name that is no option, ValueError for a value that cannot
+/// be.
+RenderSettings with_options(const Scene& scene, const py::dict& options);
+/// `settings` likewise by those that leave the right picture as it is, which methods that are compared may differ in.
+RenderSettings with_method(RenderSettings settings, const py::dict& options);
 /// All of them by name.
 py::dict from_settings(const RenderSettings& settings);
 

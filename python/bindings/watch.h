@@ -37,4 +37,7 @@ struct Watched {
 /// or one of the callback stops the work and is thrown when that has ended.
 void run_watched(Watched& watched, const std::function<void()>& work);
 
+/// For the interpreter's end: stops all works, of daemon threads, and waits until they have ended.
+void end_works();
+
 }  // namespace tyndall::python

@@ -3,9 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Optional, Tuple
+from typing import Any, Callable, Optional, Tuple
+
+import numpy as np
 
 from . import _core, arrays
+
+
+def _window(value: Any) -> Tuple[float, float, float, float]:
+    x0, x1, y0, y1 = arrays.numbers(value, 4, "screen_window")
+    if np.float32(x0) == np.float32(x1) or np.float32(y0) == np.float32(y1):
+        raise ValueError(f"screen_window is empty: x0 and x1, y0 and y1 of {value!r} must differ")
+    return x0, x1, y0, y1
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,9 +33,20 @@ class Camera:
     frame_aspect_ratio: Optional[float] = None
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "to_world", arrays.matrix(self.to_world, "to_world"))
-        if not 0 < self.fov < 180:
-            raise ValueError(f"fov is an angle between 0 and 180 degrees, not {self.fov!r}")
+        def check(name: str, wanted: str, holds: Callable[[float], bool]) -> None:
+            self._set(name, arrays.number(getattr(self, name), name, wanted, holds))
+
+        self._set("to_world", arrays.matrix(self.to_world, "to_world"))
+        check("fov", "an angle between 0 and 180 degrees", lambda angle: 0 < angle < 180)
+        check("lens_radius", "a number of 0 or more", lambda radius: radius >= 0)
+        check("focal_distance", "a number above 0", lambda distance: distance > 0)
+        if self.frame_aspect_ratio is not None:
+            check("frame_aspect_ratio", "a number above 0", lambda ratio: ratio > 0)
+        if self.screen_window is not None:
+            self._set("screen_window", _window(self.screen_window))
+
+    def _set(self, name: str, value: Any) -> None:
+        object.__setattr__(self, name, value)
 
     @staticmethod
     def look_at(eye: Any, target: Any, up: Any = (0, 1, 0), **fields: Any) -> "Camera":

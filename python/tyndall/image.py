@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from . import _core
 
 Window = Tuple[int, int, int, int]
-PathLike = Union[str, "os.PathLike[str]"]
+PathLike = Union[str, bytes, "os.PathLike[str]", "os.PathLike[bytes]"]
 
 
 class Image(Dict[str, NDArray[np.float32]]):
@@ -74,7 +74,7 @@ class Image(Dict[str, NDArray[np.float32]]):
         For .exr: ``half``, colours as 16-bit floats; ``compression``, "none", "rle", "zips", "zip", "piz", "dwaa" or "dwab";
         ``parts``, one for each group of channels. For .png: stops of ``exposure`` and ``view``, "srgb", "filmic" or "agx".
         """
-        name = os.fspath(path)
+        name = os.fsdecode(path)
         if (half or parts or compression != "zip") and not name.endswith(".exr"):
             raise ValueError(f"{name}: half, compression and parts are for .exr")
         if (exposure != 0 or view != "srgb") and not name.endswith(".png"):
@@ -88,6 +88,23 @@ class Image(Dict[str, NDArray[np.float32]]):
     def _repr_png_(self) -> Optional[bytes]:
         return self.png() if self.keys() >= set("RGB") or "Y" in self else None
 
+    def copy(self) -> "Image":
+        """Another image of the same arrays, with windows, attributes and report."""
+        return self._like(self)
+
+    def __or__(self, other: Mapping[str, Any]) -> "Image":  # type: ignore[override]
+        return self._like({**self, **other}) if isinstance(other, Mapping) else NotImplemented
+
+    def __ror__(self, other: Mapping[str, Any]) -> "Image":  # type: ignore[override]
+        return self._like({**other, **self}) if isinstance(other, Mapping) else NotImplemented
+
+    def _like(self, channels: Mapping[str, Any]) -> "Image":
+        """Of other channels in the same frame."""
+        image = Image(channels, data_window=self._data_window, display_window=self._display_window, attributes=self.attributes,
+                      chromaticities=self.chromaticities)
+        image.report = dict(self.report)
+        return image
+
     def __repr__(self) -> str:
         height, width = self.shape
         return f"<tyndall.Image {width} x {height}: {', '.join(self)}>"
@@ -95,20 +112,20 @@ class Image(Dict[str, NDArray[np.float32]]):
 
 def read_image(path: PathLike) -> Image:
     """Read .exr, .png, .pfm, .hdr, .jpg, .tga or .bmp; 8-bit values become linear."""
-    return _core.read_image(os.fspath(path))
+    return _core.read_image(path)
 
 
 def as_image(value: Any) -> Image:
     """An image, the path of one, a dict of channels or an array [y, x, 3]."""
     if isinstance(value, Image):
         return value
-    if isinstance(value, (str, os.PathLike)):
+    if isinstance(value, (str, bytes, os.PathLike)):
         return read_image(value)
     return Image(value) if isinstance(value, Mapping) else Image.from_rgb(value)
 
 
-def denoise(image: Image, *, threads: int = 0) -> Image:
-    """The noise taken away; best where the image was rendered with ``aovs=tyndall.denoise_aovs()``."""
-    clean, report = _core.denoise(image, threads)
+def denoise(image: Any, *, threads: int = 0) -> Image:
+    """The noise taken away of an Image or its path; best where it was rendered with ``aovs=tyndall.denoise_aovs()``."""
+    clean, report = _core.denoise(as_image(image), threads)
     clean.report = report
     return clean

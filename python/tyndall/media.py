@@ -38,8 +38,8 @@ class Medium:
     def _check(self) -> None:
         for name in ("sigma_a", "sigma_s"):
             object.__setattr__(self, name, arrays.color(getattr(self, name), name))
-        if not -1 <= self.g <= 1:
-            raise ValueError(f"g lies between -1 and 1; {self.g!r} does not")
+        g = arrays.number(self.g, "g", "a number between -1 and 1, both excluded", lambda g: -1 < g < 1)
+        object.__setattr__(self, "g", g)
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,6 +91,9 @@ class GridMedium(Medium):
             object.__setattr__(self, "temperature", temperature)
         object.__setattr__(self, "density", density)
         object.__setattr__(self, "Le", arrays.color(self.Le, "Le"))
+        scale = arrays.number(self.Le_scale, "Le_scale", "a number of 0 or more", lambda scale: scale >= 0)
+        object.__setattr__(self, "Le_scale", scale)
+        arrays.color(np.multiply(scale, self.Le), "Le times Le_scale")
         if self.bounds is not None:
             object.__setattr__(self, "bounds", _corners(self.bounds))
         else:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Callable, List, NamedTuple, Optional
+from typing import Any, Callable, Dict, Iterator, List, Mapping, NamedTuple, Optional
 
 from . import _core
 from .image import Image
@@ -19,6 +19,11 @@ class Progress(NamedTuple):
 
 
 ProgressCallback = Callable[[Progress], object]
+
+
+def repeatable(options: Mapping[str, Any]) -> Dict[str, Any]:
+    """Options that can be read several times: what an iterator gives, once."""
+    return {name: list(value) if isinstance(value, Iterator) else value for name, value in options.items()}
 
 
 class World:

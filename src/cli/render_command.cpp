@@ -14,11 +14,10 @@
 namespace tyndall::cli {
 namespace {
 
-int run_render(const RenderOptions& options, const std::string& command_line) {
-  const std::unique_ptr<LivePage> page = serve(options);
+int render_picture(const RenderOptions& options, const std::string& command_line, LivePage* page) {
   Timer watch;
   SceneFile file = read_scene(options.scene);
-  PictureRender picture(options, file.scene, page.get());
+  PictureRender picture(options, file.scene, page);
   const double read_seconds = watch.lap();
   const World world = picture.build(std::move(file.scene), nullptr);
   const double build_seconds = watch.lap();
@@ -47,6 +46,16 @@ int run_render(const RenderOptions& options, const std::string& command_line) {
   const int exit_code = summary.render.stopped ? stop_exit_code() : 0;
   if (page) page->end(outcome_text(summary));
   return exit_code;
+}
+
+int run_render(const RenderOptions& options, const std::string& command_line) {
+  const std::unique_ptr<LivePage> page = serve(options);
+  try {
+    return render_picture(options, command_line, page.get());
+  } catch (const std::exception& e) {
+    if (page) page->end(e.what());
+    throw;
+  }
 }
 
 }  // namespace

@@ -29,9 +29,12 @@ double now() {
   return kClock.seconds();
 }
 
-struct FreeAddresses {
-  void operator()(addrinfo* list) const { freeaddrinfo(list); }
-};
+bool is_number(const std::string& text) { return text.find_first_not_of("0123456789") == std::string::npos; }
+
+/// "[::1]" is "::1" where a port follows.
+std::string without_brackets(const std::string& host) {
+  return host.size() > 2 && host.front() == '[' && host.back() == ']' ? host.substr(1, host.size() - 2) : host;
+}
 
 /// Ready for `what` (POLLIN ...) within the time of a look.
 bool is_ready(int socket, short what) {
@@ -45,15 +48,15 @@ ViewerLink::ViewerLink(const std::string& address, std::string name) : address_(
   const std::size_t colon = address.rfind(':');
   if (colon == std::string::npos || colon == 0 || colon + 1 == address.size())
     throw Error(Failure::usage, "--display " + address + " is not understood; give HOST:PORT, such as 127.0.0.1:14158");
+  const std::string host = without_brackets(address.substr(0, colon)), port = address.substr(colon + 1);
+  if (is_number(port) && (port.size() > 5 || std::stoi(port) > 65535))  // else its lowest 16 bits would be taken
+    throw Error(Failure::usage, "--display " + address + ": ports are at most 65535; give HOST:PORT");
   addrinfo wanted{}, *found = nullptr;
   wanted.ai_socktype = SOCK_STREAM;
-  const int problem = getaddrinfo(address.substr(0, colon).c_str(), address.substr(colon + 1).c_str(), &wanted, &found);
+  const int problem = getaddrinfo(host.c_str(), port.c_str(), &wanted, &found);
   if (problem != 0)
     throw Error(Failure::usage, "--display " + address + " is not known (" + gai_strerror(problem) + "); check host and port");
-  const std::unique_ptr<addrinfo, FreeAddresses> list(found);
-  const auto* bytes = reinterpret_cast<const char*>(found->ai_addr);
-  socket_address_.assign(bytes, bytes + found->ai_addrlen);
-  family_ = found->ai_family;
+  addresses_ = {found, freeaddrinfo};
   thread_ = std::thread([this] { run(); });
 }
 
@@ -108,18 +111,27 @@ void ViewerLink::send_picture(const Image& image) {
 
 bool ViewerLink::connect() {
   created_.clear();
-  socket_ = socket(family_, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
-  if (socket_ < 0) return lose(std::strerror(errno)), false;
-  const auto* to = reinterpret_cast<const sockaddr*>(socket_address_.data());
-  if (::connect(socket_, to, static_cast<socklen_t>(socket_address_.size())) != 0 && errno != EINPROGRESS)
-    return lose(std::strerror(errno)), false;
+  std::string trouble;
+  for (const addrinfo* address = addresses_.get(); address; address = address->ai_next) {
+    trouble = trouble_with(*address);
+    if (trouble.empty()) return true;
+    if (socket_ >= 0) close(socket_);
+    socket_ = -1;
+  }
+  return lose(trouble), false;
+}
+
+/// Why it cannot be reached there; empty: it is.
+std::string ViewerLink::trouble_with(const addrinfo& address) {
+  socket_ = socket(address.ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+  if (socket_ < 0) return std::strerror(errno);
+  if (::connect(socket_, address.ai_addr, address.ai_addrlen) != 0 && errno != EINPROGRESS) return std::strerror(errno);
   for (const double begin = now(); !is_ready(socket_, POLLOUT);)
-    if (given_up() || now() - begin > kPatience) return lose("it does not answer"), false;
+    if (given_up() || now() - begin > kPatience) return "it does not answer";
   int problem = 0;
   socklen_t size = sizeof problem;
   getsockopt(socket_, SOL_SOCKET, SO_ERROR, &problem, &size);
-  if (problem != 0) return lose(std::strerror(problem)), false;
-  return true;
+  return problem != 0 ? std::strerror(problem) : "";
 }
 
 /// Whole, or the viewer is lost: half a message would garble all that follow.

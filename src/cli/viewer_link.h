@@ -3,6 +3,7 @@
 
 #include <condition_variable>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
@@ -10,6 +11,8 @@
 #include <vector>
 
 #include "tyndall/image.h"
+
+struct addrinfo;
 
 namespace tyndall::cli {
 
@@ -30,14 +33,14 @@ class ViewerLink {
   void run();
   void send_picture(const Image& image);
   bool connect();
+  std::string trouble_with(const addrinfo& address);
   bool send(const std::string& message);
   void lose(const std::string& why);
   bool given_up() const;     ///< the end has come, and its second is over
   bool is_outdated() const;  ///< a newer picture waits
 
   std::string address_, name_;
-  std::vector<char> socket_address_;
-  int family_ = 0;
+  std::shared_ptr<addrinfo> addresses_;  ///< of the host: any will do
   int socket_ = -1;
   bool warned_ = false;
   std::vector<std::string> created_;  ///< channels of the picture that the viewer has

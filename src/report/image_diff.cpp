@@ -165,6 +165,7 @@ ImageDiff compare_images(const Image& image, const Image& reference, const DiffS
     diff.windows = "the image has " + text(image.data) + ", the reference " + text(reference.data);
     return diff;
   }
+  if (image.width() <= 0 || image.height() <= 0) throw Error(Failure::usage, "the images have no pixels");
   if (settings.reference_noise && !has_variances(reference)) {
     throw Error(Failure::usage, "the reference has no variances, so that its noise is unknown; render it with --aov Variance");
   }

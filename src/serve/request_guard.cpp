@@ -7,6 +7,13 @@
 namespace tyndall {
 namespace {
 
+/// Names of hosts are told without regard to case, and browsers write small letters.
+std::string lowercase(std::string text) {
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return text;
+}
+
 /// "localhost:8080" -> "localhost", "[::1]:8080" -> "[::1]". Any port: a tunnel has another one at its near end.
 std::string_view name_of(std::string_view host) {
   const std::size_t colon = host.rfind(':');
@@ -24,15 +31,17 @@ bool is_address(std::string_view name) {
 }  // namespace
 
 bool RequestGuard::is_host_of_page(const std::string& host) const {
-  const std::string_view name = name_of(host);
-  return is_address(name) || name == "localhost" || (!host_.empty() && name == host_);
+  const std::string lower = lowercase(host);
+  const std::string_view name = name_of(lower);
+  return is_address(name) || name == "localhost" || (!host_.empty() && name == lowercase(host_));
 }
 
 std::optional<HttpResponse> RequestGuard::refusal(const HttpRequest& request) const {
   if (!is_host_of_page(request.host)) return text_response(403, "this host is not served; ask for it by its address");
   if (request.method == "GET") return std::nullopt;
   if (request.method != "POST") return text_response(405, "only GET and POST are understood");
-  if (request.origin != "http://" + request.host) return text_response(403, "this comes from another page");
+  if (lowercase(request.origin) != lowercase("http://" + request.host))
+    return text_response(403, "this comes from another page");
   if (token_.empty() || request.token != token_) return text_response(403, "this comes from another page, or an older one");
   return std::nullopt;
 }

@@ -47,8 +47,8 @@ def test_compare_measures_every_method(floor):
 @pytest.mark.parametrize("methods, plan, kind, message", [
     ({}, {}, tyndall.Error, "name a method"),
     ({"a": {}}, dict(spp=4, time=1), tyndall.Error, "either a time or"),
-    ({"a": {}}, dict(spp=4, seeds=1), tyndall.Error, "2 seeds"),
-    ({"a": {}}, dict(spp=0), tyndall.Error, "1 sample"),
+    ({"a": {}}, dict(spp=4, seeds=1), ValueError, "seeds must be a whole number from 2"),
+    ({"a": {}}, dict(spp=0), ValueError, "spp must be a whole number from 1"),
     ({"a": {"light": "tree"}}, dict(spp=4), TypeError, "no option"),
     ({"a": {}}, dict(spp=4, reference="none.exr"), tyndall.Error, "none.exr"),
 ])

@@ -1,5 +1,7 @@
 """Images: files, notebooks, windows, attributes."""
 
+import copy
+
 import numpy as np
 import pytest
 
@@ -59,6 +61,21 @@ def test_arrays_of_colours():
         Image.from_rgb(rgb[:, :, 0])
 
 
+def test_copies_keep_the_frame():
+    image = Image(ramp(), data_window=(2, 3, 11, 9), display_window=(0, 0, 20, 10), attributes={"a": 7}, chromaticities=((0.7, 0.3),) * 4)
+    image.report = {"samples": 4}
+    more = {"W": np.ones((6, 9))}
+    for other in (image.copy(), copy.copy(image), image | more, more | image, image | Image(more)):
+        assert type(other) is Image and other.keys() >= image.keys() and other["R"] is image["R"]
+        assert other.data_window == (2, 3, 11, 9) and other.display_window == (0, 0, 20, 10)
+        assert (other.attributes, other.chromaticities, other.report) == (image.attributes, image.chromaticities, image.report)
+    assert (image | more)["W"].dtype == np.float32 and "W" not in image
+    image.copy().attributes["a"] = 8
+    assert image.attributes == {"a": 7}
+    with pytest.raises(TypeError):
+        image | 7
+
+
 def test_arrays_outlive_their_image(floor):
     red = floor.render(spp=1)["R"]
     copy = red.copy()
@@ -79,6 +96,16 @@ def test_images_that_cannot_be_written(tmp_path):
         image.save(tmp_path / "a.exr", compression="jpeg")
     with pytest.raises(ValueError, match="choose from srgb, filmic, agx"):
         image.save(tmp_path / "a.png", view="aces")
+    for exposure in (float("nan"), 65):
+        with pytest.raises(ValueError, match="exposure must be a number from -64"):
+            image.save(tmp_path / "a.png", exposure=exposure)
+        with pytest.raises(ValueError, match="exposure must be a number from -64"):
+            image.png(exposure=exposure)
+    for name, option in (("a.exr", dict(half="no")), ("a.exr", dict(compression=7)), ("a.png", dict(exposure="1")), ("a.png", dict(view=None))):
+        with pytest.raises(TypeError, match=next(iter(option)) + " = .* is not understood"):
+            image.save(tmp_path / name, **option)
+    with pytest.raises(TypeError, match="max_error = 'x' is not understood"):
+        tyndall.diff(image, image, max_error="x")
     with pytest.raises(tyndall.Error) as caught:
         image.save(tmp_path / "none" / "a.exr")
     assert caught.value.failure == "output"

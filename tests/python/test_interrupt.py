@@ -55,3 +55,30 @@ def test_uncaught_it_ends_the_program(floor_text):
     process.send_signal(signal.SIGINT)
     _, told = process.communicate(timeout=300)
     assert "KeyboardInterrupt" in told and process.returncode == -signal.SIGINT
+
+
+DAEMON = """
+import sys, threading, time, tyndall
+scene = tyndall.loads(sys.argv[1])
+scene.resolution = 640, 384
+begun = threading.Event()
+def work():
+    while True:
+        {what}
+threading.Thread(target=work, daemon=True).start()
+{wait}
+print("ending", flush=True)
+"""
+RENDERS = "scene.render(spp=1 << 24, progress=lambda p: begun.set())"
+
+
+@pytest.mark.parametrize("what, wait", [
+    (RENDERS, "begun.wait()"),
+    (RENDERS, "time.sleep(0.1)"),
+    ("begun.set(); scene.build()", "begun.wait()"),
+    ("scene.compare({'a': {}}, time=1000, reference_error=1e-12)", "time.sleep(0.3)"),
+])
+def test_the_interpreter_ends_quietly_while_a_daemon_thread_renders(floor_text, what, wait):
+    script = DAEMON.format(what=what, wait=wait)
+    done = subprocess.run([sys.executable, "-c", script, floor_text], capture_output=True, text=True, timeout=300)
+    assert (done.returncode, done.stdout, done.stderr) == (0, "ending\n", "")

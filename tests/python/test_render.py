@@ -101,7 +101,8 @@ def test_a_render_in_another_thread(floor):
     (dict(lights="best"), ValueError, "choose from uniform"),
     (dict(aovs=["Depth"]), ValueError, "aov_names"),
     (dict(crop=(4, 4, 4, 8)), ValueError, "crop is"),
-    (dict(spp=0), tyndall.Error, "spp"),
+    (dict(crop=(0, 0, 41, 24)), ValueError, "crop is .* within 40 x 24"),
+    (dict(spp=0), ValueError, "spp must be a whole number from 1 to"),
     (dict(max_memory=1e-6), tyndall.Error, "memory"),
 ])
 def test_options_that_cannot_be(floor, options, kind, message):
@@ -116,9 +117,14 @@ def test_strategies_that_the_world_was_not_built_for(floor):
     assert np.isfinite(floor.build(lights="power").render(lights="power", spp=1).rgb).all()
 
 
-def test_the_denoiser(floor):
+def test_the_denoiser(tmp_path, floor):
     noisy = floor.render(spp=4, aovs=tyndall.denoise_aovs())
     clean = tyndall.denoise(noisy)
+    noisy.save(tmp_path / "noisy.exr")
+    assert np.array_equal(tyndall.denoise(tmp_path / "noisy.exr").rgb, clean.rgb)
+    for threads in (-1, 5000):
+        with pytest.raises(ValueError, match="threads must be"):
+            tyndall.denoise(noisy, threads=threads)
     truth = floor.render(spp=512, seed=9)
     assert clean.report["missing"] == [] and clean.report["relmse"] < clean.report["noisy_relmse"]
     error = [tyndall.diff(i, truth, channels=["RGB"], exact=True, flip=False).errors["RGB"]["relmse"] for i in (clean, noisy)]

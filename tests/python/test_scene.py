@@ -1,6 +1,8 @@
 """Scenes: what is read, what edits do, what cannot be."""
 
+import copy
 import dataclasses
+import pickle
 import warnings
 
 import numpy as np
@@ -51,6 +53,20 @@ def test_what_is_no_light_changes_nothing(floor):
     assert floor.lights == before
 
 
+@pytest.mark.parametrize("change", [
+    lambda scene: setattr(scene, "camera", tyndall.PointLight()),
+    lambda scene: scene.add_medium("fog"),
+    lambda scene: scene.replace_medium("fog", scene.camera),
+    lambda scene: setattr(scene, "camera", tyndall.Camera(kind=7)),
+    lambda scene: setattr(scene, "lights", [tyndall.PointLight(where=7)]),
+    lambda scene: setattr(scene, "settings", {7: 1}),
+    lambda scene: scene.compare({"a": 7}, spp=1),
+])
+def test_values_of_another_kind(floor, change):
+    with pytest.raises(TypeError, match="is no |is not "):
+        change(floor)
+
+
 def test_the_camera_is_changed(floor, floor_text):
     assert floor.camera.fov == pytest.approx(45)
     assert floor.camera.to_world[:3, 3] == pytest.approx((0, 1, -4))
@@ -76,6 +92,10 @@ def test_the_resolution_and_settings(floor):
     assert floor.render(spp=1).shape == (6, 10)
     with pytest.raises(ValueError, match="resolution"):
         floor.resolution = 0, 6
+    for size in ((8.9, 6), "88", (None, 6), 8):
+        with pytest.raises(TypeError):
+            floor.resolution = size
+    assert floor.resolution == (10, 6)
     assert floor.settings["spp"] == 4 and floor.settings["max_depth"] == 3 and floor.settings["lights"] == "tree"
     floor.settings = {"spp": 2, "lights": "power"}
     assert floor.settings["lights"] == "power" and floor.render().report["samples"] == 2
@@ -130,11 +150,17 @@ def test_meshes_that_cannot_be(floor, arguments, message):
         floor.add_mesh(np.eye(3), [(0, 1, 2)], material="gray")
 
 
-def test_copies_are_apart(floor):
-    other = floor.copy()
+@pytest.mark.parametrize("copied", [tyndall.Scene.copy, copy.copy, copy.deepcopy], ids=["Scene.copy", "copy", "deepcopy"])
+def test_copies_are_apart(floor, copied):
+    other = copied(floor)
     other.lights = ()
     other.add_material("new", 0.5)
     assert len(floor.lights) == 1 and floor.materials == ["grey"] and other.materials == ["grey", "new"]
+
+
+def test_scenes_are_not_pickled(floor):
+    with pytest.raises(TypeError, match="a Scene cannot be pickled"):
+        pickle.dumps(floor)
 
 
 def test_errors_have_a_place(tmp_path, floor_text):

@@ -36,11 +36,19 @@ def test_media_strategies_as_a_plot(tmp_path, checkout, floor_text):
     assert plot.shape == (480, 1200) and len(colours) > 50
 
 
-def test_the_documentations_program(tmp_path, checkout, floor_text):
-    """The first block of docs/python.md, with another scene under the name it loads."""
+def run_block(number, folder, checkout, scene):
+    """A block of docs/python.md, with another scene under the name it loads."""
     text = (checkout / "docs/python.md").read_text()
-    program = text.split("```python\n")[1].split("```")[0]
-    (tmp_path / "hall.pbrt").write_text(floor_text)
-    done = subprocess.run([sys.executable, "-c", program], cwd=tmp_path, capture_output=True, text=True)
+    program = text.split("```python\n")[number].split("```")[0]
+    (folder / "hall.pbrt").write_text(scene)
+    done = subprocess.run([sys.executable, "-c", program], cwd=folder, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
+
+
+def test_the_documentations_program(tmp_path, checkout, floor_text):
+    run_block(1, tmp_path, checkout, floor_text)
     assert (tmp_path / "hall.exr").exists() and (tmp_path / "hall.png").exists()
+
+
+def test_the_documentations_changes(tmp_path, checkout, floor_text):
+    run_block(2, tmp_path, checkout, floor_text)

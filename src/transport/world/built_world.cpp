@@ -5,6 +5,7 @@
 
 #include "transport/media/camera_media.h"
 #include "transport/world/camera_place.h"
+#include "tyndall/error.h"
 #include "tyndall/timer.h"
 
 namespace tyndall {
@@ -94,6 +95,17 @@ Bounds3 scene_bounds(const Geometry& geometry, const std::vector<ParticipatingMe
   return bounds;
 }
 
+/// The scene, whose boundaries and camera name media that it has. Throws Error (scene).
+Scene with_media(Scene scene) {
+  const auto is_there = [&](std::optional<MediumId> medium) { return !medium || *medium < scene.media.size(); };
+  for (const Boundary& boundary : scene.boundaries) {
+    if (!is_there(boundary.inside) || !is_there(boundary.outside))
+      throw Error(Failure::scene, "a boundary's medium does not exist; add it to Scene::media");
+  }
+  if (!is_there(scene.camera.medium)) throw Error(Failure::scene, "the camera's medium does not exist; add it to Scene::media");
+  return scene;
+}
+
 }  // namespace
 
 /// It is known at the center; what lies between that and the origin is crossed first.
@@ -107,7 +119,7 @@ MediaState BuiltWorld::media_at_start(Vec3 origin) const {
 }
 
 BuiltWorld::BuiltWorld(Scene unit_scene, const BuildSettings& settings, std::size_t volume_memory, BuildSummary& summary)
-    : scene(std::move(unit_scene)),
+    : scene(with_media(std::move(unit_scene))),
       textures(build_textures(scene.textures, settings.kept)),
       materials(scene, textures),
       geometry(build_geometry(scene, textures, settings.threads, summary)),

@@ -62,6 +62,12 @@ TEST_CASE("one channel by hand: means, bias and its error, the largest differenc
   CHECK(!diff.test);
 }
 
+TEST_CASE("images without pixels are refused") {
+  const Image nothing = flat(0, 0, 0, 0, 0), line = flat(5, 0, 0, 0, 0);
+  CHECK_THROWS_AS(compare_images(nothing, nothing), Error);
+  CHECK_THROWS_AS(compare_images(line, line), Error);
+}
+
 TEST_CASE("the error of the bias comes from the variances where both images have them") {
   const ImageDiff diff =
       compare_images(with_variance(flat(10, 10, 1, 1, 1), 0.03f), with_variance(flat(10, 10, 2, 2, 2), 0.01f));

@@ -20,7 +20,7 @@ HttpRequest post() {
 
 TEST_CASE("request guard: hosts that nobody else can have are served") {
   for (const char* host : {"127.0.0.1", "127.0.0.1:8080", "localhost", "localhost:9000", "[::1]:8080", "[::1]", "10.1.2.3:80",
-                           "render7:8080", "[fe80::1]:80"}) {
+                           "render7:8080", "Render7:8080", "LOCALHOST", "[fe80::1]:80"}) {
     CAPTURE(host);
     CHECK(status_of(get(host)) == 200);
   }
