@@ -26,7 +26,7 @@ std::string times(const VariantResult& v, Measure measure, const std::string& ba
   return fmt::format("{:.3g} times as efficient as {} (95 % interval {:.3g} to {:.3g})", i.value, base, i.low, i.high);
 }
 
-/// Whether the seeds leave open that the first, which all are held against, or a rival of it is as good as the leader.
+/// Whether the seeds leave open that the first, which all are held against, is as good as the leader; or another as good as it.
 bool is_undecided(std::span<const VariantResult> variants, const VariantResult& leader, Measure measure) {
   if (&leader != &variants.front()) return (leader.*measure)->low < 1;
   const auto may_lead = [&](const VariantResult& v) { return v.*measure && (v.*measure)->high > 1; };

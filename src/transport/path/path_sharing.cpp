@@ -129,7 +129,7 @@ bool Path::is_offered(const Vertex& second) const {
   if (!leaves_first() || !light_sampled_) return false;
   if (second.on_surface()) {
     if (second.surface()->bsdf.diffuse()) return true;
-    if (channel_ || !may_share(second) || guides_everywhere(context_)) return false;
+    if (channel_ || !may_share(second) || guides_everywhere(context_, depth_)) return false;
   }
   return limits_.max_depth > offer_->bounces + 1;
 }

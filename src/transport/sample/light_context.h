@@ -53,11 +53,12 @@ inline bool is_single_scattering(const LightContext& context) { return context.b
 /// Whether next-event estimation seeks media that emit, at a vertex and along the span before it; scattered rays that pass them
 /// are then weighted by MIS. By default at the first of a path alone: the others' light is averaged over paths that share it,
 /// and found by rays that pass without one more (docs/measurements.md).
-inline bool seeks_volume_lights(const LightContext& context) {
+inline bool seeks_volume_lights(const LightContext& context, int bounce) {
   const EmissionStrategy emission = context.settings.emission;
   if (!context.selector_with_volumes || emission == EmissionStrategy::paths) return false;
-  return context.bounce == 0 || emission == EmissionStrategy::lights;
+  return bounce == 0 || emission == EmissionStrategy::lights;
 }
+inline bool seeks_volume_lights(const LightContext& context) { return seeks_volume_lights(context, context.bounce); }
 
 /// What chooses among the lights that are sought there.
 inline const LightSelector& selector(const LightContext& context, bool with_volumes) {

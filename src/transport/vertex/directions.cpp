@@ -17,7 +17,7 @@ float guided_pdf_ratio(float pdf, float scattered) {
 /// All where volume emission is found by such rays alone.
 bool guides(const LightContext& context, const Vertex& vertex) {
   if (context.settings.guiding == GuidingStrategy::off || context.world.bright_media.empty()) return false;
-  const bool here = context.smooth_bounces == 0 || guides_everywhere(context);
+  const bool here = context.smooth_bounces == 0 || guides_everywhere(context, context.bounce);
   return here && !is_last_bounce(context) && vertex.on_surface() && vertex.has_smooth();
 }
 
@@ -64,9 +64,9 @@ std::optional<Aureole> aureole_at(const LightContext& context, const Vertex& ver
 
 }  // namespace
 
-bool guides_everywhere(const LightContext& context) {
+bool guides_everywhere(const LightContext& context, int bounce) {
   return context.settings.guiding != GuidingStrategy::off && context.world.bright_media.emission_share() > 0 &&
-         !seeks_volume_lights(context);
+         !seeks_volume_lights(context, bounce);
 }
 
 Directions::Directions(const LightContext& context, const Vertex& vertex) : vertex_(vertex) {

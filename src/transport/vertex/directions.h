@@ -11,8 +11,9 @@
 
 namespace tyndall {
 
-/// Whether rays are guided from surfaces of all bounces: nothing else finds volume emission.
-bool guides_everywhere(const LightContext& context);
+/// Whether rays are guided from all surfaces of bounce number `bounce`, whatever is before them: nothing else finds volume
+/// emission.
+bool guides_everywhere(const LightContext& context, int bounce);
 
 /// Path guiding by a mixture of densities [Vorba et al. 2014], from what is known of the scene instead of learned.
 class Directions {

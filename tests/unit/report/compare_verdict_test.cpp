@@ -34,7 +34,7 @@ TEST_CASE("a comparison's sentence names the leader by both measures, with their
         "plain is the most efficient, by MSE and without the worst 0.1 % of pixels.");
 }
 
-TEST_CASE("a comparison's sentence names no leader without doubt where the first leads but rivals may be as good") {
+TEST_CASE("a comparison's sentence names no leader without doubt where the first leads but others may be as good") {
   CHECK(verdict({kBase, variant("tree", {{0.5, 0.4, 0.6}}, {{0.5, 0.4, 0.6}}),
                  variant("b", {{0.8, 0.5, 1.4}}, {{0.8, 0.5, 1.3}})}) ==
         "plain is the most efficient, by MSE and without the worst 0.1 % of pixels; the seeds decide neither.");
