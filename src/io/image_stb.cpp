@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <memory>
 #include <set>
 
@@ -42,7 +43,13 @@ class StbMemory {
 };
 thread_local StbMemory* StbMemory::current = nullptr;
 
-void* stb_malloc(std::size_t size) { return StbMemory::current->resize(nullptr, std::max<std::size_t>(size, 1)); }
+/// Zeros: a JPEG file may use a Huffman table that it does not have, which stb_image 2.27 takes as it finds it.
+void* stb_malloc(std::size_t size) {
+  const std::size_t bytes = std::max<std::size_t>(size, 1);
+  void* const block = StbMemory::current->resize(nullptr, bytes);
+  if (block) std::memset(block, 0, bytes);
+  return block;
+}
 [[maybe_unused]] void* stb_realloc(void* block, std::size_t size) {
   return StbMemory::current->resize(block, std::max<std::size_t>(size, 1));
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 #include "support/scratch.h"
 #include "tyndall/error.h"
@@ -71,4 +72,21 @@ TEST_CASE("a JPEG file with such a table is refused before it is decoded") {
   test::write_bytes(folder / "bad.jpg", bytes);
   CHECK_THROWS_WITH_AS(read_image(folder / "bad.jpg"), doctest::Contains("Huffman table"), Error);
   CHECK_THROWS_WITH_AS(read_image_size(folder / "bad.jpg"), doctest::Contains("Huffman table"), Error);
+}
+
+TEST_CASE("a JPEG file that uses a table which it does not have is read or refused, whatever memory held before") {
+  std::string bytes = test::read_bytes(TYNDALL_SOURCE_DIR "/tests/unit/io/data/halves.jpg");
+  for (std::size_t at = 0; (at = bytes.find("\xff\xc4", at)) != bytes.npos;) bytes[at + 1] = '\xfe';  // a comment
+  const test::Scratch folder;
+  test::write_bytes(folder / "bare.jpg", bytes);
+  for (const char filled : {'\x5a', '\xff', '\x80'}) {
+    std::vector<std::string> held;
+    for (std::size_t size = 1 << 12; size <= 1 << 16; size += 1 << 11) held.emplace_back(size, filled);
+    held.clear();
+    try {
+      CHECK(read_image(folder / "bare.jpg").width() > 0);
+    } catch (const Error& e) {
+      CHECK(e.failure() == Failure::scene);
+    }
+  }
 }
