@@ -29,6 +29,9 @@ struct Denoised {
 
 /// AOVs that a render needs for the best result, as RenderSettings::aovs has them.
 std::vector<std::string> denoise_aovs();
+/// What a name stands for where AOVs are asked for: "Denoise" for all of denoise_aovs(), "Cryptomatte" for all mattes, any
+/// other for itself.
+std::vector<std::string> aovs_named(const std::string& name);
 /// Bytes that denoise() takes beside the image, at most.
 std::size_t denoise_memory(std::size_t pixels);
 

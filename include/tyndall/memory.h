@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
 namespace tyndall {
 
@@ -11,5 +12,7 @@ std::size_t physical_memory();
 /// What this process may hold: physical_memory(), or less where a control group (a container, a batch job) is limited to
 /// less. For BuildSettings::max_memory.
 std::size_t usable_memory();
+/// `gigabytes`, above 0, as --max-memory has them; else usable_memory().
+std::size_t memory_limit(std::optional<double> gigabytes);
 
 }  // namespace tyndall

@@ -64,6 +64,9 @@ inline constexpr int kMostSamples = 1 << 30;
 /// No stop is looked for within a path.
 inline constexpr int kMostBounces = 1 << 20;
 
+/// Of the command line and the Python module: threads, and lights that are asked at a vertex.
+inline constexpr int kMostThreads = 4096, kMostLights = 4096;
+
 struct RenderSettings {
   int spp = 64;                  ///< samples a pixel, 1 to kMostSamples
   std::optional<double> time{};  ///< seconds; stops at the first pass end after it, if spp have not been reached before

@@ -6,9 +6,7 @@
 
 namespace tyndall::python {
 
-inline constexpr int kMostThreads = 4096;  ///< 0: all cores
-inline constexpr int kMostLights = 4096;   ///< that are asked at a vertex
-inline constexpr double kMostStops = 64;   ///< of exposure
+inline constexpr double kMostStops = 64;  ///< of exposure
 
 /// A whole number from `least` to `most`.
 int whole(const char* name, py::handle value, int least, int most);

@@ -46,13 +46,6 @@ py::tuple render_world(const World& world, const RenderSettings& settings, const
   return py::make_tuple(from_image(std::move(rendering->image)), from_report(rendering->report));
 }
 
-/// Bytes, of GB; None is what the process may hold.
-std::size_t memory_limit(py::handle gigabytes) {
-  constexpr double kMost = 9e18;
-  if (gigabytes.is_none()) return usable_memory();
-  return static_cast<std::size_t>(std::min(positive("max_memory", gigabytes) * 1e9, kMost));
-}
-
 struct BuildOptions {
   bool sanitize = false;
   std::size_t max_memory;
@@ -118,7 +111,8 @@ void define_render(py::module_& m) {
         return notes;
       });
   m.def("build", [](const Scene& scene, const py::dict& options, bool sanitize, py::handle max_memory) {
-    return build_scene(scene, with_options(scene, options), {sanitize, memory_limit(max_memory)});
+    const auto gigabytes = unless_none(max_memory, [](py::handle given) { return positive("max_memory", given); });
+    return build_scene(scene, with_options(scene, options), {sanitize, memory_limit(gigabytes)});
   });
   m.def("compare", compare_methods);
   m.def("aov_names", [] {

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "numbers.h"
-#include "tyndall/cryptomatte.h"
 #include "tyndall/denoise.h"
 
 namespace tyndall::python {
@@ -23,14 +22,10 @@ py::object from_crop(const std::optional<PixelBounds>& crop) {
   return py::make_tuple(crop->x0, crop->y0, crop->x1, crop->y1);
 }
 
-/// The AOVs that a name stands for, as on the command line.
-std::vector<std::string> aovs_named(const std::string& name) {
-  if (name == "Denoise") return denoise_aovs();
-  if (name == "Cryptomatte") return {kMatteLayers.begin(), kMatteLayers.end()};
+void require_aov(const std::string& name) {
   const auto known = aov_names();
   if (std::find(known.begin(), known.end(), name) == known.end())
     throw py::value_error("no AOV is called \"" + name + "\"; tyndall.aov_names() lists them");
-  return {name};
 }
 
 /// A text would be taken for the list of its letters.
@@ -39,8 +34,10 @@ void set_aovs(RenderSettings& settings, py::handle value) {
     throw py::type_error("aovs = " + py::repr(value).cast<std::string>() + " is not understood; give a list of names");
   std::vector<std::string> aovs;
   for (const py::handle item : value) {
-    const auto named = aovs_named(as<std::string>(item, "an AOV"));
-    aovs.insert(aovs.end(), named.begin(), named.end());
+    for (std::string& name : aovs_named(as<std::string>(item, "an AOV"))) {
+      require_aov(name);
+      aovs.push_back(std::move(name));
+    }
   }
   settings.aovs = std::move(aovs);
 }

@@ -6,7 +6,6 @@
 #include "cli/command.h"
 #include "cli/compare_options.h"
 #include "cli/log.h"
-#include "cli/memory.h"
 #include "cli/notes.h"
 #include "cli/output_paths.h"
 #include "cli/print.h"
@@ -16,6 +15,7 @@
 #include "report/compare_results.h"
 #include "report/page.h"
 #include "tyndall/io.h"
+#include "tyndall/memory.h"
 #include "tyndall/timer.h"
 
 namespace tyndall::cli {

@@ -64,7 +64,7 @@ void declare(CLI::App& command, CompareOptions& o) {
   command.add_option("-o,--output", o.folder,
                      "folder for index.html, results.json, error.csv and the images [compare-report]; -o report");
   command.add_option("--threads", o.threads, "threads [the Integrator's, else 0: one a core]; --threads 2")
-      ->check(CLI::Range(0, 4096));
+      ->check(CLI::Range(0, kMostThreads));
   declare(command, o.methods);
   declare(command, o.picture);
   declare_memory(command, o.max_memory);

@@ -68,7 +68,7 @@ void add_denoise(CLI::App& app, int& exit_code) {
   command->add_flag("--components", options->settings.components,
                     "the channels of the light split are denoised as well, in place of staying as rendered");
   command->add_option("--threads", options->settings.threads, "threads [0: one a core]; --threads 2")
-      ->check(CLI::Range(0, 4096));
+      ->check(CLI::Range(0, kMostThreads));
   declare(*command, options->format);
   command->add_flag("--quiet", options->quiet, "no summary; errors only");
   command->add_flag("--json", options->json, "summary as JSON on stdout");

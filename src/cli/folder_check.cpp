@@ -5,10 +5,10 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "cli/memory.h"
 #include "cli/print.h"
 #include "io/file_text.h"
 #include "io/pbrt_token.h"
+#include "tyndall/memory.h"
 
 namespace tyndall::cli {
 namespace {

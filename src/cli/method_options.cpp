@@ -19,7 +19,7 @@ void declare(CLI::App& command, MethodOptions& o) {
                   "cluster that --splitting makes; with --lights lightcuts the most nodes that a cut has, 0: 1,000 [the "
                   "Integrator's, else as --budget has it at first, later 1 to 4, but not more than there are lights unless "
                   "--max-depth is 1; with lightcuts 0]; --candidates 8")
-      ->check(CLI::Range(0, 4096));
+      ->check(CLI::Range(0, kMostLights));
   command
       .add_option("--splitting", o.splitting,
                   "clusters of the light tree predicted worse than this are split, with --lights tree, up to 15 or as many as "
@@ -32,7 +32,7 @@ void declare(CLI::App& command, MethodOptions& o) {
                   "of these are traced, resampled by their contribution; 0: all [the Integrator's, else as --budget has it at "
                   "first, later 1 or 2, but not more than half the lights unless --max-depth is 1; with lightcuts "
                   "all]; --shadow-rays 0")
-      ->check(CLI::Range(0, 4096));
+      ->check(CLI::Range(0, kMostLights));
 }
 
 void apply(const MethodOptions& o, RenderSettings& settings) {

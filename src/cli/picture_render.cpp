@@ -6,7 +6,6 @@
 #include <sstream>
 
 #include "cli/log.h"
-#include "cli/memory.h"
 #include "cli/output_paths.h"
 #include "cli/room.h"
 #include "cli/save.h"
@@ -16,6 +15,7 @@
 #include "session/scene_hash.h"
 #include "tyndall/cryptomatte.h"
 #include "tyndall/io.h"
+#include "tyndall/memory.h"
 #include "tyndall/slice.h"
 #include "tyndall/timer.h"
 

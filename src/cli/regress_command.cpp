@@ -6,7 +6,6 @@
 
 #include "cli/command.h"
 #include "cli/log.h"
-#include "cli/memory.h"
 #include "cli/output_paths.h"
 #include "cli/print.h"
 #include "cli/save.h"
@@ -16,6 +15,7 @@
 #include "report/regress.h"
 #include "report/regress_results.h"
 #include "tyndall/io.h"
+#include "tyndall/memory.h"
 #include "tyndall/utf8.h"
 
 namespace tyndall::cli {
@@ -164,7 +164,7 @@ void add_regress(CLI::App& app, int& exit_code) {
       ->check(whole_number(0, std::uint64_t{1} << 40));
   command->add_flag("--update", s.update, "render the references anew, say what changed, and replace them");
   command->add_option("--jobs,--threads", s.jobs, "renders side by side, of one thread each [0: one a core]; --jobs 2")
-      ->check(whole_number(0, 4096));
+      ->check(whole_number(0, kMostThreads));
   command
       ->add_option("--max-memory", options->max_memory,
                    "GB for all renders at a time: each gets its share, and a case that is estimated to need more is an error "

@@ -17,19 +17,14 @@ namespace {
 
 constexpr int kUsualDeepBins = 16;
 
-/// AOVs by name; "Denoise" is all that the denoiser takes, "Cryptomatte" all mattes.
+/// AOVs by name, several names for some.
 std::vector<std::string> aovs_in(const std::string& list) {
   std::vector<std::string> names;
   std::istringstream stream(list);
   for (std::string name; std::getline(stream, name, ',');) {
-    if (name == "Denoise") {
-      const auto all = denoise_aovs();
-      names.insert(names.end(), all.begin(), all.end());
-    } else if (name == "Cryptomatte") {
-      names.insert(names.end(), kMatteLayers.begin(), kMatteLayers.end());
-    } else if (!name.empty()) {
-      names.push_back(name);
-    }
+    if (name.empty()) continue;
+    const auto named = aovs_named(name);
+    names.insert(names.end(), named.begin(), named.end());
   }
   return names;
 }
@@ -83,7 +78,7 @@ void declare_task(CLI::App& command, RenderOptions& o) {
       .add_option("--time", o.time,
                   "seconds to render for, at most; without --spp the samples are as many as that gives [none]; --time 60")
       ->check(positive());
-  command.add_option("--threads", o.threads, "threads [0: one a core]; --threads 2")->check(CLI::Range(0, 4096));
+  command.add_option("--threads", o.threads, "threads [0: one a core]; --threads 2")->check(CLI::Range(0, kMostThreads));
   command.add_option("--seed", o.seed, "of the random numbers [0, with --frames the frame]; --seed 7")->check(whole_number());
   declare(command, o.picture);
   declare(command, o.methods);

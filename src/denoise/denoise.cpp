@@ -1,4 +1,5 @@
 #include "tyndall/denoise.h"
+#include "tyndall/cryptomatte.h"
 
 #include <optional>
 
@@ -167,6 +168,12 @@ std::string header_text(const std::vector<Component>& components, const std::vec
 }  // namespace
 
 std::vector<std::string> denoise_aovs() { return input_aovs(); }
+
+std::vector<std::string> aovs_named(const std::string& name) {
+  if (name == "Denoise") return denoise_aovs();
+  if (name == "Cryptomatte") return {kMatteLayers.begin(), kMatteLayers.end()};
+  return {name};
+}
 
 /// Planes that are there at once: the image once more with what is added to it, features in two halves and without noise, a
 /// component, its fits by two bandwidths, what selects among them, all light in two halves, and what was taken out. The

@@ -80,4 +80,10 @@ std::size_t usable_memory() {
   return std::min(physical_memory(), control_group_limit(groups, "/sys/fs/cgroup"));
 }
 
+std::size_t memory_limit(std::optional<double> gigabytes) {
+  constexpr double kMost = 9e18;
+  if (gigabytes) return static_cast<std::size_t>(std::min(*gigabytes * 1e9, kMost));
+  return usable_memory();
+}
+
 }  // namespace tyndall

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <random>
 #include <string_view>
+#include <utility>
 
 namespace tyndall {
 namespace {
@@ -30,10 +31,12 @@ bool is_address(std::string_view name) {
 
 }  // namespace
 
+RequestGuard::RequestGuard(const std::string& host, std::string token) : host_(lowercase(host)), token_(std::move(token)) {}
+
 bool RequestGuard::is_host_of_page(const std::string& host) const {
   const std::string lower = lowercase(host);
   const std::string_view name = name_of(lower);
-  return is_address(name) || name == "localhost" || (!host_.empty() && name == lowercase(host_));
+  return is_address(name) || name == "localhost" || (!host_.empty() && name == host_);
 }
 
 std::optional<HttpResponse> RequestGuard::refusal(const HttpRequest& request) const {

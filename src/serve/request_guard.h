@@ -14,7 +14,7 @@ class RequestGuard {
  public:
   /// `host`: the name under which the page is served, beside addresses and "localhost". `token`: what the page's own requests
   /// to change something carry.
-  RequestGuard(std::string host, std::string token) : host_(std::move(host)), token_(std::move(token)) {}
+  RequestGuard(const std::string& host, std::string token);
 
   /// The answer to a request that is not to be served; nothing where it is.
   std::optional<HttpResponse> refusal(const HttpRequest& request) const;
@@ -23,7 +23,8 @@ class RequestGuard {
  private:
   bool is_host_of_page(const std::string& host) const;
 
-  std::string host_, token_;
+  std::string host_;  ///< in small letters
+  std::string token_;
 };
 
 /// 128 bits that nobody guesses, as hexadecimal digits.

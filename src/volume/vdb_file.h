@@ -30,7 +30,7 @@ struct VolumeGrid {
   std::unique_ptr<VoxelSource> source;
   Transform index_to_world;
   std::optional<VoxelBox> clip;  ///< set when the background is not 0: the active bounding box
-  Background background{{}};
+  Background::Values background{};
 };
 
 /// An open .vdb or .nvdb file, wholly in memory.

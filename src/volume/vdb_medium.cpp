@@ -62,7 +62,7 @@ class GridLoader {
     refuse_unfit(entry(index), use);
     refuse_large(entry(index));
     const VolumeGrid grid = file_->load(index);
-    const VoxelRules rules{use.negative_to_zero, options_.sanitize, grid.clip, grid.background.values()};
+    const VoxelRules rules{use.negative_to_zero, options_.sanitize, grid.clip, grid.background};
     report(entry(index), inspect(*grid.source, rules), rules);
     const Transform index_to_world = medium_.to_world * grid.index_to_world;
     if (to_world) *to_world = index_to_world;

@@ -112,7 +112,7 @@ class NanoVdbFile : public VolumeFile {
     VolumeGrid result;
     with_checked_source(index, [&](auto source) {
       result.clip = source->clip();
-      result.background = source->background();
+      result.background = source->background().values();
       result.source = std::move(source);
     });
     if (!result.source) fail(index, "is of type " + entries_[index].type + ", which cannot be used");
@@ -147,7 +147,7 @@ class NanoVdbFile : public VolumeFile {
       const VoxelBox box = source->active_box();
       rows.emplace_back("index bounds", row(box.lo) + " .. " + row(box.hi));
       rows.emplace_back("leaves", std::to_string(source->leaf_count()));
-      rows.emplace_back("background", number(source->background().values()[0]));
+      rows.emplace_back("background", number(source->background().stored()[0]));
     });
     const auto& tree = *reinterpret_cast<const nanovdb::TreeData<3>*>(&head + 1);
     rows.emplace_back("active voxels", std::to_string(tree.mVoxelCount));

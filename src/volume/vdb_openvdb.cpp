@@ -146,7 +146,7 @@ class OpenVdbFile : public VolumeFile {
       using GridT = std::decay_t<decltype(typed)>;
       auto source = std::make_unique<TreeSource<GridT>>(openvdb::gridConstPtrCast<GridT>(grids_[index]));
       result.clip = source->clip();
-      result.background = source->background();
+      result.background = source->background().values();
       result.source = std::move(source);
     });
     if (!result.source)

@@ -57,7 +57,7 @@ void put_grid(ProcessChannel& channel, const VolumeGrid& grid) {
   channel.put(grid.index_to_world.matrix());
   channel.put_flag(grid.clip.has_value());
   channel.put(grid.clip.value_or(VoxelBox{}));
-  channel.put(grid.background.values());
+  channel.put(grid.background);
   const std::vector<VoxelBlock>& blocks = grid.source->blocks();
   std::uint32_t leaves = 0;
   for (const VoxelBlock& block : blocks) leaves += block.leaf == VoxelBlock::kConstant ? 0 : 1;
@@ -201,7 +201,7 @@ class RemoteVolumeFile : public VolumeFile {
       const auto matrix = worker_.get<Transform::Matrix>();
       const bool clipped = worker_.get_flag();
       const auto clip = worker_.get<VoxelBox>();
-      result.background = Background(worker_.get<Background::Values>());
+      result.background = worker_.get<Background::Values>();
       if (clipped) ReceivedSource::require_sound(clip);
       if (clipped) result.clip = clip;
       result.source = std::make_unique<ReceivedSource>(worker_, most_memory_);

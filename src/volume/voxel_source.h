@@ -36,10 +36,12 @@ struct VoxelBlock {
 class Background {
  public:
   using Values = std::array<float, 6>;  ///< one a channel
-  explicit Background(const Values& stored) : stored_(stored) {}
+  explicit Background(const Values& stored)
+      : stored_(stored), is_number_(std::all_of(stored.begin(), stored.end(), [](float v) { return std::isfinite(v); })) {}
 
+  const Values& stored() const { return stored_; }
   /// 0 in empty space.
-  Values values() const { return is_number() ? stored_ : Values{}; }
+  Values values() const { return is_number_ ? stored_ : Values{}; }
   bool is_empty() const { return values() == Values{}; }
   /// Whether a voxel is not set.
   bool is(const Values& voxel) const {
@@ -47,13 +49,11 @@ class Background {
     return std::equal(voxel.begin(), voxel.end(), stored_.begin(), same);
   }
   /// What a voxel reads as.
-  Values read(const Values& voxel) const { return is_number() || !is(voxel) ? voxel : Values{}; }
+  Values read(const Values& voxel) const { return is_number_ || !is(voxel) ? voxel : Values{}; }
 
  private:
-  bool is_number() const {
-    return std::all_of(stored_.begin(), stored_.end(), [](float v) { return std::isfinite(v); });
-  }
   Values stored_;
+  bool is_number_;
 };
 
 /// Where voxels come from. Those in no block are 0; where blocks overlap, the later one in the list counts.
@@ -84,10 +84,10 @@ class DenseSource : public VoxelSource {
 
 /// What to do with voxels that are no valid amount.
 struct VoxelRules {
-  bool negative_to_zero = true;       ///< densities; temperatures keep their sign
-  bool sanitize = false;              ///< NaN and infinity to 0
-  std::optional<VoxelBox> clip;       ///< voxels outside read 0
-  std::array<float, 6> background{};  ///< one a channel: such voxels are not set, so none is reported to be below 0
+  bool negative_to_zero = true;     ///< densities; temperatures keep their sign
+  bool sanitize = false;            ///< NaN and infinity to 0
+  std::optional<VoxelBox> clip;     ///< voxels outside read 0
+  Background::Values background{};  ///< such voxels are not set, so none is reported to be below 0
 
   /// What is kept of a value. One that is not finite has been reported by inspect() and only comes here to become 0.
   float kept(float value) const {

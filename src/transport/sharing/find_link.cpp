@@ -17,6 +17,11 @@ constexpr int kReads = 16;
 bool same_side(Vec3 n, Vec3 a, Vec3 b) { return dot(n, a) * dot(n, b) > 0; }
 bool has_all_channels(Rgb c) { return c.r != 0 && c.g != 0 && c.b != 0; }
 
+Ray ray_to(const PathOffer& find, const Geometry& geometry, const Vertex& from) {
+  const Vec3 w = find.escaped ? *find.escaped : normalize(find.at->p() - from.p());
+  return {from.origin(geometry, w), w};
+}
+
 }  // namespace
 
 Connection scattered_back(const PathOffer& find, Vec3 w) {
@@ -56,9 +61,8 @@ Connection connect(const PathOffer& from, const PathOffer& find) {
 
 Link::Link(const Between& between, const Vertex& from, PathOffer& find, bool own) : between_(between), find_(find), own_(own) {
   const Geometry& geometry = between.world.geometry;
-  const Vec3 w = own ? find.ray.d : find.escaped ? *find.escaped : normalize(find.at->p() - from.p());
-  ray_ = own ? find.ray : Ray{from.origin(geometry, w), w};
-  media_ = from.media_toward(geometry, w);
+  ray_ = own ? find.ray : ray_to(find, geometry, from);
+  media_ = from.media_toward(geometry, ray_.d);
 }
 
 std::optional<Passage> Link::pass(Rgb throughput) const {

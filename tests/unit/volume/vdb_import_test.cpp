@@ -190,16 +190,23 @@ TEST_CASE("voxels that are no amount: negative ones become 0 with one warning, o
   CHECK(contains(clean.notes, "set to 0"));
 }
 
-TEST_CASE("a background that is no amount is empty space, and counts as no voxel") {
+/// The grid with each background that is no amount: none of its voxels counts as one.
+std::vector<Import> with_no_amounts(VdbGrid grid) {
   const test::Scratch scratch;
-  const std::string path = scratch / "background.vdb";
-  VdbGrid grid;
-  grid.boxes = {{{0, 0, 0}, {15, 15, 15}, 1}};
+  std::vector<Import> loaded;
   for (const float background : {-0.5f, std::nanf(""), std::numeric_limits<float>::infinity()}) {
     grid.background = background;
-    test::write_vdb(path, {grid});
-    const Import loaded = import(path);
-    CHECK_FALSE(contains(loaded.notes, "set to 0"));
+    test::write_vdb(scratch / "background.vdb", {grid});
+    loaded.push_back(import(scratch / "background.vdb"));
+    CHECK_FALSE(contains(loaded.back().notes, "set to 0"));
+  }
+  return loaded;
+}
+
+TEST_CASE("a background that is no amount is empty space, and counts as no voxel") {
+  VdbGrid grid;
+  grid.boxes = {{{0, 0, 0}, {15, 15, 15}, 1}};
+  for (const Import& loaded : with_no_amounts(grid)) {
     CHECK(loaded.medium.at({8, 8, 8}).sigma_a.r == doctest::Approx(1));
     CHECK(loaded.medium.at({20, 8, 8}).sigma_a.r == 0);
   }
@@ -207,16 +214,10 @@ TEST_CASE("a background that is no amount is empty space, and counts as no voxel
 
 // Between the box and a voxel of its own there are some that nobody has set, in leaves as well.
 TEST_CASE("voxels that were not set are empty space where the background is no amount") {
-  const test::Scratch scratch;
-  const std::string path = scratch / "corner.vdb";
   VdbGrid grid;
   grid.boxes = {{{0, 0, 0}, {11, 11, 11}, 1}};
   grid.voxels = {{{40, 2, 2}, 1.0f}};
-  for (const float background : {-0.5f, std::nanf(""), std::numeric_limits<float>::infinity()}) {
-    grid.background = background;
-    test::write_vdb(path, {grid});
-    const Import loaded = import(path);
-    CHECK_FALSE(contains(loaded.notes, "set to 0"));
+  for (const Import& loaded : with_no_amounts(grid)) {
     CHECK(loaded.medium.at({11, 8, 8}).sigma_a.r == doctest::Approx(1));
     CHECK(loaded.medium.at({40, 2, 2}).sigma_a.r == doctest::Approx(1));
     CHECK(loaded.medium.at({13, 8, 8}).sigma_a.r == 0);
