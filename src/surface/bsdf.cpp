@@ -74,6 +74,17 @@ std::optional<BsdfSample> Bsdf::sample(Vec3 wo, float uc, Vec2 u) const {
   return s;
 }
 
+std::optional<MirrorPart> Bsdf::mirror_part(Vec3 wo) const {
+  const Vec3 o = frame_.to_local(wo);
+  const auto mirrored = [o](const auto& lobe) {
+    if constexpr (requires { lobe.mirrored(o); }) return lobe.mirrored(o);
+    return 0.0f;
+  };
+  const float f = std::visit(mirrored, lobe_);
+  if (f == 0 || f == 1 || !(has_smooth() || transmits())) return std::nullopt;
+  return MirrorPart{normalize(frame_.to_world({-o.x, -o.y, o.z})), f};
+}
+
 bool Bsdf::has_smooth() const {
   return std::visit([](const auto& lobe) { return lobe.has_smooth(); }, lobe_);
 }

@@ -6,6 +6,7 @@
 
 #include "math/frame.h"
 #include "surface/bsdf_sample.h"
+#include "surface/clear_coat.h"
 #include "surface/conductor.h"
 #include "surface/dielectric.h"
 #include "surface/diffuse.h"
@@ -17,13 +18,13 @@ namespace tyndall {
 /// A BSDF with its frame: a small value, no heap. Directions are unit, in world space, and both leave the surface.
 /// Sides are judged by the shading normal alone, as in pbrt-v4.
 ///
-/// Radiance transport: a transmission includes the factor 1/eta^2. pdf() is the exact density of sample() except for
-/// coated materials, where the walk has none in closed form: there it is a deterministic proxy. MIS stays unbiased as
-/// long as both techniques weigh with pdf(), since weight is an unbiased estimate on its own.
+/// Radiance transport: a transmission includes the factor 1/eta^2. pdf() is the exact density of sample() except under
+/// coats that are rough, scatter or cover metal, where the walk has none in closed form: there it is a deterministic proxy. MIS
+/// stays unbiased as long as both techniques weigh with pdf(), since weight is an unbiased estimate on its own.
 class Bsdf {
  public:
   using Lobe = std::variant<DiffuseLobe, DiffuseTransmissionLobe, ConductorLobe, DielectricLobe, ThinDielectricLobe,
-                            PassThroughLobe, CoatedDiffuseLobe, CoatedConductorLobe>;
+                            PassThroughLobe, ClearCoatLobe, CoatedDiffuseLobe, CoatedConductorLobe>;
 
   Bsdf() = default;  ///< black
   Bsdf(const Frame& shading, const Lobe& lobe) : frame_(shading), lobe_(lobe) {}
@@ -36,6 +37,9 @@ class Bsdf {
   float pdf(Vec3 wo, Vec3 wi) const;
   /// Nothing when the light is absorbed or no direction can be had. All arguments in [0, 1).
   std::optional<BsdfSample> sample(Vec3 wo, float uc, Vec2 u) const;
+
+  /// Where samples are mirrored by chance, others not: what the former bring.
+  std::optional<MirrorPart> mirror_part(Vec3 wo) const;
 
   /// eval(wo, .) in outline: the lobes about the mirrored and the refracted direction, and the rest.
   Highlights highlights(Vec3 wo) const;

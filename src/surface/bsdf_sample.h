@@ -15,6 +15,12 @@ struct BsdfSample {
   float eta = 1;
 };
 
+/// The mirror of a surface that is not one alone.
+struct MirrorPart {
+  Vec3 wi;  ///< unit, leaves the surface
+  float f;  ///< share of the light from there that is mirrored, in (0, 1)
+};
+
 /// A restriction of a dielectric lobe, used by the walk inside a coating.
 struct LobeMode {
   enum class Transport { radiance, importance } transport = Transport::radiance;  ///< importance: no 1/eta^2

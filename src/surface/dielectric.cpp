@@ -125,13 +125,19 @@ std::optional<BsdfSample> DielectricLobe::sample(Vec3 wo_any, float uc, Vec2 u, 
                     .eta = view.eta};
 }
 
+float DielectricLobe::mirrored(Vec3 wo) const { return is_specular() && wo.z > 0 ? fresnel_dielectric(wo.z, eta) : 0.0f; }
+
 Rgb DielectricLobe::albedo(Vec3 wo) const { return is_specular() ? Rgb(1.0f) : sampled_albedo(*this, wo); }
+
+/// R + T R T + T R^3 T + ... = R + T^2 R / (1 - R^2), with T = 1 - R.
+float ThinDielectricLobe::mirrored(Vec3 wo) const {
+  const float once = fresnel_dielectric(std::abs(wo.z), eta);
+  return once < 1 ? once + (1 - once) * once / (1 + once) : 1.0f;
+}
 
 std::optional<BsdfSample> ThinDielectricLobe::sample(Vec3 wo, float uc, Vec2) const {
   if (wo.z == 0) return std::nullopt;
-  // R + T R T + T R^3 T + ... = R + T^2 R / (1 - R^2), with T = 1 - R
-  const float once = fresnel_dielectric(std::abs(wo.z), eta);
-  const float R = once < 1 ? once + (1 - once) * once / (1 + once) : 1.0f;
+  const float R = mirrored(wo);
   if (uc < R)
     return BsdfSample{.wi = {-wo.x, -wo.y, wo.z}, .weight = Rgb(1.0f), .pdf = R, .specular = true, .transmission = false};
   return BsdfSample{.wi = -wo, .weight = Rgb(1.0f), .pdf = 1 - R, .specular = true, .transmission = true};

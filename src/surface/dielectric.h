@@ -23,6 +23,8 @@ struct DielectricLobe {
   bool reflects() const { return eta != 1; }
   bool transmits() const { return true; }
   Rgb albedo(Vec3 wo) const;
+  /// Share of light from outside that a smooth interface mirrors; 0 from within, where what is mirrored is within as well.
+  float mirrored(Vec3 wo) const;
 };
 
 /// A flat pane without thickness, all orders of reflection inside it summed; never bends a ray.
@@ -36,6 +38,7 @@ struct ThinDielectricLobe {
   bool reflects() const { return eta != 1; }
   bool transmits() const { return true; }
   Rgb albedo(Vec3) const { return Rgb(1.0f); }
+  float mirrored(Vec3 wo) const;
 };
 
 /// Lets everything through: an interface material that a mix has chosen.

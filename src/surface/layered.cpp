@@ -198,6 +198,11 @@ std::optional<BsdfSample> LayeredLobe<Bottom>::sample(Vec3 wo, float uc, Vec2 u)
 }
 
 template <typename Bottom>
+float LayeredLobe<Bottom>::mirrored(Vec3 wo) const {
+  return top.is_specular() && bottom.has_smooth() ? fresnel_dielectric(std::abs(wo.z), top.eta) : 0.0f;
+}
+
+template <typename Bottom>
 Rgb LayeredLobe<Bottom>::albedo(Vec3 wo) const {
   return sampled_albedo(*this, wo);
 }

@@ -37,6 +37,8 @@ struct LayeredLobe {
   bool reflects() const { return true; }
   bool transmits() const { return false; }
   Rgb albedo(Vec3 wo) const;
+  /// Share of light that the coat's top mirrors; 0 where that is not all that specular samples bring.
+  float mirrored(Vec3 wo) const;
 };
 
 using CoatedDiffuseLobe = LayeredLobe<DiffuseLobe>;

@@ -35,9 +35,11 @@ class LobeBuilder {
   }
 
   Bsdf::Lobe operator()(const CoatedDiffuseMaterial& m) const {
-    return CoatedDiffuseLobe{.top = dielectric(m.coating.eta, m.coating.roughness),
-                             .bottom = {clamp01(rgb(m.reflectance))},
-                             .coat = coat(m.coating)};
+    const DielectricLobe top = dielectric(m.coating.eta, m.coating.roughness);
+    const Rgb reflectance = clamp01(rgb(m.reflectance));
+    const Coat between = coat(m.coating);
+    if (top.is_specular() && is_black(between.albedo)) return ClearCoatLobe(top.eta, reflectance, between);
+    return CoatedDiffuseLobe{.top = top, .bottom = {reflectance}, .coat = between};
   }
 
   Bsdf::Lobe operator()(const CoatedConductorMaterial& m) const {

@@ -98,6 +98,23 @@ TEST_CASE("F1: inside an emissive box, and an emissive ball") {
   check_agrees("F1 in a glowing ball", view(perspective()) + ball + smoke + diffuse_plane(0.1f, 0.5f, 1), {1.0, 1.0, 1.0}, how);
 }
 
+// What glass, panes and coats mirror is looked at whether paths go there or not: it must not count twice, nor be missed.
+TEST_CASE("F1: glass, panes and white coats, in a furnace of sky or of lights, with smoke before them") {
+  const std::string coat =
+      "\"rgb reflectance\" [1 1 1] \"float thickness\" 1e-9 \"integer maxdepth\" 1000 \"float roughness\" ";
+  const std::string materials[] = {"\"dielectric\"", "\"thindielectric\" \"float eta\" 2.5", "\"coateddiffuse\" " + coat + "0",
+                                   "\"coateddiffuse\" \"rgb albedo\" [1 1 1] " + coat + "0"};
+  const std::string smoke = homogeneous("m", {.sigma_s = {0.2f, 0.1f, 0.3f}}) + medium_box("m", "", {{-2, -2, -2}, {2, 2, 2}});
+  for (const std::string& material : materials) {
+    const std::string ball = block("Material " + material + "\nShape \"sphere\" \"float radius\" 1\n");
+    const std::string seen = view({.eye = {0.1f, 1.5f, -2.8f}, .look = {0, 0, 0}, .fov_degrees = 40, .max_depth = 200}) + ball;
+    const Agreement how{.d = nightly() ? 0.002 : 0.01};
+    check_agrees("F1 under a sky, " + material, seen + environment(1), {1.0, 1.0, 1.0}, how);
+    check_agrees("F1 in a box of lights, " + material, seen + emissive_box(), {1.0, 1.0, 1.0}, how);
+    check_agrees("F1 in smoke under a sky, " + material, seen + smoke + environment(1), {1.0, 1.0, 1.0}, how);
+  }
+}
+
 TEST_CASE("F2: an absorbing and emitting slab adds 1 - exp(-tau) and lets T through") {
   const Grid grid = lumpy_grid();
   constexpr double kBackground = 0.25;

@@ -153,6 +153,24 @@ TEST_CASE("sharing changes the noise alone: metals, rough glass and thin sheets"
                 {}, 0.9, kMany);
 }
 
+// Clear coats spread light by a density that others know, and mirror it besides: what they mirror is their path's own. Points
+// have no images in mirrors, which would be most of the noise and are no one else's.
+TEST_CASE("sharing changes the noise alone: clear coats") {
+  const auto coated = [](const std::string& rgb, const std::string& more, const std::string& corners) {
+    return block("Material \"coateddiffuse\" \"float roughness\" 0 \"rgb reflectance\" [" + rgb + "] " + more +
+                 "\nShape \"bilinearmesh\" \"point3 P\" [" + corners + "]\n");
+  };
+  const std::string room =
+      sharing_wall("0.7 0.7 0.7", "-2 1.8 -4  2 1.8 -4  -2 1.8 2  2 1.8 2") + sharing_end(2) + sharing_end(-4) +
+      coated("0.6 0.6 0.6", "", "-2 -1.8 -4  2 -1.8 -4  -2 -1.8 2  2 -1.8 2") +
+      coated("0.8 0.1 0.1", "\"float thickness\" 0.3 \"float eta\" 2", "-2 -1.8 -4  -2 -1.8 2  -2 1.8 -4  -2 1.8 2") +
+      coated("0.1 0.7 0.2", "\"float eta\" 0.7", "2 -1.8 -4  2 -1.8 2  2 1.8 -4  2 1.8 2") +
+      point_light({-1.7f, 1.2f, 1.1f}, 3) + point_light({1.2f, -1, 0.6f}, 0.4f);
+  check_sharing("coats", camera(5) + room, {}, 1.5, kMany);
+  const std::string fog = homogeneous("m", kThin) + medium_box("m", "", {{-3, -3, -5}, {3, 3, 3}});
+  check_sharing("coats in fog", camera(4) + room + fog, {}, 1.2, kMany);
+}
+
 // Veils that stop half of the rays by chance, each as a hash of it says: what one path has passed another may not, but where
 // the first went it has passed. Before walls, before fog, and before a sky. Most of the noise is what the camera's rays meet,
 // which none share: little is gained or lost (0.91, 1.16 and 1.21).

@@ -83,6 +83,7 @@ bool Path::scatter(const Vertex& vertex) {
   const Directions& directions =
       may_offer(vertex) ? offer_.emplace(context_, vertex, beta_).directions : own.emplace(context_, vertex);
   add_estimate(seen, light_at(directions, seen), depth_);
+  const bool looked = look_into_mirror(vertex, seen);
   if (is_environment_offered()) offer_->sought = std::make_unique<const SoughtLights>(sought_);
   if (is_black(beta_) || (is_last_bounce(context_) && !context_.world.rays_find_lights())) return false;
 
@@ -96,10 +97,12 @@ bool Path::scatter(const Vertex& vertex) {
   if (!s) return false;
   if (offered) {
     offer_->wi = s->wi;
+    offer_->by_mirror = s->specular;
     offer_->aureole = directions.aureole();
     offer_->scattered = s->weight;
   }
   light_sampled_ = !s->specular && vertex.has_smooth();
+  end_counted_ = looked && s->mirrored;
   from_ = vertex.p();
   pdf_ = sought_.pdf(vertex, s->wi, s->pdf);
   if (vertex.has_smooth()) ++context_.smooth_bounces;

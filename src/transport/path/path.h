@@ -100,6 +100,8 @@ class Path {
   int bounces_of_emission(bool weighed) const;
   void dim(const Span& span);
   Rgb light_at(const Directions& directions, Rgb beta);
+  bool look_into_mirror(const Vertex& vertex, Rgb beta);
+  Rgb transmittance_to_end(const MediaState& media, const Ray& ray, const Trace& trace);
   float scattering_mis_weight(LightId id, float light_pdf) const;
   Vertex vertex_at(const SurfaceHit& hit, Vec3 wo, const MediaState& media);
   int narrow_to_channel();
@@ -132,6 +134,7 @@ class Path {
 
   // The last bounce, for the MIS weight of emitters that its ray hits.
   bool light_sampled_ = false;                 ///< next-event estimation could have found what this ray finds
+  bool end_counted_ = false;                   ///< emitters at the end of this ray count by look_into_mirror()
   Vec3 from_;                                  ///< its position
   float pdf_ = 0;                              ///< of its direction, 1/sr
   std::optional<CollisionJointWeight> joint_;  ///< the ray from it, if it sampled lights jointly; context_ points to it

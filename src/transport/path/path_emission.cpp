@@ -5,12 +5,15 @@
 #include "transport/pixel/film_emitters.h"
 #include "transport/sample/deep_sample.h"
 #include "transport/sample/emission_by_group.h"
+#include "transport/techniques/shadow_ray.h"
 
 namespace tyndall {
 namespace {
 
 /// Look-ups of the emission that the camera sees, for each one of what paths meet later (docs/measurements.md).
 constexpr float kSeenDensity = 2;
+
+EmitterHit emitter_hit(const SurfaceHit& hit) { return {.p = hit.p, .ng = hit.ng, .uv = hit.uv, .distance = hit.t}; }
 
 }  // namespace
 
@@ -30,6 +33,39 @@ Rgb Path::light_at(const Directions& directions, Rgb beta) {
   }
   sought_.collision = SpanCollision{*span_search_, collision_t_, collision_density_};
   return span_search_->tracked ? collision_light(context_, vertex, *sought_.collision, beta) : Rgb();
+}
+
+/// Emitters that the first surface mirrors which spreads light as well: of many paths few go there, and small emitters are
+/// bright. Whether it was looked, by a ray that no path depends on; none that is mirrored counts those.
+bool Path::look_into_mirror(const Vertex& vertex, Rgb beta) {
+  const BuiltWorld& world = context_.world;
+  const auto mirror = world.rays_find_lights() ? vertex.mirror_part() : std::nullopt;
+  if (!mirror) return false;
+  const Ray ray{vertex.origin(world.geometry, mirror->wi), mirror->wi};
+  ++context_.counters.rays;
+  const Trace trace = world.geometry.trace(ray, 0, kInfinity);
+  std::optional<Rgb> passed;
+  const auto add = [&](LightId id, Rgb L) {
+    if (is_black(L)) return;
+    if (!passed) passed = beta * mirror->f * transmittance_to_end(vertex.media_toward(world.geometry, ray.d), ray, trace);
+    add_light(id, *passed * L, depth_);
+  };
+  if (!trace.hit) {
+    for (const LightId id : world.lights.infinite()) add(id, world.lights.environment(id, {vertex.p(), ray.d}));
+  } else if (const auto id = world.light_of(*trace.hit)) {
+    add(*id, world.lights.emitted(*id, emitter_hit(*trace.hit), -ray.d));
+  }
+  return true;
+}
+
+/// Of a ray through media, by numbers of its own.
+Rgb Path::transmittance_to_end(const MediaState& media, const Ray& ray, const Trace& trace) {
+  if (!context_.world.has_media()) return Rgb(1.0f);
+  SpanWalk walk(context_.world.media_context(), media, trace.crossings, trace.t_end);
+  Rng rng = context_.sampler.stream();
+  const Rgb T = transmittance_along(context_, walk, ray, rng);
+  context_.counters.parity_errors += walk.parity_errors();
+  return T;
 }
 
 /// MIS weight of a scattered ray that found light `id`, which next-event estimation samples with `light_pdf`.
@@ -97,6 +133,7 @@ void Path::add_volume_emission(const Span& span) {
 }
 
 void Path::add_environment() {
+  if (end_counted_) return;
   if (light_sampled_ && is_environment_offered()) return offer_environment();
   const Lights& lights = context_.world.lights;
   const Ray ray{depth_ == 0 ? ray_.o : from_, ray_.d};  // from where lights were sampled, as portals depend on it
@@ -110,10 +147,10 @@ void Path::add_environment() {
 
 void Path::add_surface_emission(const SurfaceHit& hit) {
   const auto id = context_.world.light_of(hit);
-  if (!id) return;
+  if (!id || end_counted_) return;
   if (depth_ == 0 && context_.drawn_emission && context_.drawn_emission->holds(context_.world, *id)) return;
   const Lights& lights = context_.world.lights;
-  const EmitterHit emitter{.p = hit.p, .ng = hit.ng, .uv = hit.uv, .distance = hit.t};
+  const EmitterHit emitter = emitter_hit(hit);
   const Rgb L = lights.emitted(*id, emitter, -ray_.d);
   if (is_black(L)) return;
   const float pdf = light_sampled_ ? lights.pdf(*id, from_, emitter) : 0.0f;

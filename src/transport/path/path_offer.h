@@ -44,6 +44,7 @@ struct PathOffer {
   /// an environment, which all know, what its own path counts.
   Rgb radiance;
   Vec3 wi;                         ///< where the path went on from `at`
+  bool by_mirror = false;          ///< mirrored there: toward none but the path itself
   std::optional<Aureole> aureole;  ///< by which that was drawn
   Rgb scattered{1.0f};             ///< what `at` scatters of that toward `first`, over its density
   Rgb own;                         ///< light that `at` scatters toward `first` and that only the path itself counts

@@ -25,6 +25,7 @@ Ray ray_to(const PathOffer& find, const Geometry& geometry, const Vertex& from) 
 }  // namespace
 
 Connection scattered_back(const PathOffer& find, Vec3 w) {
+  if (find.by_mirror) return {};
   if (const auto* medium = find.at->medium()) {
     const Rgb phase = medium->phase.eval(-w, find.wi);
     if (!has_all_channels(phase)) return {phase, 0};

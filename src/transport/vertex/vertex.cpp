@@ -74,7 +74,7 @@ std::optional<ScatterSample> Vertex::sample(Rgb beta, float uc, Vec2 u) const {
   if (const auto* surface = std::get_if<Surface>(&kind_)) {
     const auto s = surface->bsdf.sample(wo_, uc, u);
     if (!s) return std::nullopt;
-    return ScatterSample{s->wi, s->weight, s->pdf, s->specular, s->eta};
+    return ScatterSample{s->wi, s->weight, s->pdf, s->specular, s->eta, s->specular && !s->transmission};
   }
   const auto s = std::get<InMedium>(kind_).phase.sample(wo_, beta, uc, u);
   if (!s) return std::nullopt;

@@ -19,6 +19,7 @@ struct ScatterSample {
   float pdf;                   ///< 1/sr
   bool specular;               ///< next-event estimation cannot reach it
   float eta = 1;               ///< relative index crossed
+  bool mirrored = false;       ///< as Vertex::mirror_part() says
   float guided_pdf_ratio = 1;  ///< pdf, by that of the scattering function alone
 };
 
@@ -56,6 +57,9 @@ class Vertex {
   /// 1/sr, of sample(); `beta` is the path's throughput, which steers the choice between overlapping phase functions.
   float pdf(Vec3 wi, Rgb beta) const;
   std::optional<ScatterSample> sample(Rgb beta, float uc, Vec2 u) const;
+
+  /// Of a surface that mirrors by chance.
+  std::optional<MirrorPart> mirror_part() const { return on_surface() ? surface()->bsdf.mirror_part(wo_) : std::nullopt; }
 
   /// Reflectance plus transmittance of a surface; 1 in media, where it is in the collision's weight.
   Rgb albedo() const;

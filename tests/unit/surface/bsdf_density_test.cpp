@@ -102,6 +102,7 @@ TEST_CASE("nothing is ever negative, infinite or not a number") {
     for (const float eta : {0.66f, 1.0f, 1.5f}) {
       const Coat coat{.thickness = 0.01f, .albedo = Rgb(0.5f), .g = 0.9f};
       lobes.push_back(CoatedDiffuseLobe{glass(eta, a, a), {Rgb(0.9f)}, {}});
+      lobes.push_back(ClearCoatLobe(eta, Rgb(a), {.thickness = 10 * a}));
       lobes.push_back(CoatedConductorLobe{glass(eta, a, a), metal(a, 0.1f), coat});
     }
   }

@@ -1,4 +1,4 @@
-/// Coated materials: the walk of sample() against the walk of eval(), furnaces, reciprocity, a closed form.
+/// Coated materials: the walk of sample() against the walk of eval(), furnaces, reciprocity.
 #include <doctest/doctest.h>
 
 #include <array>
@@ -6,7 +6,6 @@
 #include "math/hash.h"
 #include "math/warp.h"
 #include "support/relative.h"
-#include "surface/fresnel.h"
 #include "unit/surface/bsdf_cases.h"
 
 using namespace tyndall;
@@ -80,26 +79,6 @@ TEST_CASE("the mean weight of samples is the integral of the mean value") {
         CHECK(6.5 * error < 0.10 * sampled[0].mean());
       }
     }
-}
-
-TEST_CASE("a clear smooth coat over diffuse has a closed form") {
-  // f cos_i = T(o) T(i) rho cos_i / (pi eta^2 (1 - rho R)), R the diffuse reflectance of the coat from inside.
-  constexpr float eta = 1.5f, rho = 0.7f;
-  double inside = 0;
-  for (int i = 0; i < 10000; ++i) {
-    const double c = (i + 0.5) / 10000;
-    inside += 2 * c * double(fresnel_dielectric(float(c), 1 / eta)) / 10000;
-  }
-  const Bsdf::Lobe lobe = CoatedDiffuseLobe{glass(eta, 0, 0), {Rgb(rho)}, {.thickness = 1e-20f, .max_depth = 200}};
-  for (const auto& [o, i] : {std::pair{polar(20, 0), polar(50, 70)}, std::pair{polar(80, 0), polar(10, 30)}}) {
-    Estimate value;
-    for (std::uint64_t n = 0; n < 40'000; ++n) value.add(double(with_seed(lobe, n).eval(o, i).r));
-    const double expected =
-        double((1 - fresnel_dielectric(o.z, eta)) * (1 - fresnel_dielectric(i.z, eta)) * i.z * rho * kInvPi) /
-        (eta * eta * (1 - rho * inside));
-    CHECK(std::abs(value.mean() - expected) < 4.5 * value.error());
-    CHECK(6.5 * value.error() < 0.03 * expected);
-  }
 }
 
 TEST_CASE("furnaces: nothing is gained, and a white coat without loss gives everything back") {
