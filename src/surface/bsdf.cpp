@@ -20,12 +20,10 @@ struct HighlightFinder {
     add_transmission(lobe.ggx, lobe.eta, wo, (1 - kMissedByGlass) * (1 - r), found);
   }
   void operator()(const CoatedDiffuseLobe& lobe) {
-    if (lobe.top.is_specular()) return;
-    const float r = reflectance(lobe.top), below = (1 - r) * mean(lobe.bottom.reflectance);
-    if (!(r + below > 0)) return;
-    found.diffuse = below / (r + below);
-    add_reflection(lobe.top.ggx, wo, r / (r + below), found);
+    const float r = reflectance(lobe.top);
+    over_diffuse(lobe.top, r, (1 - r) * mean(lobe.bottom.reflectance));
   }
+  void operator()(const ClearCoatLobe& lobe) { over_diffuse(lobe.top(), lobe.reflected(wo), mean(lobe.even_albedo(wo))); }
   void operator()(const CoatedConductorLobe& lobe) {
     if (lobe.top.is_specular()) return only(lobe.bottom.ggx);
     const float r = reflectance(lobe.top);
@@ -38,6 +36,11 @@ struct HighlightFinder {
   void only(const Ggx& ggx) {
     found.diffuse = 0;
     add_reflection(ggx, wo, 1, found);
+  }
+  void over_diffuse(const DielectricLobe& top, float r, float below) {
+    if (top.is_specular() || !(r + below > 0)) return;
+    found.diffuse = below / (r + below);
+    add_reflection(top.ggx, wo, r / (r + below), found);
   }
   float reflectance(const DielectricLobe& lobe) const {
     return fresnel_dielectric(std::abs(wo.z), wo.z > 0 ? lobe.eta : 1 / lobe.eta);

@@ -18,9 +18,9 @@ namespace tyndall {
 /// A BSDF with its frame: a small value, no heap. Directions are unit, in world space, and both leave the surface.
 /// Sides are judged by the shading normal alone, as in pbrt-v4.
 ///
-/// Radiance transport: a transmission includes the factor 1/eta^2. pdf() is the exact density of sample() except under
-/// coats that are rough, scatter or cover metal, where the walk has none in closed form: there it is a deterministic proxy. MIS
-/// stays unbiased as long as both techniques weigh with pdf(), since weight is an unbiased estimate on its own.
+/// Radiance transport: a transmission includes the factor 1/eta^2. pdf() is the exact density of sample() except of
+/// LayeredLobe, whose walk has none in closed form: there it is a deterministic proxy. MIS stays unbiased as long as both
+/// techniques weigh with pdf(), since weight is an unbiased estimate on its own.
 class Bsdf {
  public:
   using Lobe = std::variant<DiffuseLobe, DiffuseTransmissionLobe, ConductorLobe, DielectricLobe, ThinDielectricLobe,

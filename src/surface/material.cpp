@@ -1,6 +1,9 @@
 #include "surface/material.h"
 
+#include <algorithm>
+#include <array>
 #include <bit>
+#include <map>
 
 #include "math/hash.h"
 #include "surface/material_check.h"
@@ -35,15 +38,17 @@ class LobeBuilder {
   }
 
   Bsdf::Lobe operator()(const CoatedDiffuseMaterial& m) const {
-    const DielectricLobe top = dielectric(m.coating.eta, m.coating.roughness);
+    const DielectricLobe coat_top = top(m.coating);
     const Rgb reflectance = clamp01(rgb(m.reflectance));
     const Coat between = coat(m.coating);
-    if (top.is_specular() && is_black(between.albedo)) return ClearCoatLobe(top.eta, reflectance, between);
-    return CoatedDiffuseLobe{.top = top, .bottom = {reflectance}, .coat = between};
+    if (shares_) return ClearCoatLobe(coat_top, reflectance, between, *shares_);
+    if (coat_top.is_specular() && is_black(between.albedo))
+      return ClearCoatLobe(coat_top, reflectance, between, coat_shares(coat_top, between.thickness));
+    return CoatedDiffuseLobe{.top = coat_top, .bottom = {reflectance}, .coat = between};
   }
 
   Bsdf::Lobe operator()(const CoatedConductorMaterial& m) const {
-    return CoatedConductorLobe{.top = dielectric(m.coating.eta, m.coating.roughness),
+    return CoatedConductorLobe{.top = top(m.coating),
                                .bottom = conductor(m.optics, m.conductor_roughness, index(m.coating.eta)),
                                .coat = coat(m.coating)};
   }
@@ -52,6 +57,21 @@ class LobeBuilder {
   Bsdf::Lobe operator()(const InterfaceMaterial&) const { return PassThroughLobe{}; }
 
   float scalar(TextureId id) const { return textures_.eval_float(id, at_); }
+
+  /// Of a clear coat that is the same everywhere, known beforehand; null: of none.
+  void set_shares(const CoatShares* shares) { shares_ = shares; }
+  DielectricLobe top(const Coating& c) const { return dielectric(c.eta, c.roughness); }
+
+  Coat coat(const Coating& c) const {
+    const auto bits = [](float x) { return std::uint64_t{std::bit_cast<std::uint32_t>(x)}; };
+    const Vec3 p = query_.p;
+    return {.thickness = std::max(scalar(c.thickness), std::numeric_limits<float>::min()),
+            .albedo = clamp01(rgb(c.albedo)),
+            .g = std::clamp(scalar(c.g), -0.99f, 0.99f),
+            .max_depth = c.max_depth,
+            .samples = std::max(1, c.samples),
+            .seed = hash(bits(p.x), bits(p.y), bits(p.z), bits(query_.random))};
+  }
 
   /// The shading frame as the material bends it. A normal map wins over a displacement, as in pbrt.
   Frame frame(const Material& m) const {
@@ -80,20 +100,10 @@ class LobeBuilder {
     return {ggx(roughness), eta / outside, k / outside};
   }
 
-  Coat coat(const Coating& c) const {
-    const auto bits = [](float x) { return std::uint64_t{std::bit_cast<std::uint32_t>(x)}; };
-    const Vec3 p = query_.p;
-    return {.thickness = std::max(scalar(c.thickness), std::numeric_limits<float>::min()),
-            .albedo = clamp01(rgb(c.albedo)),
-            .g = std::clamp(scalar(c.g), -0.99f, 0.99f),
-            .max_depth = c.max_depth,
-            .samples = std::max(1, c.samples),
-            .seed = hash(bits(p.x), bits(p.y), bits(p.z), bits(query_.random))};
-  }
-
   const Textures& textures_;
   const SurfaceQuery& query_;
   TextureQuery at_;
+  const CoatShares* shares_ = nullptr;
 };
 
 }  // namespace
@@ -101,6 +111,7 @@ class LobeBuilder {
 Materials::Materials(const Scene& scene, const Textures& textures) : materials_(scene.materials), textures_(&textures) {
   check_materials(materials_, textures.size());
   for (const Material& m : materials_) traits_.push_back(own_traits(m));
+  find_shares();
   // Mixes have those of their parts; most are defined after them, and one round does.
   for (bool changed = true; changed;) {
     changed = false;
@@ -125,8 +136,30 @@ Materials::Traits Materials::own_traits(const Material& m) const {
   return t;
 }
 
+/// Of coats that do not differ from place to place, once for all of the same top and thickness.
+void Materials::find_shares() {
+  std::map<std::array<float, 3>, std::shared_ptr<const CoatShares>> found;
+  const SurfaceQuery anywhere;
+  const LobeBuilder build(*textures_, anywhere);
+  for (const Material& m : materials_) {
+    shares_.emplace_back();
+    const auto* coated = std::get_if<CoatedDiffuseMaterial>(&m.kind);
+    if (!coated) continue;
+    const Coating& c = coated->coating;
+    const TextureId textures[] = {c.roughness.u, c.roughness.v, c.thickness, c.albedo};
+    if (!std::ranges::all_of(textures, [this](TextureId id) { return textures_->is_constant(id); })) continue;
+    const DielectricLobe top = build.top(c);
+    const Coat coat = build.coat(c);
+    const bool known = top.is_specular() || (top.ggx.alpha_x() == top.ggx.alpha_y() && top.eta >= 1);
+    if (!is_black(coat.albedo) || !known) continue;
+    auto& shares = found[{top.eta, top.is_specular() ? 0.0f : top.ggx.alpha_x(), coat.thickness}];
+    if (!shares) shares = std::make_shared<const CoatShares>(coat_shares(top, coat.thickness));
+    shares_.back() = shares;
+  }
+}
+
 Bsdf Materials::bsdf(MaterialId id, const SurfaceQuery& query) const {
-  const LobeBuilder build(*textures_, query);
+  LobeBuilder build(*textures_, query);
   // A mix keeps one material; what the choice leaves of the random number serves the mix inside it.
   float random = query.random;
   while (const auto* mix = std::get_if<MixMaterial>(&materials_[id].kind)) {
@@ -136,6 +169,7 @@ Bsdf Materials::bsdf(MaterialId id, const SurfaceQuery& query) const {
     id = second ? mix->second : mix->first;
   }
   const Material& material = materials_[id];
+  build.set_shares(shares_[id].get());
   const bool is_bent = material.normal_map || material.displacement;
   return {is_bent ? build.frame(material) : query.shading, std::visit(build, material.kind)};
 }

@@ -1,6 +1,7 @@
 /// From a scene's materials to the BSDF at a point.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -53,9 +54,11 @@ class Materials {
     bool operator==(const Traits&) const = default;
   };
   Traits own_traits(const Material& m) const;
+  void find_shares();
 
   std::vector<Material> materials_;
   std::vector<Traits> traits_;
+  std::vector<std::shared_ptr<const CoatShares>> shares_;  ///< of materials with such coats
   const Textures* textures_;
 };
 

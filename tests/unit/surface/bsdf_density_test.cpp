@@ -1,6 +1,8 @@
 /// Do samples follow the densities, and do weights, values and densities agree?
 #include <doctest/doctest.h>
 
+#include <deque>
+
 #include "support/chi_squared.h"
 #include "support/relative.h"
 #include "unit/surface/bsdf_cases.h"
@@ -95,6 +97,7 @@ TEST_CASE("nothing is ever negative, infinite or not a number") {
   };
   std::vector<Bsdf::Lobe> lobes{DiffuseLobe{}, DiffuseTransmissionLobe{}, ThinDielectricLobe{1.0f}, ThinDielectricLobe{0.7f},
                                 PassThroughLobe{}};
+  std::deque<CoatShares> kept;  // coats refer to them
   for (const float a : {0.0f, 9e-4f, 1e-3f, 0.02f, 0.3f, 1.0f}) {
     for (const float eta : {0.4f, 0.66f, 0.9999f, 1.0f, 1.00001f, 1.0003f, 1.5f, 4.0f}) lobes.push_back(glass(eta, a, a));
     lobes.push_back(metal(a, 1));
@@ -102,8 +105,10 @@ TEST_CASE("nothing is ever negative, infinite or not a number") {
     for (const float eta : {0.66f, 1.0f, 1.5f}) {
       const Coat coat{.thickness = 0.01f, .albedo = Rgb(0.5f), .g = 0.9f};
       lobes.push_back(CoatedDiffuseLobe{glass(eta, a, a), {Rgb(0.9f)}, {}});
-      lobes.push_back(ClearCoatLobe(eta, Rgb(a), {.thickness = 10 * a}));
       lobes.push_back(CoatedConductorLobe{glass(eta, a, a), metal(a, 0.1f), coat});
+      if (eta < 1 && a > 1e-3f) continue;  // not as a clear coat
+      const CoatShares& shares = kept.emplace_back(coat_shares(glass(eta, a, a), 10 * a));
+      lobes.push_back(ClearCoatLobe(glass(eta, a, a), Rgb(a), {.thickness = 10 * a}, shares));
     }
   }
   for (const Bsdf::Lobe& lobe : lobes) {

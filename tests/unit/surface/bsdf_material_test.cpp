@@ -132,12 +132,52 @@ TEST_CASE("coated walks differ from point to point") {
   Palette p;
   const auto coated = p.material(CoatedDiffuseMaterial{
       p.texture(0.5f),
-      {.roughness = p.roughness(0.2f, 0.2f), .thickness = p.texture(0.01f), .g = p.texture(0), .albedo = p.texture(0)}});
+      {.roughness = p.roughness(0.2f, 0.2f), .thickness = p.texture(0.01f), .g = p.texture(0), .albedo = p.texture(0.5f)}});
   SurfaceQuery elsewhere = kQuery;
   elsewhere.p.x += 1e-3f;
   const Vec3 wo = polar(30, 0), wi = polar(40, 160);
   CHECK(build(p, coated).eval(wo, wi) == build(p, coated).eval(wo, wi));
   CHECK(build(p, coated).eval(wo, wi).g != build(p, coated, elsewhere).eval(wo, wi).g);
+}
+
+TEST_CASE("clear coats that are the same everywhere take no walks") {
+  Palette p;
+  const auto coated = [&](float alpha_v, TextureId thickness, float albedo, float eta) {
+    return p.material(CoatedDiffuseMaterial{p.texture(0.5f),
+                                            {.roughness = p.roughness(0.2f, alpha_v),
+                                             .thickness = thickness,
+                                             .eta = eta,
+                                             .g = p.texture(0),
+                                             .albedo = p.texture(albedo)}});
+  };
+  const TextureId thin = p.texture(0.01f);
+  CHECK(build(p, coated(0.2f, thin, 0, 1.5f)).has_exact_pdf());
+  CHECK_FALSE(build(p, coated(0.1f, thin, 0, 1.5f)).has_exact_pdf());
+  CHECK_FALSE(build(p, coated(0.2f, thin, 0.1f, 1.5f)).has_exact_pdf());
+  CHECK_FALSE(build(p, coated(0.2f, thin, 0, 0.7f)).has_exact_pdf());
+}
+
+TEST_CASE("clear coats of several tops and thicknesses have shares of their own, the same as alone") {
+  struct Coated {
+    float roughness, thickness;
+  };
+  const Coated coats[] = {{0.2f, 0.01f}, {0.2f, 0.4f}, {0.02f, 0.01f}, {0, 0.01f}, {0.2f, 0.01f}};
+  Palette p;
+  for (const Coated& c : coats)
+    p.material(CoatedDiffuseMaterial{p.texture(0.5f),
+                                     {.roughness = p.roughness(c.roughness, c.roughness, false),
+                                      .thickness = p.texture(c.thickness),
+                                      .g = p.texture(0),
+                                      .albedo = p.texture(0)}});
+  const Textures textures = build_textures(p.scene.textures);
+  const Materials materials(p.scene, textures);
+  for (MaterialId id = 0; id < std::size(coats); ++id) {
+    const DielectricLobe top = glass(1.5f, coats[id].roughness, coats[id].roughness);
+    const CoatShares shares = coat_shares(top, coats[id].thickness);
+    const ClearCoatLobe alone(top, Rgb(0.5f), {.thickness = coats[id].thickness}, shares);
+    const Vec3 wo = polar(40, 0), wi = polar(65, 100);
+    CHECK(materials.bsdf(id, kQuery).eval(wo, wi).g == Bsdf(Frame{}, alone).eval(wo, wi).g);
+  }
 }
 
 TEST_CASE("contradictory materials are refused with their place") {
