@@ -18,6 +18,7 @@
 #include "report/merge.h"
 #include "tyndall/error.h"
 #include "tyndall/frames.h"
+#include "tyndall/image_attributes.h"
 #include "tyndall/timer.h"
 
 namespace tyndall::cli {
@@ -41,8 +42,8 @@ void report(const Merged& merged, const MergeOptions& options) {
   const Image& image = merged.image;
   if (!options.quiet) {
     log("{}: {} x {} pixels at {}, {} from {} image(s), {} samples a pixel, seed {}\n", options.output, image.width(),
-        image.height(), image.data.x0, image.data.y0, merged.images, attribute_text(image, "tyndall/samples"),
-        attribute_text(image, "tyndall/seed"));
+        image.height(), image.data.x0, image.data.y0, merged.images, attribute_text(image, attributes::kSamples),
+        attribute_text(image, attributes::kSeed));
   }
   if (!options.quiet || !merged.complete()) log_text(as_text(merged, options.error));
 }

@@ -10,6 +10,8 @@
 #include <sstream>
 
 #include "report/command_words.h"
+#include "tyndall/image_attributes.h"
+#include "tyndall/settings.h"
 
 namespace tyndall::cli {
 namespace {
@@ -52,7 +54,7 @@ std::string output_of_seed(std::string path, std::uint64_t seed) {
 /// One that no sample of the image has.
 std::uint64_t unused_seed(const Image& image) {
   std::set<std::uint64_t> used{0};
-  const auto* text = image.attribute<std::string>("tyndall/seed");
+  const auto* text = image.attribute<std::string>(attributes::kSeed);
   std::istringstream seeds(text ? *text : "");
   for (std::string seed; std::getline(seeds, seed, ',');) used.insert(std::strtoull(seed.c_str(), nullptr, 10));
   std::uint64_t seed = *used.rbegin() + 1;
@@ -92,7 +94,7 @@ std::string about_error(const Merged& merged, std::optional<double> wanted) {
   if (!merged.relmse || !std::isfinite(*merged.relmse)) return "";
   std::string text = fmt::format("  estimated relMSE {:.3g}", *merged.relmse);
   if (!wanted) return text + "\n";
-  const int* samples = merged.image.attribute<int>("tyndall/samples");
+  const int* samples = merged.image.attribute<int>(attributes::kSamples);
   if (*merged.relmse <= *wanted) return text + fmt::format(", not above the {:.3g} asked for\n", *wanted);
   if (!samples) return text + fmt::format(", above the {:.3g} asked for\n", *wanted);
   const double more = std::ceil(*samples * (*merged.relmse / *wanted - 1));

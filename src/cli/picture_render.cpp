@@ -14,6 +14,7 @@
 #include "session/rendered_pixels.h"
 #include "session/scene_hash.h"
 #include "tyndall/cryptomatte.h"
+#include "tyndall/image_attributes.h"
 #include "tyndall/io.h"
 #include "tyndall/memory.h"
 #include "tyndall/slice.h"
@@ -47,7 +48,7 @@ bool says(const Image& header, const std::string& attribute, const T& value) {
 
 /// What a setting leaves open stands in the header as the render chose it.
 bool says_options(const Image& header, const RenderSettings& settings) {
-  const auto* text = header.attribute<std::string>("tyndall/options");
+  const auto* text = header.attribute<std::string>(attributes::kOptions);
   if (!text) return false;
   std::istringstream asked(options_text(settings)), rendered(*text);
   std::string word, other;
@@ -90,13 +91,14 @@ bool PictureRender::holds_all_channels(const Image& header) const {
 bool PictureRender::holds_deep(const Image& header) const {
   if (options_.deep.empty()) return true;
   std::error_code absent;
-  return fs::exists(options_.deep, absent) && is_deep_exr(options_.deep) && says(header, kDeepBins, *settings_.deep_bins);
+  return fs::exists(options_.deep, absent) && is_deep_exr(options_.deep) &&
+         says(header, attributes::kDeepBins, *settings_.deep_bins);
 }
 
 /// Its mattes go by the names of the scene.
 bool PictureRender::holds_names(const Image& header, std::uint64_t names) const {
   const auto& aovs = settings_.aovs;
-  return std::none_of(aovs.begin(), aovs.end(), is_matte_layer) || says(header, kMatteNames, std::to_string(names));
+  return std::none_of(aovs.begin(), aovs.end(), is_matte_layer) || says(header, attributes::kMatteNames, std::to_string(names));
 }
 
 bool PictureRender::is_finished(const SceneHashes& of) const {
@@ -105,10 +107,10 @@ bool PictureRender::is_finished(const SceneHashes& of) const {
   try {
     const Image header = read_exr_header(output_);
     const bool open_end = settings_.time || settings_.error || settings_.error_max;  // it ended where these say
-    return says(header, "tyndall/sceneHash", scene_hash_text(of.scene, settings_)) &&
-           says(header, "tyndall/seed", std::to_string(settings_.seed)) && says_options(header, settings_) &&
-           !header.attributes.contains("tyndall/stopped") && !header.attributes.contains("tyndall/relight") &&
-           (open_end || says(header, "tyndall/samples", settings_.spp)) && says_end(header, settings_) &&
+    return says(header, attributes::kSceneHash, scene_hash_text(of.scene, settings_)) &&
+           says(header, attributes::kSeed, std::to_string(settings_.seed)) && says_options(header, settings_) &&
+           !header.attributes.contains(attributes::kStopped) && !header.attributes.contains(attributes::kRelight) &&
+           (open_end || says(header, attributes::kSamples, settings_.spp)) && says_end(header, settings_) &&
            header.data == pixels_ && holds_all_channels(header) && holds_names(header, of.names) && holds_deep(header);
   } catch (const Error&) {
     return false;  // damaged, or no .exr: it is rendered anew
@@ -170,7 +172,7 @@ Rendering PictureRender::render_with(const World& world, const std::function<voi
 void PictureRender::finish_slice(Rendering& rendering, const std::string& command_line) const {
   if (rendering.report.unrendered > 0)
     throw Error(Failure::incomplete, output_ + ": not written: the slice was stopped before every pixel had a sample");
-  rendering.image.attributes["tyndall/command"] = command_line;
+  rendering.image.attributes[attributes::kCommand] = command_line;
 }
 
 /// A render that was stopped at its first sample stays as it is.

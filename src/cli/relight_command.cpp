@@ -5,6 +5,7 @@
 #include "cli/save.h"
 #include "report/relight.h"
 #include "tyndall/error.h"
+#include "tyndall/image_attributes.h"
 #include "tyndall/io.h"
 
 namespace tyndall::cli {
@@ -44,7 +45,7 @@ int run_relight(const RelightOptions& o) {
   for (const std::string& channel : relit.left_out)
     log("{}: {} is left out, since it is not known by light groups\n", o.output, channel);
   log("{}: {}x{}, {}\n", o.output, relit.image.width(), relit.image.height(),
-      *relit.image.attribute<std::string>("tyndall/relight"));
+      *relit.image.attribute<std::string>(attributes::kRelight));
   return 0;
 }
 

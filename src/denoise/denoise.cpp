@@ -11,6 +11,7 @@
 #include "denoise/share_out.h"
 #include "denoise/stated_errors.h"
 #include "denoise/variance.h"
+#include "tyndall/image_attributes.h"
 #include "tyndall/timer.h"
 
 namespace tyndall {
@@ -210,7 +211,7 @@ Denoised denoise(const Image& image, const DenoiseSettings& settings, const std:
   store(light, result.image, "noisy.");
   store(values, result.image, "");
   store(errors, result.image, "Mse.");
-  result.image.attributes["tyndall/denoised"] = header_text(components, result.report.missing);
+  result.image.attributes[attributes::kDenoised] = header_text(components, result.report.missing);
   result.report.noisy_relmse = relative_error(noise, values);
   result.report.relmse = relative_error(errors, values);
   result.report.seconds = timer.seconds();

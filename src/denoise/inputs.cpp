@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "tyndall/error.h"
+#include "tyndall/image_attributes.h"
 #include "tyndall/lights.h"
 
 namespace tyndall {
@@ -18,7 +19,7 @@ const std::string kReplicate = "Replicate.";
 class SampleCounts {
  public:
   explicit SampleCounts(const Image& image) : all_(image.find("SampleCount")), even_(image.find(kReplicate + "SampleCount")) {
-    if (const auto* samples = image.attribute<int>("tyndall/samples")) samples_ = static_cast<float>(*samples);
+    if (const auto* samples = image.attribute<int>(attributes::kSamples)) samples_ = static_cast<float>(*samples);
   }
 
   float all(std::size_t i) const { return all_ ? all_->values[i] : samples_; }
@@ -147,7 +148,7 @@ std::vector<std::string> input_aovs() {
 }
 
 std::vector<Component> components_of(const Image& image, const std::string& name) {
-  if (image.find("noisy.R") || image.attributes.contains("tyndall/denoised"))
+  if (image.find("noisy.R") || image.attributes.contains(attributes::kDenoised))
     throw Error(Failure::scene, name + ": is denoised already; give the image that was rendered");
   if (!has_halves(image, names("", kRgb))) {
     throw Error(Failure::scene, name + ": holds no replicates, from which noise can be told; render with --denoise, or with " +
@@ -156,7 +157,7 @@ std::vector<Component> components_of(const Image& image, const std::string& name
   if (!SampleCounts(image).two_halves()) {
     throw Error(Failure::scene, name + ": has one sample a pixel, and with it no replicates; render two or more to denoise");
   }
-  if (image.attributes.contains("tyndall/slice"))
+  if (image.attributes.contains(attributes::kSlice))
     throw Error(Failure::scene, name + ": is a slice of a render; merge all slices first");
   const std::vector<Component>& parts = components_of_light();
   const bool split =

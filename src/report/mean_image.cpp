@@ -5,6 +5,7 @@
 
 #include "report/metrics.h"
 #include "tyndall/error.h"
+#include "tyndall/image_attributes.h"
 
 namespace tyndall {
 namespace {
@@ -64,7 +65,7 @@ MeanImage mean_image(const Image& image, double dof) {
 }
 
 double sharing_of(const Image& image) {
-  const int* sharing = image.attribute<int>("tyndall/sharing");
+  const int* sharing = image.attribute<int>(attributes::kSharing);
   return sharing ? std::max(*sharing, 1) : 1;
 }
 

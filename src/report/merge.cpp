@@ -10,6 +10,7 @@
 #include "report/metrics.h"
 #include "report/slice.h"
 #include "tyndall/error.h"
+#include "tyndall/image_attributes.h"
 #include "tyndall/io.h"
 
 namespace tyndall {
@@ -82,14 +83,14 @@ void merge_times(const std::vector<Slice>& slices, Image& image) {
   double seconds = 0;
   std::string latest;
   for (const Slice& slice : slices) {
-    const auto* time = slice.header.attribute<double>("tyndall/renderTime");
-    const auto* date = slice.header.attribute<std::string>("tyndall/date");
+    const auto* time = slice.header.attribute<double>(attributes::kRenderTime);
+    const auto* date = slice.header.attribute<std::string>(attributes::kDate);
     if (!time || !date) return;  // --reproducible
     seconds += *time;
     latest = std::max(latest, *date);
   }
-  image.attributes["tyndall/renderTime"] = seconds;
-  image.attributes["tyndall/date"] = latest;
+  image.attributes[attributes::kRenderTime] = seconds;
+  image.attributes[attributes::kDate] = latest;
 }
 
 Attribute samples_attribute(const Image& image) {
@@ -124,11 +125,11 @@ void merge_attributes(const std::vector<Slice>& slices, Image& image) {
   }
   std::string seed_list;
   for (const std::uint64_t seed : seeds) seed_list += (seed_list.empty() ? "" : ", ") + std::to_string(seed);
-  image.attributes["tyndall/slices"] = sources_text(std::move(sources));
-  image.attributes["tyndall/seed"] = seed_list;
-  image.attributes["tyndall/samples"] = samples_attribute(image);
-  const std::string options = listed(slices, "tyndall/options", " | ");
-  if (!options.empty()) image.attributes["tyndall/options"] = options;
+  image.attributes[attributes::kSlices] = sources_text(std::move(sources));
+  image.attributes[attributes::kSeed] = seed_list;
+  image.attributes[attributes::kSamples] = samples_attribute(image);
+  const std::string options = listed(slices, attributes::kOptions, " | ");
+  if (!options.empty()) image.attributes[attributes::kOptions] = options;
   merge_times(slices, image);
 }
 
@@ -202,7 +203,7 @@ SliceTally tally_of(const std::vector<Slice>& slices) {
   for (int i = 1; i <= tally.count; ++i) {
     if (!whole.contains(i)) tally.missing.push_back(i);
   }
-  if (const auto* command = slices.front().header.attribute<std::string>("tyndall/command")) tally.command = *command;
+  if (const auto* command = slices.front().header.attribute<std::string>(attributes::kCommand)) tally.command = *command;
   return tally;
 }
 
@@ -232,7 +233,7 @@ bool are_of_one_render(const std::vector<Slice>& slices) {
 std::map<std::string, Attribute> attributes_in_depth(const Image& flat) {
   auto attributes = flat.attributes;
   std::erase_if(attributes,
-                [](const auto& a) { return a.first.starts_with("cryptomatte/") || a.first == "tyndall/lightGroups"; });
+                [](const auto& a) { return a.first.starts_with("cryptomatte/") || a.first == attributes::kLightGroups; });
   return attributes;
 }
 
@@ -245,7 +246,7 @@ void add_up(std::vector<Slice>& slices, Merged& merged) {
   merged.image = sum.image(!whole);
   if (whole) {
     merged.image.attributes = common_attributes(slices);
-    merged.image.attributes["tyndall/samples"] = sum.samples();
+    merged.image.attributes[attributes::kSamples] = sum.samples();
     merge_times(slices, merged.image);
   } else {
     merge_attributes(slices, merged.image);

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "tyndall/error.h"
+#include "tyndall/image_attributes.h"
 
 namespace tyndall {
 namespace {
@@ -82,7 +83,7 @@ ErrorMetrics measure_error_without_noise(const Image& image, const Image& refere
 
 bool has_variances(const Image& image) {
   return image.find("Variance.R") && image.find("Variance.G") && image.find("Variance.B") &&
-         !image.attributes.contains("tyndall/denoised");
+         !image.attributes.contains(attributes::kDenoised);
 }
 
 double relmse_by_variances(const Image& image) {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "tyndall/error.h"
+#include "tyndall/image_attributes.h"
 #include "tyndall/io.h"
 
 namespace tyndall {
@@ -46,12 +47,12 @@ ErrorMetrics Reference::error_of(const Image& picture) const {
 
 void Reference::require_fit(const World& world, const RenderSettings& settings, const std::vector<std::uint64_t>& seeds) const {
   const PixelBounds pixels = RenderJob(world, settings).pixels();
-  const bool of_ours = image.attributes.contains("tyndall/sceneHash");
+  const bool of_ours = image.attributes.contains(attributes::kSceneHash);
   if (image.width() != pixels.width() || image.height() != pixels.height() || (of_ours && !(image.data == pixels))) {
     refuse("has the pixels " + box(image.data) + " where the render has " + box(pixels) +
            "; give the reference's --resolution and --crop");
   }
-  const auto* hash = image.attribute<std::string>("tyndall/sceneHash");
+  const auto* hash = image.attribute<std::string>(attributes::kSceneHash);
   if (hash && *hash != world.scene_hash(settings)) {
     refuse("is of another scene (" + *hash + ", this one is " + world.scene_hash(settings) +
            "); render it from this scene with the same --max-depth");
@@ -73,8 +74,8 @@ Reference as_reference(Image image, const std::string& source) {
   r.source = source;
   require_sound(r.image, source);
   r.has_variance = has_variances(r.image);
-  if (const int* samples = r.image.attribute<int>("tyndall/samples")) r.samples = *samples;
-  if (const auto* seed = r.image.attribute<std::string>("tyndall/seed")) r.seed = *seed;
+  if (const int* samples = r.image.attribute<int>(attributes::kSamples)) r.samples = *samples;
+  if (const auto* seed = r.image.attribute<std::string>(attributes::kSeed)) r.seed = *seed;
   r.has_variance = r.has_variance && r.samples != 1;  // one sample says nothing of its variance
   if (r.has_variance) r.relmse = relmse_by_variances(r.image);
   return r;

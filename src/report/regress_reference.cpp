@@ -5,13 +5,11 @@
 #include <cstdint>
 
 #include "tyndall/error.h"
+#include "tyndall/image_attributes.h"
 #include "tyndall/io.h"
 
 namespace tyndall {
 namespace {
-
-constexpr const char* kRuns = "tyndall/runs";
-constexpr const char* kSpp = "tyndall/samplesPerRun";
 
 /// The next float upward with 9 bits of mantissa.
 float rounded_up(double value) {
@@ -32,7 +30,7 @@ bool is_tested_channel(const std::string& name) { return !name.starts_with("Vari
 
 bool is_reference(const std::string& path) {
   try {
-    return count_in(read_image(path), kRuns) > 0;
+    return count_in(read_image(path), attributes::kRuns) > 0;
   } catch (const Error&) {
     return false;
   }
@@ -61,10 +59,10 @@ void RunMeans::add(const Image& image) {
 
 Image RunMeans::result(int spp) const {
   Image image = frame_;
-  for (const char* own : {"tyndall/seed", "tyndall/renderTime", "tyndall/date"}) image.attributes.erase(own);
-  image.attributes["tyndall/samples"] = spp * count_;
-  image.attributes[kRuns] = count_;
-  image.attributes[kSpp] = spp;
+  for (const char* own : {attributes::kSeed, attributes::kRenderTime, attributes::kDate}) image.attributes.erase(own);
+  image.attributes[attributes::kSamples] = spp * count_;
+  image.attributes[attributes::kRuns] = count_;
+  image.attributes[attributes::kSamplesPerRun] = spp;
   for (std::size_t k = 0; k < names_.size(); ++k) {
     Channel mean{names_[k], {}}, variance{"Variance." + names_[k], {}};
     for (const Moments& m : moments_[k]) {
@@ -79,7 +77,7 @@ Image RunMeans::result(int spp) const {
 }
 
 RunCounts run_counts(const Image& image, const std::string& path) {
-  const RunCounts counts{count_in(image, kRuns), count_in(image, kSpp)};
+  const RunCounts counts{count_in(image, attributes::kRuns), count_in(image, attributes::kSamplesPerRun)};
   if (counts.runs >= 2 && counts.spp >= 1) return counts;
   throw Error(Failure::scene, path + ": is no reference of a suite; make one with --update");
 }

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "tyndall/error.h"
+#include "tyndall/image_attributes.h"
 #include "tyndall/lights.h"
 
 namespace tyndall {
@@ -14,7 +15,6 @@ namespace {
 
 constexpr std::array<const char*, 3> kSuffixes{"R", "G", "B"};
 const std::string kReplicate = "Replicate.", kVariance = "Variance.";
-constexpr const char* kRelight = "tyndall/relight";
 
 std::string names_text(const std::vector<std::string>& names) {
   std::string list;
@@ -86,8 +86,9 @@ class Mixer {
 
   /// Not of several renders, whose variance is known with more degrees of freedom, nor of a filtered picture.
   bool has_halves() {
-    const bool one_render = !image_.attributes.contains("tyndall/slices") && !image_.attributes.contains("tyndall/denoised");
-    return one_render && (image_.attribute<int>("tyndall/samples") || image_.find("SampleCount")) &&
+    const bool one_render =
+        !image_.attributes.contains(attributes::kSlices) && !image_.attributes.contains(attributes::kDenoised);
+    return one_render && (image_.attribute<int>(attributes::kSamples) || image_.find("SampleCount")) &&
            values_of(image_, kReplicate + "SampleCount") && values_of(image_, kReplicate + suffix_) &&
            complete(group_planes(kReplicate));
   }
@@ -95,7 +96,7 @@ class Mixer {
   /// As a render does: of the means m over n samples and e over k of them, that over the others differs from e by
   /// n (m - e) / (n - k), and the variance of m is that squared times k (n - k) / n^2.
   void measure_variance(std::vector<float>& variance) {
-    const int* everywhere = image_.attribute<int>("tyndall/samples");
+    const int* everywhere = image_.attribute<int>(attributes::kSamples);
     const auto* each = values_of(image_, "SampleCount");
     const auto& all = *values_of(image_, suffix_);
     const auto& even = *values_of(image_, kReplicate + suffix_);
@@ -229,7 +230,7 @@ Relit relight(Image image, std::span<const GroupFactor> factors, const std::stri
   const std::vector<std::string> groups = light_groups_in(image);
   if (groups.empty())
     throw Error(Failure::scene, name + ": has no light groups; render it from a scene whose lights have \"string lightgroup\"");
-  if (image.attributes.contains("tyndall/slice"))
+  if (image.attributes.contains(attributes::kSlice))
     throw Error(Failure::scene, name + ": is a slice of a render; merge all slices first");
   for (const char* suffix : kSuffixes) {
     if (!image.find(suffix)) throw Error(Failure::scene, name + ": has no channel " + suffix + "; render it again");
@@ -245,8 +246,8 @@ Relit relight(Image image, std::span<const GroupFactor> factors, const std::stri
     relit.left_out = leave_out_ungrouped(relit.image);
   }
   std::string text = relight_text(groups, by_group);
-  if (const auto* before = relit.image.attribute<std::string>(kRelight)) text = *before + "; " + text;
-  relit.image.attributes[kRelight] = text;
+  if (const auto* before = relit.image.attribute<std::string>(attributes::kRelight)) text = *before + "; " + text;
+  relit.image.attributes[attributes::kRelight] = text;
   return relit;
 }
 

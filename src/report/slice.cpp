@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "tyndall/error.h"
+#include "tyndall/image_attributes.h"
 #include "tyndall/io.h"
 
 namespace tyndall {
@@ -52,19 +53,19 @@ std::vector<SliceSource> parse_sources(const std::string& path, const std::strin
 
 /// Of any pixel: "512", also where the header says "32..512".
 std::string most_samples(const std::string& path, const Image& header) {
-  if (const auto* range = header.attribute<std::string>("tyndall/samples")) {
+  if (const auto* range = header.attribute<std::string>(attributes::kSamples)) {
     const std::size_t dots = range->find("..");
     if (dots != std::string::npos && header.find("SampleCount")) return range->substr(dots + 2);
   }
-  return std::to_string(attribute<int>(path, header, "tyndall/samples"));
+  return std::to_string(attribute<int>(path, header, attributes::kSamples));
 }
 
 std::vector<SliceSource> sources_of(const std::string& path, const Image& header, const std::optional<SliceInfo>& part) {
-  if (header.attributes.contains("tyndall/slices")) {
-    return parse_sources(path, attribute<std::string>(path, header, "tyndall/slices"), header.data);
+  if (header.attributes.contains(attributes::kSlices)) {
+    return parse_sources(path, attribute<std::string>(path, header, attributes::kSlices), header.data);
   }
   // A plain render, told in the words of a merged one.
-  const std::string& seed = attribute<std::string>(path, header, "tyndall/seed");
+  const std::string& seed = attribute<std::string>(path, header, attributes::kSeed);
   std::istringstream text("seed " + seed + " samples " + most_samples(path, header) + " crop " + crop_text(header.data));
   auto source = parse_source(text);
   if (source && part) source->first = part->range.first;
@@ -76,7 +77,7 @@ std::vector<SliceSource> sources_of(const std::string& path, const Image& header
 
 Slice read_slice(const std::string& path) {
   Slice slice{path, read_exr_header(path), {}, {}, {}};
-  slice.scene_hash = attribute<std::string>(path, slice.header, "tyndall/sceneHash");
+  slice.scene_hash = attribute<std::string>(path, slice.header, attributes::kSceneHash);
   slice.part = slice_info(slice.header, path);
   slice.sources = sources_of(path, slice.header, slice.part);
   return slice;

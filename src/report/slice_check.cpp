@@ -5,6 +5,7 @@
 #include "report/slice.h"
 #include "tyndall/cryptomatte.h"
 #include "tyndall/error.h"
+#include "tyndall/image_attributes.h"
 
 namespace tyndall {
 namespace {
@@ -29,7 +30,7 @@ void require_same_scene(const Slice& first, const Slice& slice) {
 
 void require_same_mix(const Slice& first, const Slice& slice) {
   const auto mix_of = [](const Slice& s) {
-    const auto* text = s.header.attribute<std::string>("tyndall/relight");
+    const auto* text = s.header.attribute<std::string>(attributes::kRelight);
     return text ? *text : std::string();
   };
   if (mix_of(slice) != mix_of(first))
@@ -38,7 +39,7 @@ void require_same_mix(const Slice& first, const Slice& slice) {
 
 /// What filtering has made of each is not what it would have made of all.
 void require_not_denoised(const Slice& slice) {
-  if (slice.header.attributes.contains("tyndall/denoised"))
+  if (slice.header.attributes.contains(attributes::kDenoised))
     fail(slice, "is denoised; merge what was rendered with --aov Denoise, and denoise what is merged");
 }
 
@@ -91,7 +92,7 @@ void require_counts(const Slice& slice) {
   needs("Replicate.P.X", "Replicate.SurfaceCount");
   needs("Replicate.Zvol", "Replicate.VolumeCount");
   needs("Replicate.R", "Replicate.SampleCount");
-  if (slice.header.attributes.contains("tyndall/slices") && !slice.header.find("SampleCount")) {
+  if (slice.header.attributes.contains(attributes::kSlices) && !slice.header.find("SampleCount")) {
     fail(slice, "is a merged image without SampleCount, by which it is averaged; merge its slices again");
   }
 }
@@ -146,7 +147,8 @@ std::optional<std::string> render_of(const Image& header, const std::optional<Sl
   if (!part) return std::nullopt;
   std::string render = std::to_string(part->choice.count) + " slices of " + std::to_string(part->total) + " samples" +
                        (part->timed ? ", timed, " : ", ") + crop_text(header.data);
-  for (const char* name : {"tyndall/sceneHash", "tyndall/seed", "tyndall/options", "tyndall/aov", "software"}) {
+  for (const char* name :
+       {attributes::kSceneHash, attributes::kSeed, attributes::kOptions, attributes::kAovs, attributes::kSoftware}) {
     const auto* text = header.attribute<std::string>(name);
     render += "\n" + (text ? *text : std::string());
   }

@@ -7,6 +7,7 @@
 #include "report/slice.h"
 #include "tyndall/deep_image.h"
 #include "tyndall/error.h"
+#include "tyndall/image_attributes.h"
 #include "tyndall/io.h"
 
 namespace tyndall {
@@ -56,7 +57,7 @@ class Survey {
     const auto render = render_of(header, info);
     if (!render_) render_ = render;
     if (render != render_) refuse(path, *info);
-    const double* seconds = header.attribute<double>("tyndall/renderTime");
+    const double* seconds = header.attribute<double>(attributes::kRenderTime);
     note(*info, info->complete() ? SliceState::there : SliceState::lost, seconds ? *seconds : 0, path).path = path.string();
   }
 

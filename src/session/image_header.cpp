@@ -8,6 +8,7 @@
 #include "session/scene_hash.h"
 #include "transport/sharing/suffix_reuse.h"
 #include "tyndall/cryptomatte.h"
+#include "tyndall/image_attributes.h"
 #include "tyndall/version.h"
 
 namespace tyndall {
@@ -48,7 +49,7 @@ std::string end_text(const RenderSettings& settings) {
 }
 
 bool says_end(const Image& image, const RenderSettings& settings) {
-  const auto* text = image.attribute<std::string>(kEnd);
+  const auto* text = image.attribute<std::string>(attributes::kEnd);
   return (text ? *text : "") == end_text(settings);
 }
 
@@ -84,25 +85,25 @@ void write_header(Image& image, const World::Parts& world, const RenderSettings&
   auto& a = image.attributes;
   a["worldToCamera"] = world.user_camera.world_to_camera();
   if (world.user_camera.has_projection()) a["worldToNDC"] = world.user_camera.world_to_ndc();
-  a["software"] = "Tyndall " + std::string(kVersion);
-  a["tyndall/scene"] = world.built.scene.source;
-  a["tyndall/sceneHash"] = scene_hash_text(world.scene_hash, settings);
+  a[attributes::kSoftware] = "Tyndall " + std::string(kVersion);
+  a[attributes::kScene] = world.built.scene.source;
+  a[attributes::kSceneHash] = scene_hash_text(world.scene_hash, settings);
   if (report.least_samples == report.most_samples) {
-    a["tyndall/samples"] = report.samples;
+    a[attributes::kSamples] = report.samples;
   } else {
-    a["tyndall/samples"] = std::to_string(report.least_samples) + ".." + std::to_string(report.most_samples);
+    a[attributes::kSamples] = std::to_string(report.least_samples) + ".." + std::to_string(report.most_samples);
   }
-  a["tyndall/seed"] = std::to_string(settings.seed);  // 64 bits do not fit an EXR integer
-  a["tyndall/options"] = options_text(settings);
-  if (const std::string end = end_text(settings); !end.empty()) a[kEnd] = end;
+  a[attributes::kSeed] = std::to_string(settings.seed);  // 64 bits do not fit an EXR integer
+  a[attributes::kOptions] = options_text(settings);
+  if (const std::string end = end_text(settings); !end.empty()) a[attributes::kEnd] = end;
   if (std::any_of(settings.aovs.begin(), settings.aovs.end(), is_matte_layer))
-    a[kMatteNames] = std::to_string(hash_names(world.built.scene));
-  if (settings.deep_bins) a[kDeepBins] = *settings.deep_bins;
-  if (!world.built.light_groups.empty()) a[kLightGroups] = joined(world.built.light_groups.names());
-  if (settings.reuse == ReuseStrategy::pixels) a["tyndall/sharing"] = static_cast<int>(kMostSharing);
+    a[attributes::kMatteNames] = std::to_string(hash_names(world.built.scene));
+  if (settings.deep_bins) a[attributes::kDeepBins] = *settings.deep_bins;
+  if (!world.built.light_groups.empty()) a[attributes::kLightGroups] = joined(world.built.light_groups.names());
+  if (settings.reuse == ReuseStrategy::pixels) a[attributes::kSharing] = static_cast<int>(kMostSharing);
   if (settings.reproducible) return;
-  a["tyndall/renderTime"] = report.seconds;
-  a["tyndall/date"] = utc_now();
+  a[attributes::kRenderTime] = report.seconds;
+  a[attributes::kDate] = utc_now();
 }
 
 }  // namespace tyndall

@@ -2,6 +2,7 @@
 
 #include "session/pass_schedule.h"
 #include "session/slice.h"
+#include "tyndall/image_attributes.h"
 #include "tyndall/timer.h"
 
 namespace tyndall {
@@ -38,7 +39,7 @@ class RenderLoop {
     Image image = job_.image();
     std::optional<DeepImage> deep = job_.deep_image();
     if (report.stopped) mark_stopped(image);
-    if (report.stopped && deep) deep->attributes["tyndall/stopped"] = 1;
+    if (report.stopped && deep) deep->attributes[attributes::kStopped] = 1;
     return {std::move(image), std::move(report), std::move(deep)};
   }
 

@@ -22,6 +22,7 @@
 #include "session/unrendered.h"
 #include "transport/sample/counters.h"
 #include "transport/sample/prices.h"
+#include "tyndall/image_attributes.h"
 #include "tyndall/timer.h"
 
 namespace tyndall {
@@ -146,7 +147,7 @@ class RenderJob::Impl {
     if (!deep) return deep;
     Image header;
     write_header(header, world_, settings_, counted());
-    header.attributes.erase(kLightGroups);
+    header.attributes.erase(attributes::kLightGroups);
     deep->attributes = std::move(header.attributes);
     return deep;
   }

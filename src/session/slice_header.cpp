@@ -12,6 +12,7 @@
 #include "session/resolved_settings.h"
 #include "session/slice.h"
 #include "tyndall/error.h"
+#include "tyndall/image_attributes.h"
 
 namespace tyndall {
 namespace {
@@ -91,20 +92,20 @@ void add_slice(Image& image, const FilmBuffer& film, const RenderSettings& setti
   film.store_sums(image);
   sort_channels(image);
   const int first = sample_range(settings).first;
-  image.attributes[kSlice] =
+  image.attributes[attributes::kSlice] =
       slice_text(settings) + " samples " + std::to_string(first) + ".." + std::to_string(first + samples);
-  image.attributes[kAovs] = aov_list(settings.aovs);
+  image.attributes[attributes::kAovs] = aov_list(settings.aovs);
   std::array<float, 16> rows{};
   std::copy(film.film().from_rec709.begin(), film.film().from_rec709.end(), rows.begin());
-  image.attributes[kFilmSpace] = rows;
-  if (film.deep_layout()) image.attributes[kDeepLayout] = film.deep_layout()->str();
-  image.attributes[kSumHash] = hash_of_sums(image);
+  image.attributes[attributes::kFilmSpace] = rows;
+  if (film.deep_layout()) image.attributes[attributes::kDeepLayout] = film.deep_layout()->str();
+  image.attributes[attributes::kSumHash] = hash_of_sums(image);
 }
 
 void mark_stopped(Image& image) {
-  const auto slice = image.attributes.find(kSlice);
+  const auto slice = image.attributes.find(attributes::kSlice);
   if (slice != image.attributes.end()) slice->second = std::get<std::string>(slice->second) + kStopped;
-  if (slice == image.attributes.end()) image.attributes["tyndall/stopped"] = 1;
+  if (slice == image.attributes.end()) image.attributes[attributes::kStopped] = 1;
 }
 
 std::optional<SliceCheckpoint> slice_checkpoint(std::string_view bytes, const std::string& path) {
@@ -120,13 +121,13 @@ std::optional<SliceCheckpoint> slice_checkpoint(std::string_view bytes, const st
 }
 
 std::optional<SliceInfo> slice_info(const Image& header, const std::string& path) {
-  if (!header.attributes.contains(kSlice)) return std::nullopt;
-  std::string text = text_attribute(header, path, kSlice);
+  if (!header.attributes.contains(attributes::kSlice)) return std::nullopt;
+  std::string text = text_attribute(header, path, attributes::kSlice);
   auto info = take_choice(text);
   const auto samples = take_samples(text);
   const bool stopped = take(text, kStopped);
   if (!info || !samples || !text.empty() || samples->count > info->total - samples->first)
-    refuse_slice(path, "attribute " + std::string(kSlice) + " is damaged");
+    refuse_slice(path, "attribute " + std::string(attributes::kSlice) + " is damaged");
   info->stopped = stopped;
   info->range = *samples;
   return info;
@@ -138,12 +139,12 @@ namespace {
 bool says_layers(const Image& image, const World::Parts& world, const RenderSettings& settings) {
   Image described;
   MatteLayers(world.built, film_aovs(settings)).describe(described);
-  if (const auto deep = deep_layout(world, settings)) described.attributes[kDeepLayout] = deep->str();
+  if (const auto deep = deep_layout(world, settings)) described.attributes[attributes::kDeepLayout] = deep->str();
   const bool names = std::all_of(described.attributes.begin(), described.attributes.end(), [&](const auto& attribute) {
     const auto found = image.attributes.find(attribute.first);
     return found != image.attributes.end() && found->second == attribute.second;
   });
-  return names && (settings.deep_bins || !image.attributes.contains(kDeepLayout));
+  return names && (settings.deep_bins || !image.attributes.contains(attributes::kDeepLayout));
 }
 
 }  // namespace
@@ -157,18 +158,18 @@ bool holds_slice(const Image& image, const World& world, const RenderSettings& s
     const auto info = slice_info(image, "the slice");
     return info && info->choice == settings.slice && info->total == settings.spp && info->complete() &&
            image.data == rendered_pixels(world.parts().built.scene, settings) && says_end(image, settings) &&
-           says("tyndall/sceneHash", world.scene_hash(settings)) &&
-           says("tyndall/options", options_text(resolved(settings, world.parts()))) &&
-           says("tyndall/seed", std::to_string(settings.seed)) && says(kAovs, aov_list(settings.aovs)) &&
-           says(kSumHash, hash_of_sums(image)) && says_layers(image, world.parts(), settings);
+           says(attributes::kSceneHash, world.scene_hash(settings)) &&
+           says(attributes::kOptions, options_text(resolved(settings, world.parts()))) &&
+           says(attributes::kSeed, std::to_string(settings.seed)) && says(attributes::kAovs, aov_list(settings.aovs)) &&
+           says(attributes::kSumHash, hash_of_sums(image)) && says_layers(image, world.parts(), settings);
   } catch (const Error&) {
     return false;
   }
 }
 
 bool is_slice_attribute(std::string_view name) {
-  return name == kSlice || name == kAovs || name == kFilmSpace || name == kDeepLayout || name == kSumHash ||
-         name == "tyndall/command";
+  return name == attributes::kSlice || name == attributes::kAovs || name == attributes::kFilmSpace ||
+         name == attributes::kDeepLayout || name == attributes::kSumHash || name == attributes::kCommand;
 }
 
 }  // namespace tyndall

@@ -7,12 +7,6 @@
 
 namespace tyndall {
 
-inline constexpr const char* kSlice = "tyndall/slice";           ///< "3/16 of 1024 samples 128..192", and more words
-inline constexpr const char* kAovs = "tyndall/aov";              ///< those asked for: "Albedo,Z"
-inline constexpr const char* kFilmSpace = "tyndall/fromRec709";  ///< the film's colour matrix
-inline constexpr const char* kDeepLayout = "tyndall/deep";       ///< DeepLayout, where there is a deep image
-inline constexpr const char* kSumHash = "tyndall/sumHash";       ///< hash_of_sums
-
 /// Channels "Sum.*".
 bool is_sum(const std::string& channel);
 

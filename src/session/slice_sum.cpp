@@ -2,9 +2,9 @@
 #include <sstream>
 
 #include "session/film_buffer.h"
-#include "session/image_header.h"
 #include "session/slice_header.h"
 #include "tyndall/error.h"
+#include "tyndall/image_attributes.h"
 #include "tyndall/slice.h"
 
 namespace tyndall {
@@ -15,8 +15,8 @@ Film film_of(const Image& header, const std::string& path) {
   film.width = header.display.width();
   film.height = header.display.height();
   if (header.chromaticities) film.chromaticities = *header.chromaticities;
-  const auto* rows = header.attribute<std::array<float, 16>>(kFilmSpace);
-  if (!rows) refuse_slice(path, "has no attribute " + std::string(kFilmSpace));
+  const auto* rows = header.attribute<std::array<float, 16>>(attributes::kFilmSpace);
+  if (!rows) refuse_slice(path, "has no attribute " + std::string(attributes::kFilmSpace));
   std::copy_n(rows->begin(), film.from_rec709.size(), film.from_rec709.begin());
   return film;
 }
@@ -29,20 +29,20 @@ std::vector<std::string> split(const std::string& list) {
 }
 
 std::vector<std::string> groups_of(const Image& header) {
-  const auto* names = header.attribute<std::string>(kLightGroups);
+  const auto* names = header.attribute<std::string>(attributes::kLightGroups);
   return names ? split(*names) : std::vector<std::string>();
 }
 
 /// "": without a deep image.
 std::string deep_layout_of(const Image& header) {
-  const auto* text = header.attribute<std::string>(kDeepLayout);
+  const auto* text = header.attribute<std::string>(attributes::kDeepLayout);
   return text ? *text : "";
 }
 
 std::optional<DeepLayout> deep_of(const Image& header, const std::string& path) {
-  if (!header.attributes.contains(kDeepLayout)) return std::nullopt;
-  const auto layout = DeepLayout::parse(text_attribute(header, path, kDeepLayout));
-  if (!layout) refuse_slice(path, "attribute " + std::string(kDeepLayout) + " is damaged");
+  if (!header.attributes.contains(attributes::kDeepLayout)) return std::nullopt;
+  const auto layout = DeepLayout::parse(text_attribute(header, path, attributes::kDeepLayout));
+  if (!layout) refuse_slice(path, "attribute " + std::string(attributes::kDeepLayout) + " is damaged");
   return layout;
 }
 
@@ -52,7 +52,7 @@ std::vector<Aov> aovs_of(std::vector<std::string> asked, const std::string& path
   try {
     return parse_aovs(asked);
   } catch (const Error&) {
-    refuse_slice(path, "attribute " + std::string(kAovs) + " names channels that this Tyndall does not know");
+    refuse_slice(path, "attribute " + std::string(attributes::kAovs) + " names channels that this Tyndall does not know");
   }
 }
 
@@ -61,14 +61,14 @@ std::vector<Aov> aovs_of(std::vector<std::string> asked, const std::string& path
 class SliceSum::Impl {
  public:
   Impl(const Image& header, const std::string& path)
-      : asked_(split(text_attribute(header, path, kAovs))),
+      : asked_(split(text_attribute(header, path, attributes::kAovs))),
         deep_layout_(deep_layout_of(header)),
         film_(film_of(header, path), header.data, {aovs_of(asked_, path), groups_of(header), deep_of(header, path)}) {}
 
   void add(const Image& slice, const std::string& path) {
     const auto info = slice_info(slice, path);
     if (!info || slice.data != film_.crop()) refuse_slice(path, "is no slice of these");
-    if (!film_.has_sums(slice) || hash_of_sums(slice) != text_attribute(slice, path, kSumHash))
+    if (!film_.has_sums(slice) || hash_of_sums(slice) != text_attribute(slice, path, attributes::kSumHash))
       refuse_slice(path, "is damaged: its sums do not fit their checksum");
     film_.add_sums(slice);
     same_depth_ = same_depth_ && deep_layout_of(slice) == deep_layout_;

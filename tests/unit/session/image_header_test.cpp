@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "tyndall/image_attributes.h"
 #include "tyndall/io.h"
 #include "tyndall/render.h"
 
@@ -43,8 +44,8 @@ TEST_CASE("an image tells what it was to end by") {
     const Image image = rendered(s);
     for (const RenderSettings& other : all) CHECK(says_end(image, other) == (&s == &other));
   }
-  CHECK_FALSE(rendered(plain).attributes.contains(kEnd));
-  CHECK(std::get<std::string>(rendered(both).attributes.at(kEnd)) == "--time 1000 --error-max 0.25 --spp 2");
+  CHECK_FALSE(rendered(plain).attributes.contains(attributes::kEnd));
+  CHECK(std::get<std::string>(rendered(both).attributes.at(attributes::kEnd)) == "--time 1000 --error-max 0.25 --spp 2");
 }
 
 TEST_CASE("no matrix takes the world to the frame of a spherical or a realistic camera") {
