@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "report/diff_json.h"
+#include "tyndall/relative_error.h"
 
 namespace tyndall::cli {
 namespace {
@@ -46,7 +47,7 @@ std::string group_table(const ImageDiff& diff, std::size_t width) {
   return text +
          fmt::format(
              "  {:{}}  (relative errors add {:g} to the reference; trimmed: relMSE without the worst {:g} % of pixels)\n", "",
-             width, kRelativeEps, 100 * kTrimmedFraction);
+             width, kRelativeEpsilon, 100 * kTrimmedFraction);
 }
 
 std::string flip_text(const ImageDiff& diff, std::size_t width, double pixels_per_degree) {

@@ -12,6 +12,7 @@
 #include "denoise/stated_errors.h"
 #include "denoise/variance.h"
 #include "tyndall/image_attributes.h"
+#include "tyndall/relative_error.h"
 #include "tyndall/timer.h"
 
 namespace tyndall {
@@ -152,7 +153,7 @@ double relative_error(const ColorPlanes& squared, const ColorPlanes& mean) {
     for (int y = 0; y < mean[c].height(); ++y) {
       for (int x = 0; x < mean[c].width(); ++x) {
         const double m = mean[c].at(x, y);
-        sum += squared[c].at(x, y) / (m * m + 0.01);
+        sum += squared[c].at(x, y) / (m * m + kRelativeEpsilon);
       }
     }
   }

@@ -8,6 +8,7 @@
 #include "report/compare_verdict.h"
 #include "report/diff_json.h"
 #include "report/machine.h"
+#include "tyndall/relative_error.h"
 
 namespace tyndall {
 namespace {
@@ -130,8 +131,8 @@ Json compare_json(const CompareContext& context, const ComparePlan& plan, const 
          {"scene", context.scene},
          {"reference", reference_json(reference)},
          {"machine", machine_description(context.threads)}};
-  j["settings"] = {{"budget", budget_text(plan.budget)}, {"seeds", plan.seeds}, {"width", context.width},
-                   {"height", context.height},           {"eps", kRelativeEps}, {"options", context.options},
+  j["settings"] = {{"budget", budget_text(plan.budget)}, {"seeds", plan.seeds},     {"width", context.width},
+                   {"height", context.height},           {"eps", kRelativeEpsilon}, {"options", context.options},
                    {"command", context.command}};
   j["verdict"] = compare_verdict(result.variants);
   j["warnings"] = result.warnings;

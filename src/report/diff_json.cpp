@@ -1,5 +1,7 @@
 #include "report/diff_json.h"
 
+#include "tyndall/relative_error.h"
+
 namespace tyndall {
 namespace {
 
@@ -102,7 +104,7 @@ Json diff_json(const ImageDiff& diff, const Judgement& judgement, const DiffSett
   j["reasons"] = judgement.reasons;
   j["width"] = diff.data.width();
   j["height"] = diff.data.height();
-  j["eps"] = kRelativeEps;
+  j["eps"] = kRelativeEpsilon;
   if (diff.windows.empty()) add_findings(diff, settings, j);
   return j;
 }

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "report/metrics.h"
+#include "tyndall/relative_error.h"
 
 namespace tyndall {
 namespace {
@@ -18,7 +19,7 @@ double relative_difference(const std::vector<float>& a, const std::vector<float>
   double sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
     const double d = double{a[i]} - double{b[i]}, r = reference[i];
-    sum += d * d / (r * r + kRelativeEps);
+    sum += d * d / (r * r + kRelativeEpsilon);
   }
   return sum;
 }

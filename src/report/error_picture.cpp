@@ -6,6 +6,7 @@
 
 #include "report/metrics.h"
 #include "tyndall/math.h"
+#include "tyndall/relative_error.h"
 
 namespace tyndall {
 namespace {
@@ -45,7 +46,7 @@ Image error_picture(const Image& image, const Image& reference, const std::vecto
     const auto &x = required_channel(image, name).values, &r = required_channel(reference, name).values;
     for (std::size_t i = 0; i < error.size(); ++i) {
       const double d = static_cast<double>(x[i]) - r[i];
-      error[i] += d * d / (static_cast<double>(r[i]) * r[i] + kRelativeEps) / static_cast<double>(channels.size());
+      error[i] += d * d / (static_cast<double>(r[i]) * r[i] + kRelativeEpsilon) / static_cast<double>(channels.size());
     }
   }
   for (std::size_t i = 0; i < error.size(); ++i) {

@@ -6,6 +6,7 @@
 
 #include "tyndall/error.h"
 #include "tyndall/image_attributes.h"
+#include "tyndall/relative_error.h"
 
 namespace tyndall {
 namespace {
@@ -30,11 +31,11 @@ ErrorMetrics measure(const Planes& image, const Planes& reference, const Planes&
     for (std::size_t i = 0; i < relative.size(); ++i) {
       const double x = (*image[k])[i], r = (*reference[k])[i], distance = std::abs(x - r);
       const double square = distance * distance - (noise.empty() ? 0.0 : (*noise[k])[i]);
-      const double relative_square = square / (r * r + kRelativeEps);
+      const double relative_square = square / (r * r + kRelativeEpsilon);
       sum.mse += square;
       sum.relmse += relative_square;
-      sum.mape += distance / (std::abs(r) + kRelativeEps);
-      sum.smape += 2 * distance / (std::abs(x) + std::abs(r) + kRelativeEps);
+      sum.mape += distance / (std::abs(r) + kRelativeEpsilon);
+      sum.smape += 2 * distance / (std::abs(x) + std::abs(r) + kRelativeEpsilon);
       relative[i] += relative_square / channels;
     }
   }
@@ -92,7 +93,7 @@ double relmse_by_variances(const Image& image) {
   for (std::size_t k = 0; k < means.size(); ++k) {
     for (std::size_t i = 0; i < means[k]->size(); ++i) {
       const double mean = (*means[k])[i], variance = (*variances[k])[i];
-      sum += variance / (std::max(mean * mean - variance, 0.0) + kRelativeEps);
+      sum += variance / (std::max(mean * mean - variance, 0.0) + kRelativeEpsilon);
     }
   }
   return sum / static_cast<double>(means.size() * means.front()->size());

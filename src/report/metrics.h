@@ -10,12 +10,10 @@
 
 namespace tyndall {
 
-/// Added to squares (and, in MAPE and SMAPE, to absolute values) of the reference, so that black does not divide by 0.
-inline constexpr double kRelativeEps = 0.01;
 /// Fraction of the pixels that a trimmed error leaves out: the worst ones, rounded down to whole pixels.
 inline constexpr double kTrimmedFraction = 0.001;
 
-/// Means over pixels and channels. With image x and reference r:
+/// Means over pixels and channels. With image x, reference r and eps = kRelativeEpsilon:
 struct ErrorMetrics {
   double mse = 0;                        ///< (x - r)^2
   double relmse = 0;                     ///< (x - r)^2 / (r^2 + eps) [Rousselle et al. 2011]

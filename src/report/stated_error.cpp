@@ -4,6 +4,7 @@
 #include <array>
 
 #include "report/metrics.h"
+#include "tyndall/relative_error.h"
 
 namespace tyndall {
 namespace {
@@ -51,7 +52,7 @@ std::optional<StatedErrors> stated_errors(const Image& image, const Image& refer
     const auto noise = pooled(required_channel(reference, "Variance." + channel).values, image.width(), image.height());
     for (std::size_t i = 0; i < relative.size(); ++i) {
       const double r = truth[i], difference = values[i] - r, stated = mse[i];
-      relative[i] += stated / (r * r + kRelativeEps) / 3;
+      relative[i] += stated / (r * r + kRelativeEpsilon) / 3;
       count.add(difference * difference, stated + noise[i], r);
     }
   }

@@ -4,7 +4,7 @@
 
 #include "session/block_grid.h"
 #include "session/film_buffer.h"
-#include "session/relative_error.h"
+#include "tyndall/relative_error.h"
 
 namespace tyndall {
 namespace {

@@ -10,8 +10,8 @@
 #include "math/hash.h"
 #include "session/block_grid.h"
 #include "session/flush_denormals.h"
-#include "session/relative_error.h"
 #include "transport/sample/prices.h"
+#include "tyndall/relative_error.h"
 
 namespace tyndall {
 namespace {
