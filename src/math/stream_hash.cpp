@@ -1,6 +1,7 @@
 #include "math/stream_hash.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <cstring>
 
 namespace tyndall {
@@ -44,6 +45,12 @@ std::uint64_t StreamHash::value() const {
   std::uint64_t result = hash(total_);
   for (const std::uint64_t lane : lanes) result = hash(result, lane);
   return result;
+}
+
+std::string hex_text(std::uint64_t value) {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(value));
+  return text;
 }
 
 }  // namespace tyndall

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 #include "math/hash.h"
 
@@ -29,5 +30,8 @@ class StreamHash {
   std::size_t rest_size_ = 0;
   std::uint64_t total_ = 0;
 };
+
+/// 16 hexadecimal digits.
+std::string hex_text(std::uint64_t value);
 
 }  // namespace tyndall

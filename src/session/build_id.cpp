@@ -89,12 +89,7 @@ std::vector<LoadedLibrary> reckoning_libraries() {
 }
 
 const std::string& build_id() {
-  static const std::string id = [] {
-    char text[64];
-    std::snprintf(text, sizeof text, "%s-%016llx-%016llx", kVersion, static_cast<unsigned long long>(hash_of_program()),
-                  static_cast<unsigned long long>(hash_of_libraries()));
-    return std::string(text);
-  }();
+  static const std::string id = std::string(kVersion) + "-" + hex_text(hash_of_program()) + "-" + hex_text(hash_of_libraries());
   return id;
 }
 

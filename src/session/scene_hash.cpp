@@ -1,6 +1,5 @@
 #include "session/scene_hash.h"
 
-#include <cstdio>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -220,10 +219,7 @@ std::string scene_hash_text(std::uint64_t scene_hash, const RenderSettings& sett
   const auto& [spp, time, error, error_max, adaptive, max_depth, seed, threads, lights, candidates, shadow_rays, splitting,
                media, distance, emission, guiding, joint, reuse, budget, transmittance, aovs, deep_bins, crop, slice,
                reproducible] = settings;
-  char text[17];
-  const auto value = static_cast<unsigned long long>(hash(scene_hash, static_cast<std::uint64_t>(max_depth)));
-  std::snprintf(text, sizeof text, "%016llx", value);
-  return text;
+  return hex_text(hash(scene_hash, static_cast<std::uint64_t>(max_depth)));
 }
 
 }  // namespace tyndall

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstdio>
 
 #include "math/stream_hash.h"
 #include "session/checkpoint.h"
@@ -68,9 +67,7 @@ std::string hash_of_sums(const Image& image) {
   for (const Channel& c : image.channels) {
     if (is_sum(c.name)) hash.add(c.values.data(), c.values.size() * sizeof(float));
   }
-  char text[17];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash.value()));
-  return text;
+  return hex_text(hash.value());
 }
 
 void refuse_slice(const std::string& path, const std::string& what) {

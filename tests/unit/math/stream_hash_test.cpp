@@ -91,3 +91,8 @@ TEST_CASE("changes that scenes see do not cancel: pairs of signs, swapped neighb
   }
   CHECK(seen.size() == count);
 }
+
+TEST_CASE("as text it has all its 16 digits") {
+  CHECK(hex_text(0) == "0000000000000000");
+  CHECK(hex_text(0x0123456789abcdef) == "0123456789abcdef");
+}
