@@ -22,4 +22,7 @@ constexpr std::uint64_t hash(std::uint64_t a, Rest... rest) {
   return mix_bits(hash(rest...) ^ (a * 0xd6e8feb86659fd93ull + 0x2545f4914f6cdd1dull));
 }
 
+/// Uniform in [0, 1) of uniform bits: the first 24.
+constexpr float unit_float(std::uint64_t bits) { return static_cast<float>(bits >> 40) * 0x1p-24f; }
+
 }  // namespace tyndall

@@ -15,7 +15,7 @@ class Rng {
 
   std::uint64_t next() { return mix_bits(state_ += 0x9e3779b97f4a7c15ull); }
   /// Uniform in [0, 1), 24 bits.
-  float uniform() { return static_cast<float>(next() >> 40) * 0x1p-24f; }
+  float uniform() { return unit_float(next()); }
   /// Uniform in [0, 1), 53 bits.
   double uniform_wide() { return static_cast<double>(next() >> 11) * 0x1p-53; }
 

@@ -88,7 +88,7 @@ void build(const CloudMedium& cloud, const BuildContext& context, MediumData& da
   const Vec3 extent = cloud.bounds.extent();
   double sum = 0;
   for (std::uint64_t i = 0; i < kSamples; ++i) {
-    const auto uniform = [&](std::uint64_t axis) { return static_cast<float>(hash(i, axis) >> 40) * 0x1p-24f; };
+    const auto uniform = [&](std::uint64_t axis) { return unit_float(hash(i, axis)); };
     sum += cloud_density(cloud, cloud.bounds.min + extent * Vec3{uniform(0), uniform(1), uniform(2)});
   }
   data.cloud_mean = static_cast<float>(sum / kSamples);

@@ -13,7 +13,7 @@ namespace {
 /// A third uniform number out of two.
 float third(Vec2 u) {
   const std::uint64_t bits = std::uint64_t{std::bit_cast<std::uint32_t>(u.x)} << 32 | std::bit_cast<std::uint32_t>(u.y);
-  return static_cast<float>(hash(bits) >> 40) * 0x1p-24f;
+  return unit_float(hash(bits));
 }
 
 /// Where a ray that begins outside of all groups is in `medium`.

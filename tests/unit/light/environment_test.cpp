@@ -17,7 +17,7 @@ namespace {
 Rgb sky(int x, int y, bool overcast = false) {
   if (x == 9 && y == 3 && !overcast) return {10'000, 9'000, 8'000};
   if (x < 3 && y > 10) return {};
-  const float noise = static_cast<float>(hash(std::uint64_t(x), std::uint64_t(y)) >> 40) * 0x1p-24f;
+  const float noise = unit_float(hash(std::uint64_t(x), std::uint64_t(y)));
   return Rgb(0.2f, 0.3f, 0.5f) * (0.5f + noise) + Rgb(0.05f * y, 0, 0);
 }
 
