@@ -4,15 +4,12 @@
 
 #include "math/hash.h"
 #include "math/parallel.h"
+#include "math/smoothstep.h"
 
 namespace tyndall {
 namespace {
 
 float smooth(float t) { return t * t * t * (t * (6 * t - 15) + 10); }
-float smooth_step(float lo, float hi, float v) {
-  const float t = std::clamp((v - lo) / (hi - lo), 0.0f, 1.0f);
-  return t * t * (3 - 2 * t);
-}
 
 /// Gradient noise over the integer lattice [Perlin 1985], in about [-1, 1]; gradients by hash, so it never repeats.
 float noise(Vec3 p, std::uint64_t seed) {
@@ -54,7 +51,7 @@ float density(Vec3 p, std::uint64_t seed) {
   const float cap = p.y > kPlumeHeight - 0.9f ? (p.y - (kPlumeHeight - 0.9f)) / 0.9f : 0;
   const float depth = 1 - length(warped - plume_axis(p.y)) / radius - cap * cap + 0.75f * puffs;  // > 0: inside
   const float thinning = 1 / (1 + 0.35f * p.y);
-  return smooth_step(0, 0.35f, depth) * thinning * smooth_step(0, 0.12f, p.y);
+  return smoothstep(0, 0.35f, depth) * thinning * smoothstep(0, 0.12f, p.y);
 }
 
 }  // namespace

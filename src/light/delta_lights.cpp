@@ -1,14 +1,16 @@
 #include "light/delta_lights.h"
 
+#include "math/smoothstep.h"
+
 namespace tyndall {
 namespace {
 
 float radians(float degrees) { return degrees * (kPi / 180); }
 
-float smoothstep(float x, float a, float b) {
+/// A step where its ends are one.
+float smoothstep_or_step(float a, float b, float x) {
   if (a == b) return x < a ? 0.0f : 1.0f;
-  const float t = std::clamp((x - a) / (b - a), 0.0f, 1.0f);
-  return t * t * (3 - 2 * t);
+  return smoothstep(a, b, x);
 }
 
 }  // namespace
@@ -32,7 +34,7 @@ std::optional<DeltaArrival> SpotEmitter::arrival(Vec3 p) const {
   auto arrival = arrival_from(position_, p, I_);
   if (!arrival) return std::nullopt;
   const Vec3 local = space_.local(-arrival->wi);
-  const float falloff = smoothstep(local.z / length(local), cos_end_, cos_start_);
+  const float falloff = smoothstep_or_step(cos_end_, cos_start_, local.z / length(local));
   if (!(falloff > 0)) return std::nullopt;
   arrival->L *= falloff;
   return arrival;

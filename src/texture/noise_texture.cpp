@@ -5,16 +5,12 @@
 #include <cmath>
 
 #include "math/perlin_noise.h"
+#include "math/smoothstep.h"
 
 namespace tyndall {
 namespace {
 
 constexpr float kLacunarity = 1.99f;  // not 2, so that the lattices of octaves do not fall together
-
-float smoothstep(float a, float b, float x) {
-  const float t = std::clamp((x - a) / (b - a), 0.0f, 1.0f);
-  return t * t * (3 - 2 * t);
-}
 
 /// A point of texture space, and how far it moves for a pixel.
 struct NoisePoint {
