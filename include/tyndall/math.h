@@ -81,11 +81,15 @@ constexpr Rgb& operator*=(Rgb& a, Rgb b) { return a = a * b; }
 constexpr Rgb& operator*=(Rgb& a, float s) { return a = a * s; }
 
 constexpr float max_component(Rgb c) { return std::max({c.r, c.g, c.b}); }
-constexpr float mean(Rgb c) { return (c.r + c.g + c.b) * (1.0f / 3.0f); }
+constexpr float sum(Rgb c) { return c.r + c.g + c.b; }
+constexpr float mean(Rgb c) { return sum(c) * (1.0f / 3.0f); }
 constexpr bool is_black(Rgb c) { return c.r == 0 && c.g == 0 && c.b == 0; }
 /// Relative luminance Y of a linear Rec.709 colour.
 constexpr float luminance(Rgb c) { return 0.212671f * c.r + 0.715160f * c.g + 0.072169f * c.b; }
 inline bool is_finite(Rgb c) { return std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b); }
+constexpr Rgb clamp(Rgb c, float low, float high) {
+  return {std::clamp(c.r, low, high), std::clamp(c.g, low, high), std::clamp(c.b, low, high)};
+}
 inline Rgb absolute(Rgb c) { return {std::abs(c.r), std::abs(c.g), std::abs(c.b)}; }
 inline Rgb exp(Rgb c) { return {std::exp(c.r), std::exp(c.g), std::exp(c.b)}; }
 

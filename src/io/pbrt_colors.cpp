@@ -12,10 +12,6 @@ namespace {
 
 Error wrong(const Param& p, const std::string& what) { return Error(p.where, "parameter \"" + p.name + "\" " + what); }
 
-Rgb clamp(Rgb c, float low, float high) {
-  return {std::clamp(c.r, low, high), std::clamp(c.g, low, high), std::clamp(c.b, low, high)};
-}
-
 Rgb convert_rgb(Reports& reports, const Param& p, Rgb c, ColorUse use) {
   if (c.r < 0 || c.g < 0 || c.b < 0) throw wrong(p, "has a negative component; use values >= 0");
   if (use == ColorUse::light) return transformed(p.color_space->to_rec709, c);

@@ -93,7 +93,7 @@ Rgb marble(const NoiseTexture& texture, const NoisePoint& point) {
     const auto& c = kColors[static_cast<std::size_t>(piece) + i];
     color += kGain * weight[i] * Rgb(c[0], c[1], c[2]);
   }
-  return {std::clamp(color.r, 0.0f, 1.0f), std::clamp(color.g, 0.0f, 1.0f), std::clamp(color.b, 0.0f, 1.0f)};
+  return clamp(color, 0, 1);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ float emitted_channel(float emission, float sigma, double d) {
 
 /// A channel by the throughput it carries.
 int choose_channel(Rgb mass, float u) {
-  const float pick = u * (mass.r + mass.g + mass.b);
+  const float pick = u * sum(mass);
   if (pick < mass.r) return 0;
   if (pick < mass.r + mass.g || mass.b == 0) return mass.g > 0 ? 1 : 0;
   return 2;
@@ -56,10 +56,10 @@ UniformPassage passage_of(MediaView media, double d, Rgb beta) {
   const UniformOptics m = sum_of(media);
   UniformPassage passage{m.transmittance(d)};
   const Rgb mass = absolute(beta);
-  const float total = mass.r + mass.g + mass.b;
+  const float total = sum(mass);
   if (is_black(m.sigma_s) || !(total > 0)) return passage;  // weighed, never ended
   const Rgb passed = mass * passage.transmittance;
-  passage.probability = (passed.r + passed.g + passed.b) / total;
+  passage.probability = sum(passed) / total;
   return passage;
 }
 
@@ -79,7 +79,7 @@ Flight homogeneous_flight(MediaView media, double t0, double t1, Rgb beta, float
   const Rgb s = m.sigma_t();
   const bool grey = s.r == s.g && s.g == s.b;
   Rgb mass = absolute(beta);
-  const float total = mass.r + mass.g + mass.b;
+  const float total = sum(mass);
   if (!(total > 0)) return flight;
   mass = mass * (1 / total);
   const float sigma = grey ? s.r : s[choose_channel(mass, rng.uniform())];
@@ -92,7 +92,7 @@ Flight homogeneous_flight(MediaView media, double t0, double t1, Rgb beta, float
   } else {
     const Rgb T = m.transmittance(flight.collided ? t : length);
     const Rgb density = flight.collided ? mass * s * T : mass * T;
-    flight.weight = (flight.collided ? m.sigma_s * T : T) * (1 / (density.r + density.g + density.b));
+    flight.weight = (flight.collided ? m.sigma_s * T : T) * (1 / sum(density));
   }
   if (flight.collided)
     for (const ParticipatingMedium* medium : media) flight.phase.add(medium->data().optics.sigma_s, medium->phase());

@@ -19,7 +19,6 @@ inline constexpr std::uint64_t kRouletteEvery = 16;
 /// depth of 1e7 needs fewer.
 inline constexpr std::uint64_t kMaxLookups = std::uint64_t{1} << 26;
 
-inline float sum(Rgb c) { return c.r + c.g + c.b; }
 inline float max_abs(Rgb c) { return max_component(absolute(c)); }
 
 /// Optical depth of a segment of constant sigma; where that is 0 the segment may be infinitely long.
