@@ -144,7 +144,8 @@ class Transform {
 
   Transform inverse() const;
   Transform operator*(const Transform& b) const;  ///< first b, then this
-  bool swaps_handedness() const;                  ///< determinant of the linear part < 0
+  double determinant() const;                     ///< of the linear part
+  bool swaps_handedness() const;                  ///< determinant < 0
   bool is_identity() const;
   const Matrix& matrix() const { return m_; }
 

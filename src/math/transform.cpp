@@ -2,30 +2,17 @@
 #include <cmath>
 #include <utility>
 
+#include "math/vec3d.h"
 #include "tyndall/error.h"
-#include "tyndall/math.h"
 
 namespace tyndall {
 namespace {
 
 using Matrix = Transform::Matrix;
 
-struct DVec3 {
-  double x, y, z;
-};
-
 constexpr Matrix kIdentity{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
 
 Error bad_transform(const std::string& what) { return Error(Failure::scene, what); }
-
-DVec3 cross(DVec3 a, DVec3 b) { return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x}; }
-
-double length(DVec3 a) { return std::sqrt(a.x * a.x + a.y * a.y + a.z * a.z); }
-
-DVec3 unit(DVec3 a) {
-  const double l = length(a);
-  return {a.x / l, a.y / l, a.z / l};
-}
 
 Matrix product(const Matrix& a, const Matrix& b) {
   Matrix c{};
@@ -33,11 +20,6 @@ Matrix product(const Matrix& a, const Matrix& b) {
     for (int j = 0; j < 4; ++j)
       for (int k = 0; k < 4; ++k) c[i][j] += a[i][k] * b[k][j];
   return c;
-}
-
-double determinant3(const Matrix& m) {
-  return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
-         m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
 }
 
 bool all_finite(const Matrix& m) {
@@ -101,13 +83,11 @@ void require_regular(const Matrix& m, const Matrix& inverse) {
   if (norm * inverse_norm > 1e14) throw bad_transform("transform is singular; its axes lie in a plane or on a line");
 }
 
-DVec3 apply(const Matrix& m, Vec3 p, double w) {
+Vec3d apply(const Matrix& m, Vec3 p, double w) {
   return {m[0][0] * p.x + m[0][1] * p.y + m[0][2] * p.z + m[0][3] * w,
           m[1][0] * p.x + m[1][1] * p.y + m[1][2] * p.z + m[1][3] * w,
           m[2][0] * p.x + m[2][1] * p.y + m[2][2] * p.z + m[2][3] * w};
 }
-
-Vec3 to_float(DVec3 v) { return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)}; }
 
 float round_down(double v) {
   const float f = static_cast<float>(v);
@@ -149,11 +129,11 @@ Transform Transform::scale(double x, double y, double z) {
 }
 
 Transform Transform::rotate(double degrees, double x, double y, double z) {
-  const DVec3 axis{x, y, z};
+  const Vec3d axis{x, y, z};
   if (!(length(axis) > 0) || !std::isfinite(length(axis)) || !std::isfinite(degrees))
     throw bad_transform("rotation has no axis; give an axis that is finite and not 0 0 0");
   // Rodrigues' formula: cos I + (1 - cos) a a^T + sin [a]x.
-  const DVec3 a = unit(axis);
+  const Vec3d a = normalize(axis);
   const double radians = std::remainder(degrees, 360.0) * 3.14159265358979323846 / 180;
   const double s = std::sin(radians), c = std::cos(radians), t = 1 - c;
   const Matrix m{{{t * a.x * a.x + c, t * a.x * a.y - s * a.z, t * a.x * a.z + s * a.y, 0},
@@ -167,25 +147,24 @@ Transform Transform::rotate(double degrees, double x, double y, double z) {
 }
 
 Transform Transform::look_at(Vec3 eye, Vec3 look, Vec3 up) {
-  const DVec3 forward{double(look.x) - eye.x, double(look.y) - eye.y, double(look.z) - eye.z};
-  const DVec3 upward{up.x, up.y, up.z};
-  const DVec3 side = cross(upward, forward);
+  const Vec3d forward = Vec3d(look) - Vec3d(eye), upward(up);
+  const Vec3d side = cross(upward, forward);
   if (!(length(side) > 1e-10 * length(forward) * length(upward)))
     throw bad_transform("LookAt has no unique view; eye and target must differ, and up must not point along the view");
-  const DVec3 z = unit(forward), x = unit(side), y = cross(z, x);
+  const Vec3d z = normalize(forward), x = normalize(side), y = cross(z, x);
   const Matrix to_world{{{x.x, y.x, z.x, eye.x}, {x.y, y.y, z.y, eye.y}, {x.z, y.z, z.z, eye.z}, {0, 0, 0, 1}}};
   if (!all_finite(to_world)) throw bad_transform("LookAt is not finite");
   return Transform(inverse_of(to_world), to_world);
 }
 
-Vec3 Transform::point(Vec3 p) const { return to_float(apply(m_, p, 1)); }
+Vec3 Transform::point(Vec3 p) const { return to_vec3(apply(m_, p, 1)); }
 
-Vec3 Transform::vector(Vec3 v) const { return to_float(apply(m_, v, 0)); }
+Vec3 Transform::vector(Vec3 v) const { return to_vec3(apply(m_, v, 0)); }
 
 Vec3 Transform::normal(Vec3 n) const {
   const Matrix& i = inverse_;
-  return to_float({i[0][0] * n.x + i[1][0] * n.y + i[2][0] * n.z, i[0][1] * n.x + i[1][1] * n.y + i[2][1] * n.z,
-                   i[0][2] * n.x + i[1][2] * n.y + i[2][2] * n.z});
+  return to_vec3({i[0][0] * n.x + i[1][0] * n.y + i[2][0] * n.z, i[0][1] * n.x + i[1][1] * n.y + i[2][1] * n.z,
+                  i[0][2] * n.x + i[1][2] * n.y + i[2][2] * n.z});
 }
 
 Bounds3 Transform::bounds(const Bounds3& b) const {
@@ -193,7 +172,7 @@ Bounds3 Transform::bounds(const Bounds3& b) const {
   if (b.empty()) return out;
   // Rounded outward, so that a point of `b` never leaves the result.
   for (int i = 0; i < 8; ++i) {
-    const DVec3 p = apply(m_, b.corner(i), 1);
+    const Vec3d p = apply(m_, b.corner(i), 1);
     out.min = tyndall::min(out.min, {round_down(p.x), round_down(p.y), round_down(p.z)});
     out.max = tyndall::max(out.max, {round_up(p.x), round_up(p.y), round_up(p.z)});
   }
@@ -204,7 +183,13 @@ Transform Transform::inverse() const { return Transform(inverse_, m_); }
 
 Transform Transform::operator*(const Transform& b) const { return Transform(product(m_, b.m_), product(b.inverse_, inverse_)); }
 
-bool Transform::swaps_handedness() const { return determinant3(m_) < 0; }
+double Transform::determinant() const {
+  const Matrix& m = m_;
+  return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
+         m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
+}
+
+bool Transform::swaps_handedness() const { return determinant() < 0; }
 
 bool Transform::is_identity() const { return m_ == kIdentity; }
 

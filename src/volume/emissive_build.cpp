@@ -17,11 +17,6 @@ Transform transform_of(const Affine& map) {
   return Transform(rows);
 }
 
-double determinant(const Transform::Matrix& m) {
-  return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
-         m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
-}
-
 Box3d overlap(const Box3d& a, const Box3d& b) {
   Box3d both;
   for (int i = 0; i < 3; ++i) {
@@ -268,7 +263,7 @@ EmissiveCellData CellFinder::placed(const Extent& box) const {
   cells.to_world = emission_.to_world() * Transform::translate(box.lo[0] * side, box.lo[1] * side, box.lo[2] * side) *
                    Transform::scale(side, side, side);
   cells.to_local = Affine::of(cells.to_world.inverse());
-  cells.cell_volume = std::abs(determinant(cells.to_world.matrix()));
+  cells.cell_volume = std::abs(cells.to_world.determinant());
   cells.size = box.size;
   cells.index.assign(static_cast<std::size_t>(box.places()), EmissiveCellData::kNone);
   const double voxels = side * side * side;

@@ -56,6 +56,7 @@ TEST_CASE("normals stay perpendicular to their surface under shear and mirror") 
 TEST_CASE("handedness follows the sign of the determinant") {
   CHECK_FALSE(Transform::rotate(33, 1, 2, 3).swaps_handedness());
   CHECK(Transform::scale(-1, 1, 1).swaps_handedness());
+  CHECK(Transform(linear({2, 1, 0, 0, 3, 0, 0, 0, -1})).determinant() == -6);
   CHECK_FALSE(Transform::scale(-1, -1, 1).swaps_handedness());
   CHECK(Transform(linear({0, 1, 0, 1, 0, 0, 0, 0, 1})).swaps_handedness());
 }
