@@ -1,6 +1,7 @@
 /// Affine maps in double precision: from the world to the index space of a grid.
 #pragma once
 
+#include <algorithm>
 #include <array>
 
 #include "tyndall/math.h"
@@ -22,6 +23,16 @@ struct Box3d {
   }
   bool empty() const { return !(lo[0] <= hi[0] && lo[1] <= hi[1] && lo[2] <= hi[2]); }
 };
+
+/// What both hold.
+inline Box3d overlap(const Box3d& a, const Box3d& b) {
+  Box3d both;
+  for (int i = 0; i < 3; ++i) {
+    both.lo[i] = std::max(a.lo[i], b.lo[i]);
+    both.hi[i] = std::min(a.hi[i], b.hi[i]);
+  }
+  return both;
+}
 
 /// Three rows of a 4x4 matrix whose last row is 0 0 0 1.
 struct Affine {

@@ -17,15 +17,6 @@ Transform transform_of(const Affine& map) {
   return Transform(rows);
 }
 
-Box3d overlap(const Box3d& a, const Box3d& b) {
-  Box3d both;
-  for (int i = 0; i < 3; ++i) {
-    both.lo[i] = std::max(a.lo[i], b.lo[i]);
-    both.hi[i] = std::min(a.hi[i], b.hi[i]);
-  }
-  return both;
-}
-
 Box3d cube(const Index3& corner, std::int64_t side) {
   Box3d box;
   for (std::size_t i = 0; i < 3; ++i) {

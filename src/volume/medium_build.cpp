@@ -32,15 +32,6 @@ std::string shortest(float v) {
 
 Box3d box_of(const Bounds3& b) { return {{{b.min.x, b.min.y, b.min.z}}, {{b.max.x, b.max.y, b.max.z}}}; }
 
-Box3d intersect(const Box3d& a, const Box3d& b) {
-  Box3d r;
-  for (int i = 0; i < 3; ++i) {
-    r.lo[i] = std::max(a.lo[i], b.lo[i]);
-    r.hi[i] = std::min(a.hi[i], b.hi[i]);
-  }
-  return r;
-}
-
 GridVec to_vec3d(const Index3& i) {
   return {{static_cast<double>(i[0]), static_cast<double>(i[1]), static_cast<double>(i[2])}};
 }
@@ -171,7 +162,7 @@ void build(const UniformGridMedium& uniform, const BuildContext& context, Medium
   const CellGrid cells(context, uniform.bounds, uniform.nx, uniform.ny, uniform.nz);
   data.density = cells.place({uniform.density}, "density");
   const BrickGrid& grid = data.density.grid;
-  finish_grid(cells.world_to_index().inverse(), intersect(grid.support(), cells.box(grid)), to_vec3d(grid.origin()), data);
+  finish_grid(cells.world_to_index().inverse(), overlap(grid.support(), cells.box(grid)), to_vec3d(grid.origin()), data);
 
   EmissionField& emission = data.emission;
   emission.factor = uniform.Le_factor;
@@ -230,7 +221,7 @@ void build(const RgbGridMedium& rgb, const BuildContext& context, MediumData& da
     box.hi[i] += 1;
     origin[i] -= 1;
   }
-  finish_grid(cells.world_to_index().inverse(), intersect(grid.support(), box), origin, data);
+  finish_grid(cells.world_to_index().inverse(), overlap(grid.support(), box), origin, data);
 
   if (rgb.Le.empty()) return;
   std::vector<std::vector<float>> emitted(3);
