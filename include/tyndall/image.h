@@ -28,6 +28,9 @@ struct PixelBounds {
   bool operator==(const PixelBounds&) const = default;
 };
 
+/// "x0,x1,y0,y1", as --crop takes it.
+std::string crop_text(const PixelBounds& crop);
+
 /// CIE 1931 xy of the three primaries and the white point.
 struct Chromaticities {
   Vec2 red{0.64f, 0.33f}, green{0.30f, 0.60f}, blue{0.15f, 0.06f}, white{0.3127f, 0.3290f};

@@ -103,9 +103,7 @@ void add_camera_and_film(const Scene& scene, Description& result) {
   result.properties.push_back({"film", "size", std::to_string(scene.film.width) + " x " + std::to_string(scene.film.height)});
   const PixelBounds crop = scene.settings.crop.value_or(scene.film.crop);
   if (crop != PixelBounds{0, 0, scene.film.width, scene.film.height})
-    result.properties.push_back({"film", "crop",
-                                 std::to_string(crop.x0) + "," + std::to_string(crop.x1) + "," + std::to_string(crop.y0) + "," +
-                                     std::to_string(crop.y1)});
+    result.properties.push_back({"film", "crop", crop_text(crop)});
   if (!scene.film.filename.empty()) result.properties.push_back({"film", "file", scene.film.filename});
 }
 

@@ -4,6 +4,10 @@
 
 namespace tyndall {
 
+std::string crop_text(const PixelBounds& c) {
+  return std::to_string(c.x0) + "," + std::to_string(c.x1) + "," + std::to_string(c.y0) + "," + std::to_string(c.y1);
+}
+
 Channel& Image::add_channel(std::string name) {
   const auto count = static_cast<std::size_t>(width()) * static_cast<std::size_t>(height());
   channels.push_back({std::move(name), std::vector<float>(count)});

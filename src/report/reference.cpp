@@ -12,10 +12,6 @@ namespace {
 
 constexpr int kFewestSamples = 16;  ///< of a reference, whatever time it has: its variance must mean something
 
-std::string box(const PixelBounds& b) {
-  return std::to_string(b.x0) + "," + std::to_string(b.x1) + "," + std::to_string(b.y0) + "," + std::to_string(b.y1);
-}
-
 /// `seeds` is a list of numbers with anything in between.
 bool names_seed(const std::string& seeds, const std::string& seed) {
   const auto digit = [&](std::size_t i) { return i < seeds.size() && seeds[i] >= '0' && seeds[i] <= '9'; };
@@ -49,7 +45,7 @@ void Reference::require_fit(const World& world, const RenderSettings& settings, 
   const PixelBounds pixels = RenderJob(world, settings).pixels();
   const bool of_ours = image.attributes.contains(attributes::kSceneHash);
   if (image.width() != pixels.width() || image.height() != pixels.height() || (of_ours && !(image.data == pixels))) {
-    refuse("has the pixels " + box(image.data) + " where the render has " + box(pixels) +
+    refuse("has the pixels " + crop_text(image.data) + " where the render has " + crop_text(pixels) +
            "; give the reference's --resolution and --crop");
   }
   const auto* hash = image.attribute<std::string>(attributes::kSceneHash);

@@ -83,10 +83,6 @@ Slice read_slice(const std::string& path) {
   return slice;
 }
 
-std::string crop_text(const PixelBounds& c) {
-  return std::to_string(c.x0) + "," + std::to_string(c.x1) + "," + std::to_string(c.y0) + "," + std::to_string(c.y1);
-}
-
 std::string sources_text(std::vector<SliceSource> sources) {
   std::sort(sources.begin(), sources.end(), [](const SliceSource& a, const SliceSource& b) {
     const auto key = [](const SliceSource& s) {

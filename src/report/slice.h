@@ -34,9 +34,6 @@ Slice read_slice(const std::string& path);
 /// As attribute tyndall/slices holds it: "seed 7 samples 64 crop 0,480,0,270; seed 8 samples 64 from 128 crop ...", sorted.
 std::string sources_text(std::vector<SliceSource> sources);
 
-/// "x0,x1,y0,y1", as --crop takes it.
-std::string crop_text(const PixelBounds& crop);
-
 /// The pixels in both; no pixel: width or height not above 0.
 PixelBounds intersection(const PixelBounds& a, const PixelBounds& b);
 

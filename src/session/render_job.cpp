@@ -271,14 +271,11 @@ class RenderJob::Impl {
 
   /// What must agree for a checkpoint to be taken up: everything that the bits of the picture depend on.
   CheckpointIdentity identity() const {
-    const PixelBounds& c = film_.crop();
-    std::string pixels;
-    for (const int v : {c.x0, c.x1, c.y0, c.y1}) pixels += (pixels.empty() ? "" : ",") + std::to_string(v);
     return {{"scene", scene_hash_text(world_.scene_hash, settings_)},
             {"options",
              options_text(settings_) + " --seed " + std::to_string(settings_.seed) + (plan_ ? plan_text(settings_) : "")},
             {"slice", slice_text(settings_)},
-            {"crop", pixels},
+            {"crop", crop_text(film_.crop())},
             {"aov", aov_list(settings_.aovs)},
             {"set of matte names", mattes_.identity()},
             {"deep image", deep_ ? deep_->str() : "none"},
