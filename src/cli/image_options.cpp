@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "cli/option_values.h"
 #include "cli/validators.h"
 #include "tyndall/cryptomatte.h"
 #include "tyndall/error.h"
@@ -10,12 +11,6 @@
 
 namespace tyndall::cli {
 namespace {
-
-std::string listed(const std::vector<std::string_view>& names) {
-  std::string text;
-  for (const std::string_view name : names) text += (text.empty() ? "" : ", ") + std::string(name);
-  return text;
-}
 
 CLI::IsMember one_of(const std::vector<std::string_view>& names) {
   return CLI::IsMember(std::vector<std::string>(names.begin(), names.end()));
@@ -45,10 +40,10 @@ void declare(CLI::App& command, ImageOptions& o) {
   command
       .add_option(
           "--compression", o.compression,
-          "packing of an .exr: " + listed(exr_compression_names()) + "; the last two are lossy [zip]; --compression piz")
+          "packing of an .exr: " + join(exr_compression_names(), ", ") + "; the last two are lossy [zip]; --compression piz")
       ->check(one_of(exr_compression_names()));
   command.add_flag("--parts", o.parts, "an .exr of several parts, one for each group of channels: rgba, Albedo ...");
-  command.add_option("--view", o.view, "from light to what a .png shows: " + listed(view_names()) + " [srgb]; --view agx")
+  command.add_option("--view", o.view, "from light to what a .png shows: " + join(view_names(), ", ") + " [srgb]; --view agx")
       ->check(one_of(view_names()));
   command.add_option("--exposure", o.exposure, "stops that a .png is made brighter by, before --view [0]; --exposure 1.5")
       ->check(number_between(-64, 64));
