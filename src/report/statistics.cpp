@@ -39,8 +39,6 @@ double incomplete_beta(double a, double b, double x, double one_minus_x) {
 
 }  // namespace
 
-double normal_cdf(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
-
 double incomplete_beta(double a, double b, double x) { return incomplete_beta(a, b, x, 1 - x); }
 
 double student_t_two_sided(double t, double dof) {
@@ -50,11 +48,6 @@ double student_t_two_sided(double t, double dof) {
   const double t2 = t * t;
   if (std::isinf(t2)) return 0;
   return incomplete_beta(dof / 2, 0.5, dof / (dof + t2), t2 / (dof + t2));
-}
-
-double student_t_cdf(double t, double dof) {
-  const double tail = 0.5 * student_t_two_sided(t, dof);
-  return t < 0 ? tail : 1 - tail;
 }
 
 double binomial_tail(std::size_t trials, double p, std::size_t count) {

@@ -6,15 +6,11 @@
 
 namespace tyndall {
 
-/// P(Z <= z), Z standard normal; exact in both tails.
-double normal_cdf(double z);
-
 /// Regularised incomplete beta function I_x(a, b); a, b > 0, x in [0, 1].
 double incomplete_beta(double a, double b, double x);
 
-/// P(T <= t), T Student's t with `dof` degrees of freedom (any real number above 0, infinity: normal).
-double student_t_cdf(double t, double dof);
-/// P(|T| >= |t|), without cancellation for large |t|.
+/// P(|T| >= |t|), T Student's t with `dof` degrees of freedom (any real number above 0, infinity: normal); without cancellation
+/// for large |t|.
 double student_t_two_sided(double t, double dof);
 
 /// P(X >= count), X binomial: `trials` of chance `p` each, in (0, 1).

@@ -17,13 +17,6 @@ bool same(double a, double b, int digits = 12) { return std::abs(a - b) <= std::
 
 }  // namespace
 
-TEST_CASE("the normal distribution, tails included") {
-  CHECK(normal_cdf(0) == 0.5);
-  CHECK(same(normal_cdf(1.959963984540054), 0.975));
-  CHECK(same(normal_cdf(-6), 9.865876450376981e-10, 10));
-  CHECK(normal_cdf(40) == 1.0);
-}
-
 TEST_CASE("the incomplete beta function against closed forms") {
   for (const double x : {1e-9, 0.01, 0.3, 0.5, 0.77, 0.999}) {
     CAPTURE(x);
@@ -42,12 +35,12 @@ TEST_CASE("Student's t against closed forms and a printed table") {
   for (const double t : {0.0, 0.1, 1.0, 2.5, 9.0, 1e3}) {
     CAPTURE(t);
     CHECK(same(student_t_two_sided(t, 1), t == 0 ? 1 : 2 / std::acos(-1.0) * std::atan(1 / t), 11));
-    CHECK(same(student_t_cdf(t, 2), 0.5 + t / (2 * std::sqrt(2 + t * t)), 11));
-    CHECK(same(student_t_cdf(-t, 7) + student_t_cdf(t, 7), 1));
+    CHECK(same(1 - 0.5 * student_t_two_sided(t, 2), 0.5 + t / (2 * std::sqrt(2 + t * t)), 11));
+    CHECK(student_t_two_sided(-t, 7) == student_t_two_sided(t, 7));
     CHECK(same(student_t_two_sided(t, 1e9) + 1, std::erfc(t / std::sqrt(2.0)) + 1));
   }
-  CHECK(same(student_t_cdf(2.228138851964939, 10), 0.975, 9));
-  CHECK(same(student_t_cdf(1.972395135, 192), 0.975, 4));
+  CHECK(same(student_t_two_sided(2.228138851964939, 10), 0.05, 7));
+  CHECK(same(student_t_two_sided(1.972395135, 192), 0.05, 4));
   // Far out the tail keeps its digits: t = 1e3, 2 degrees of freedom: 1 - t / sqrt(2 + t^2).
   CHECK(same(student_t_two_sided(1e3, 2), -std::expm1(-0.5 * std::log1p(2e-6)), 9));
   CHECK(student_t_two_sided(kInfinite, 5) == 0);
