@@ -228,8 +228,8 @@ std::optional<TextureId> find_color_texture(State& state, ParamList& params, std
   return constant_texture(state, to_color(state, *p, use));
 }
 
-TextureId color_texture(State& state, ParamList& params, std::string_view name, Rgb otherwise, ColorUse use) {
-  const auto id = find_color_texture(state, params, name, use);
+TextureId color_texture(State& state, ParamList& params, std::string_view name, Rgb otherwise) {
+  const auto id = find_color_texture(state, params, name, ColorUse::albedo);
   return id ? *id : constant_texture(state, otherwise);
 }
 

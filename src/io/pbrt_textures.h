@@ -22,7 +22,8 @@ inline constexpr std::initializer_list<ParamType> kColorTextureTypes = {ParamTyp
 
 /// A colour parameter: rgb, spectrum, blackbody, or "texture" (a spectrum texture).
 std::optional<TextureId> find_color_texture(State& state, ParamList& params, std::string_view name, ColorUse use);
-TextureId color_texture(State& state, ParamList& params, std::string_view name, Rgb otherwise, ColorUse use = ColorUse::albedo);
+/// That of a share of light: a reflectance, a transmittance, an albedo.
+TextureId color_texture(State& state, ParamList& params, std::string_view name, Rgb otherwise);
 
 /// Says, at the end of the reading, which named textures nothing has asked for.
 void warn_of_idle_textures(State& state);

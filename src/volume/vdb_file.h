@@ -54,8 +54,7 @@ std::unique_ptr<VolumeFile> open_volume(const std::string& path,
 
 // The two kinds, read in this process; open_volume chooses.
 std::unique_ptr<VolumeFile> open_openvdb(const std::string& path);
-std::unique_ptr<VolumeFile> open_nanovdb(const std::string& path,
-                                         std::size_t most_memory = std::numeric_limits<std::size_t>::max());
+std::unique_ptr<VolumeFile> open_nanovdb(const std::string& path, std::size_t most_memory);
 
 /// Text that a file or a library supplies, fit for a message: printable, one line, at most 300 characters.
 std::string printable(const std::string& text);
