@@ -88,6 +88,11 @@ std::optional<MirrorPart> Bsdf::mirror_part(Vec3 wo) const {
   return MirrorPart{normalize(frame_.to_world({-o.x, -o.y, o.z})), f};
 }
 
+float Bsdf::unbent(Vec3 wo) const {
+  if (const auto* pane = std::get_if<ThinDielectricLobe>(&lobe_)) return 1 - pane->mirrored(frame_.to_local(wo));
+  return std::holds_alternative<PassThroughLobe>(lobe_) ? 1.0f : 0.0f;
+}
+
 bool Bsdf::has_smooth() const {
   return std::visit([](const auto& lobe) { return lobe.has_smooth(); }, lobe_);
 }

@@ -41,6 +41,9 @@ class Bsdf {
   /// Where samples are mirrored by chance, others not: what the former bring.
   std::optional<MirrorPart> mirror_part(Vec3 wo) const;
 
+  /// Share of the light that goes straight through where that is all that is not mirrored, as of panes; 0: bent or spread.
+  float unbent(Vec3 wo) const;
+
   /// eval(wo, .) in outline: the lobes about the mirrored and the refracted direction, and the rest.
   Highlights highlights(Vec3 wo) const;
 

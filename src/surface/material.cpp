@@ -121,6 +121,7 @@ Materials::Materials(const Scene& scene, const Textures& textures) : materials_(
       Traits t = traits_[id];
       t.add(traits_[mix->first]);
       t.add(traits_[mix->second]);
+      t.is_pane |= is_interface(mix->first) || is_interface(mix->second);
       changed |= t != traits_[id];
       traits_[id] = t;
     }
@@ -133,6 +134,7 @@ Materials::Traits Materials::own_traits(const Material& m) const {
   t.bends_normals = m.displacement || m.normal_map;
   for_each_texture(m, [&](TextureId texture) { t.wants_detail |= textures_->uses_footprint(texture); });
   if (const auto* glass = std::get_if<DielectricMaterial>(&m.kind)) t.is_dispersive = glass->eta_rgb.has_value();
+  t.is_pane = std::holds_alternative<ThinDielectricMaterial>(m.kind);
   return t;
 }
 

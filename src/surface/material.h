@@ -41,15 +41,18 @@ class Materials {
   bool bends_normals(MaterialId id) const { return traits_[id].bends_normals; }
   /// Whether it refracts each channel in a direction of its own: bsdf() needs SurfaceQuery::channel.
   bool is_dispersive(MaterialId id) const { return traits_[id].is_dispersive; }
+  /// Whether light of all channels may go straight through it (Bsdf::unbent).
+  bool is_pane(MaterialId id) const { return traits_[id].is_pane && !traits_[id].is_dispersive; }
   std::size_t size() const { return materials_.size(); }
 
  private:
   struct Traits {
-    bool wants_detail = false, bends_normals = false, is_dispersive = false;
+    bool wants_detail = false, bends_normals = false, is_dispersive = false, is_pane = false;
     void add(const Traits& other) {
       wants_detail |= other.wants_detail;
       bends_normals |= other.bends_normals;
       is_dispersive |= other.is_dispersive;
+      is_pane |= other.is_pane;
     }
     bool operator==(const Traits&) const = default;
   };

@@ -72,6 +72,7 @@ Rng Path::stream_for_emission() {
 /// Next-event estimation, then the direction of the next ray. False ends the path.
 bool Path::scatter(const Vertex& vertex) {
   context_.bounce = depth_ - 1;
+  if (is_pane(context_.world, vertex)) return pass_pane(vertex);
   // How likely others had scattered toward what is shared must not depend on how the path came there.
   context_.guided_weight = is_scattered_by_find(depth_) ? 1 : 1 / guided_pdf_ratio_;
   // On the ray it was about what media scatter.
@@ -103,17 +104,46 @@ bool Path::scatter(const Vertex& vertex) {
   }
   light_sampled_ = !s->specular && vertex.has_smooth();
   end_counted_ = looked && s->mirrored;
+  panes_ = 0;
   from_ = vertex.p();
   pdf_ = sought_.pdf(vertex, s->wi, s->pdf);
   if (vertex.has_smooth()) ++context_.smooth_bounces;
-  media_ = vertex.media_toward(context_.world.geometry, s->wi);
-  ray_ = {vertex.origin(context_.world.geometry, s->wi), s->wi};
   context_.joint = joint ? &joint_.emplace(*joint, s->wi, vertex.pdf(s->wi, Rgb(1.0f))) : nullptr;
+  return go_on(vertex, *s);
+}
+
+bool Path::go_on(const Vertex& vertex, const ScatterSample& s) {
+  media_ = vertex.media_toward(context_.world.geometry, s.wi);
+  ray_ = {vertex.origin(context_.world.geometry, s.wi), s.wi};
   flown_ = Rgb(1.0f);
-  beta_ *= s->weight;
-  eta_scale_ *= s->eta * s->eta;
-  guided_pdf_ratio_ *= s->guided_pdf_ratio;
+  beta_ *= s.weight;
+  eta_scale_ *= s.eta * s.eta;
+  guided_pdf_ratio_ *= s.guided_pdf_ratio;
   return !is_black(beta_) && survive_roulette();
+}
+
+/// What is not mirrored goes straight on: the lights behind it are those that next-event estimation has seen through it from
+/// the last bounce, and weigh as there. False ends the path.
+bool Path::pass_pane(const Vertex& vertex) {
+  begin(Step::light);
+  const Rgb seen = seen_.value_or(beta_);
+  seen_.reset();
+  const bool looked = look_into_mirror(vertex, seen);
+  if (is_black(beta_) || (is_last_bounce(context_) && !context_.world.rays_find_lights())) return false;
+  begin(Step::scatter);
+  const float uc = context_.sampler.next_1d();
+  const auto s = vertex.sample(beta_, uc, context_.sampler.next_2d());
+  if (!s) return false;
+  end_counted_ = looked && s->mirrored;
+  if (light_sampled_ && !s->mirrored) {
+    ++panes_;
+  } else {
+    light_sampled_ = false;
+    panes_ = 0;
+    from_ = vertex.p();
+  }
+  context_.joint = nullptr;
+  return go_on(vertex, *s);
 }
 
 bool Path::survive_roulette() {

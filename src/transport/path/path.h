@@ -116,6 +116,8 @@ class Path {
   void record_transmittance(const Span& span);
   void record_camera_media(const Span& span);
   bool scatter(const Vertex& vertex);
+  bool pass_pane(const Vertex& vertex);
+  bool go_on(const Vertex& vertex, const ScatterSample& s);
   bool survive_roulette();
 
   LightContext context_;
@@ -135,6 +137,7 @@ class Path {
   // The last bounce, for the MIS weight of emitters that its ray hits.
   bool light_sampled_ = false;                 ///< next-event estimation could have found what this ray finds
   bool end_counted_ = false;                   ///< emitters at the end of this ray count by look_into_mirror()
+  int panes_ = 0;                              ///< that the ray has passed since, straight on
   Vec3 from_;                                  ///< its position
   float pdf_ = 0;                              ///< of its direction, 1/sr
   std::optional<CollisionJointWeight> joint_;  ///< the ray from it, if it sampled lights jointly; context_ points to it

@@ -111,7 +111,7 @@ void Path::add_volume_emission(const Span& span) {
   if (last == span.parts.begin()) return;
   Rng rng = stream_for_emission();
   const ScatteredEmission gauge(*this);
-  const bool weighs = light_sampled_ && sought_.volumes();
+  const bool weighs = light_sampled_ && panes_ == 0 && sought_.volumes();  // no one seeks those through panes
   DeepSample* const deep = depth_ == 0 ? context_.deep : nullptr;
   const EmissionLook look{weighs ? &gauge : nullptr, depth_ == 0 ? kSeenDensity : 1.0f, deep};
   const int bounces = bounces_of_emission(weighs);
@@ -141,7 +141,7 @@ void Path::add_environment() {
     const Rgb L = lights.environment(id, ray);
     if (is_black(L)) continue;
     const float pdf = light_sampled_ ? lights.environment_pdf(id, ray) : 0.0f;
-    add_light(id, seen_.value_or(beta_) * L * scattering_mis_weight(id, pdf), depth_);
+    add_light(id, seen_.value_or(beta_) * L * scattering_mis_weight(id, pdf), depth_ - panes_);
   }
 }
 
@@ -150,11 +150,12 @@ void Path::add_surface_emission(const SurfaceHit& hit) {
   if (!id || end_counted_) return;
   if (depth_ == 0 && context_.drawn_emission && context_.drawn_emission->holds(context_.world, *id)) return;
   const Lights& lights = context_.world.lights;
-  const EmitterHit emitter = emitter_hit(hit);
+  EmitterHit emitter = emitter_hit(hit);
+  if (panes_ > 0) emitter.distance = length(hit.p - from_);
   const Rgb L = lights.emitted(*id, emitter, -ray_.d);
   if (is_black(L)) return;
   const float pdf = light_sampled_ ? lights.pdf(*id, from_, emitter) : 0.0f;
-  add_light(*id, seen_.value_or(beta_) * L * scattering_mis_weight(*id, pdf), depth_);
+  add_light(*id, seen_.value_or(beta_) * L * scattering_mis_weight(*id, pdf), depth_ - panes_);
 }
 
 }  // namespace tyndall

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "transport/budget/faint_chance.h"
+#include "transport/vertex/surface_vertex.h"
 #include "volume/coarse.h"
 
 namespace tyndall {
@@ -28,6 +29,32 @@ float chance_of_tracing(const LightContext& context, const MediaState& media, co
   if (!(clearest > 0)) return 1;
   const float depth = clearest * nearby_optical_depth(there, ray, end, kDeepest / clearest);
   return faint_chance(guessed_transmittance(depth));
+}
+
+/// Lights that a ray can find are seen through panes as well, by as many as the path may still pass: others, as in pbrt, are
+/// not. From where no media or `media` are; nothing gets through what is no pane.
+Rgb through_panes(const LightContext& context, MediaState media, Ray ray, const LightSample& light, Rng& rng) {
+  const BuiltWorld& world = context.world;
+  if (!world.has_panes || light.delta || light.volume) return {};
+  Rgb T(1.0f);
+  float left = light.distance;
+  for (int panes = context.settings.max_depth - context.bounce - 1;; --panes) {
+    ++context.counters.shadow_rays;
+    const Trace trace = world.geometry.trace(ray, 0, left * kShadowEnd);
+    if (world.has_media()) {
+      SpanWalk walk(world.media_context(), media, trace.crossings, trace.hit ? trace.t_end : left);
+      T *= transmittance_along(context, walk, ray, rng);
+      context.counters.parity_errors += walk.parity_errors();
+      media = walk.state();
+    }
+    if (!trace.hit || is_black(T)) return T;
+    if (panes <= 0 || !world.materials.is_pane(world.material_of(*trace.hit))) return {};
+    const Vertex pane = surface_vertex(world, *trace.hit, -ray.d, media, std::nullopt);
+    T *= pane.unbent();
+    left -= trace.hit->t;
+    media = pane.media_toward(world.geometry, ray.d);
+    ray.o = pane.origin(world.geometry, ray.d);
+  }
 }
 
 /// How many of the groups that hold a point bring the medium whose emission the light is.
@@ -60,14 +87,16 @@ Rgb arriving(const LightContext& context, const MediaState& media, Vec3 origin, 
   const float end = light.volume ? light.distance : light.distance * kShadowEnd;
   if (!world.has_media()) {
     ++context.counters.shadow_rays;
-    return world.geometry.occluded(ray, 0, end) ? Rgb() : Rgb(1.0f);
+    if (!world.geometry.occluded(ray, 0, end)) return Rgb(1.0f);
+    Rng none(0);
+    return through_panes(context, media, ray, light, none);
   }
   Rng rng = sampler.stream();
   const float chance = chance_of_tracing(context, media, ray, light.distance);
   if (chance < 1 && rng.uniform() >= chance) return {};
   ++context.counters.shadow_rays;
   const auto crossings = world.geometry.trace_shadow(ray, 0, end);
-  if (!crossings) return {};
+  if (!crossings) return through_panes(context, media, ray, light, rng) * (1 / chance);
 
   // Through media the whole distance counts: at optical depth 4 the last 1e-4 of it is 4e-4 of the light.
   SpanWalk walk(world.media_context(), media, *crossings, light.distance);

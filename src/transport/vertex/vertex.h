@@ -61,6 +61,9 @@ class Vertex {
   /// Of a surface that mirrors by chance.
   std::optional<MirrorPart> mirror_part() const { return on_surface() ? surface()->bsdf.mirror_part(wo_) : std::nullopt; }
 
+  /// Of a surface: share of light that goes straight through (Bsdf::unbent).
+  float unbent() const { return on_surface() ? surface()->bsdf.unbent(wo_) : 0.0f; }
+
   /// Reflectance plus transmittance of a surface; 1 in media, where it is in the collision's weight.
   Rgb albedo() const;
 

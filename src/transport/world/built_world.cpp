@@ -148,6 +148,7 @@ BuiltWorld::BuiltWorld(Scene unit_scene, const BuildSettings& settings, std::siz
   light_groups = light_groups_of(*this, emitters.shapes);
   first_light.assign(geometry.placed().size(), kNone);
   for (std::size_t i = 0; i < emitters.placed.size(); ++i) first_light[emitters.placed[i]] = lights.first_light(i);
+  has_panes = std::ranges::any_of(geometry.placed(), [this](const auto& p) { return materials.is_pane(p.shape->material); });
   summary.lights = lights.size();
   for (const SelectorStats& s : lights.selectors()) summary.light_strategies.push_back({s.strategy, s.seconds, s.memory_bytes});
   summary.light_bytes = lights.memory_bytes() + volume_lights.memory_bytes();

@@ -43,6 +43,7 @@ struct BuiltWorld {
   BrightMedia bright_media;          ///< empty where all media are homogeneous
   Suns suns;                         ///< empty where the scene has no sun
   LightGroups light_groups;          ///< empty where the scene names none
+  bool has_panes = false;            ///< some surface lets light straight through
   std::vector<LightId> first_light;  ///< by placed shape; kNone where it does not emit
 
   SpanWalk::Context media_context() const { return {geometry.groups(), media}; }
