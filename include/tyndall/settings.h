@@ -64,7 +64,7 @@ inline constexpr int kMostSamples = 1 << 30;
 /// No stop is looked for within a path.
 inline constexpr int kMostBounces = 1 << 20;
 
-/// Of the command line and the Python module: threads, and lights that are asked at a vertex.
+/// Threads, and lights that are asked at a vertex.
 inline constexpr int kMostThreads = 4096, kMostLights = 4096;
 
 struct RenderSettings {
@@ -83,13 +83,13 @@ struct RenderSettings {
   std::optional<bool> adaptive{};
   int max_depth = 5;  ///< bounces a path, counted as pbrt's volpath; 0 to kMostBounces
   std::uint64_t seed = 0;
-  int threads = 0;                             ///< 0: all cores
+  int threads = 0;                             ///< 0: all cores, to kMostThreads
   LightStrategy lights = LightStrategy::tree;  ///< one that the World was built with
-  /// Candidates at a vertex or along a segment in media, >= 0; 0: as many as splitting makes clusters, one without a tree.
-  /// Exhaustive takes all lights and traces all; lightcuts takes the cut's, at most so many, 0 or unset: 1,000. Unset: as
-  /// `budget` has it, later 1 to 4.
+  /// Candidates at a vertex or along a segment in media, 0 to kMostLights; 0: as many as splitting makes clusters, one without
+  /// a tree. Exhaustive takes all lights and traces all; lightcuts takes the cut's, at most so many, 0 or unset: 1,000. Unset:
+  /// as `budget` has it, later 1 to 4.
   std::optional<int> candidates{};
-  /// Of the candidates, are traced, >= 0; 0: every one. Unset: likewise, later 1 or 2; with lightcuts all.
+  /// Of the candidates, are traced, 0 to kMostLights; 0: every one. Unset: likewise, later 1 or 2; with lightcuts all.
   std::optional<int> shadow_rays{};
   /// Clusters of the light tree that are predicted worse than this are split, in [0, 1]; 0: none, 1: down to single lights. Up
   /// to 15 clusters are made, or as many as there are candidates if those are more; with 0 candidates there is no limit. Not

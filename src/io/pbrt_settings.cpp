@@ -16,6 +16,12 @@ int at_least(ParamList& params, std::string_view name, int otherwise, int least)
   return value;
 }
 
+int count_up_to(ParamList& params, std::string_view name, int most) {
+  const int count = at_least(params, name, 0, 0);
+  if (count > most) throw params.error(name, std::string(name) + " must be at most " + std::to_string(most));
+  return count;
+}
+
 /// Of paths without end a render could neither be stopped nor keep its time.
 int read_max_depth(ParamList& params, std::string_view name, int otherwise) {
   const int depth = at_least(params, name, otherwise, 0);
@@ -72,16 +78,16 @@ void read_own_options(State& state, ParamList& params) {
     if (!(*time > 0)) throw params.error("time", "time must be above 0 seconds");
     s.time = *time;
   }
-  s.threads = at_least(params, "threads", s.threads, 0);
+  if (params.find("threads", {ParamType::integer})) s.threads = count_up_to(params, "threads", kMostThreads);
   if (const auto error = maybe_relmse(params, "error")) s.error = error;
   if (const auto error = maybe_relmse(params, "error-max")) s.error_max = error;
   if (params.find("adaptive", {ParamType::boolean})) s.adaptive = params.boolean("adaptive", false);
-  if (params.find("candidates", {ParamType::integer})) s.candidates = at_least(params, "candidates", 0, 0);
+  if (params.find("candidates", {ParamType::integer})) s.candidates = count_up_to(params, "candidates", kMostLights);
   if (const auto splitting = params.maybe_number("splitting")) {
     if (!(*splitting >= 0 && *splitting <= 1)) throw params.error("splitting", "splitting must be from 0 to 1");
     s.splitting = static_cast<float>(*splitting);
   }
-  if (params.find("shadow-rays", {ParamType::integer})) s.shadow_rays = at_least(params, "shadow-rays", 0, 0);
+  if (params.find("shadow-rays", {ParamType::integer})) s.shadow_rays = count_up_to(params, "shadow-rays", kMostLights);
   for (const StrategyAxis& axis : strategy_axes()) read_strategy(params, axis, s);  // "lights" wins over "lightsampler"
   s.reproducible = params.boolean("reproducible", s.reproducible);
   if (params.find("aov", {ParamType::string})) s.aovs = params.strings("aov");

@@ -7,10 +7,21 @@
 namespace tyndall {
 namespace {
 
+/// Numbers that would keep a render busy for years with its first vertex, or exhaust the machine.
+void check_counts(const RenderSettings& settings) {
+  const auto require = [](const char* name, int value, int most) {
+    if (value < 0 || value > most)
+      throw Error(Failure::usage, std::string(name) + " is " + std::to_string(value) + "; give 0 to " + std::to_string(most));
+  };
+  require("candidates", settings.candidates.value_or(0), kMostLights);
+  require("shadow rays", settings.shadow_rays.value_or(0), kMostLights);
+  require("threads", settings.threads, kMostThreads);
+}
+
 void check(const RenderSettings& settings) {
   sample_range(settings);  // throws when there are none
   if (settings.spp < 1) throw Error(Failure::usage, "spp is " + std::to_string(settings.spp) + "; give 1 or more");
-  if (settings.candidates && *settings.candidates < 0) throw Error(Failure::usage, "candidates is negative; give 0 or more");
+  check_counts(settings);
   if (settings.splitting && !(*settings.splitting >= 0 && *settings.splitting <= 1))
     throw Error(Failure::usage, "splitting must be from 0 to 1");
   const bool along_spans = settings.distance != DistanceStrategy::automatic && settings.distance != DistanceStrategy::tracking;
@@ -19,7 +30,6 @@ void check(const RenderSettings& settings) {
                 "media vertex chooses a light at a collision that has been tracked, so its distance is tracking; "
                 "leave distance out, or choose media closest, integral or product");
   }
-  if (settings.shadow_rays && *settings.shadow_rays < 0) throw Error(Failure::usage, "shadow rays is negative; give 0 or more");
   if (settings.max_depth < 0 || settings.max_depth > kMostBounces)
     throw Error(Failure::usage, "max depth must be from 0 to " + std::to_string(kMostBounces));
   if (settings.error && !(*settings.error > 0)) throw Error(Failure::usage, "error must be positive; give a relMSE");

@@ -87,6 +87,11 @@ TEST_CASE("candidates, splitting and shadow rays") {
   CHECK(s.shadow_rays == 2);
   CHECK_CONTAINS(error_of("Integrator \"volpath\" \"float splitting\" 1.5"), "from 0 to 1");
   CHECK_CONTAINS(error_of("Integrator \"volpath\" \"integer candidates\" -1"), "at least 0");
+  for (const char* name : {"candidates", "shadow-rays", "threads"}) {
+    const std::string count = std::string("Integrator \"volpath\" \"integer ") + name + "\" ";
+    CHECK_CONTAINS(error_of(count + "4097"), "at most 4096");
+    CHECK_NOTHROW(settings(count + "4096"));
+  }
 }
 
 TEST_CASE("spp and seed of the Integrator win over the Sampler's, in either order") {

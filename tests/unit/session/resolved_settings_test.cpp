@@ -59,6 +59,17 @@ TEST_CASE("paths have so many bounces at most") {
   }
 }
 
+TEST_CASE("no more lights are asked than a render can end with") {
+  const World smoke = world(cloud());
+  const auto require_bounds = [&](auto set, int most) {
+    for (const int count : {0, most}) CHECK_NOTHROW(resolved(set(count), smoke.parts()));
+    for (const int count : {-1, most + 1, 2'000'000'000}) CHECK_THROWS_AS(resolved(set(count), smoke.parts()), Error);
+  };
+  require_bounds([](int count) { return RenderSettings{.candidates = count}; }, kMostLights);
+  require_bounds([](int count) { return RenderSettings{.shadow_rays = count}; }, kMostLights);
+  require_bounds([](int count) { return RenderSettings{.threads = count}; }, kMostThreads);
+}
+
 TEST_CASE("what options say is not open") {
   const World smoke = world(test::distant_light({0.2f, 0.1f, 1}, 3) + cloud());
   const World burning = world(cloud(1));
