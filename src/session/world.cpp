@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "session/memory_plan.h"
+#include "session/scene_check.h"
 #include "session/scene_hash.h"
 #include "session/world_parts.h"
 #include "tyndall/error.h"
@@ -41,6 +42,7 @@ const BuildSummary& World::summary() const { return parts_->summary; }
 std::string World::scene_hash(const RenderSettings& settings) const { return scene_hash_text(parts_->scene_hash, settings); }
 
 World build(Scene scene, const BuildSettings& settings) {
+  check_values(scene);
   constexpr std::size_t kNoLimit = std::numeric_limits<std::size_t>::max();
   std::size_t volume_memory = kNoLimit;
   if (settings.max_memory != kNoLimit) {
