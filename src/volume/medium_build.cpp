@@ -158,6 +158,12 @@ bool emits(const PlacedGrid& grid, float scale, float offset) {
   return std::max((range.min - offset) * scale, (range.max - offset) * scale) > BlackbodyTable::kMin;
 }
 
+/// A temperature gives colour and radiance by itself.
+void warn_of_Le(const BuildContext& context) {
+  context.notes.push_back("warning: " + context.name() +
+                          ": Le is ignored beside temperatures; leave out either, or use Lescale");
+}
+
 void build(const UniformGridMedium& uniform, const BuildContext& context, MediumData& data) {
   const CellGrid cells(context, uniform.bounds, uniform.nx, uniform.ny, uniform.nz);
   data.density = cells.place({uniform.density}, "density");
@@ -168,6 +174,7 @@ void build(const UniformGridMedium& uniform, const BuildContext& context, Medium
   emission.factor = uniform.Le_factor;
   if (!(uniform.Le_factor > 0)) return;
   if (!uniform.temperature.empty()) {
+    if (!is_black(uniform.Le)) warn_of_Le(context);
     emission.values = cells.place({uniform.temperature}, "temperature", false);
     emission.temperature_scale = uniform.temperature_scale;
     emission.temperature_offset = uniform.temperature_offset;
@@ -246,6 +253,7 @@ void build(const VdbMedium& vdb, const BuildContext& context, MediumData& data) 
   const bool burns = grids.flame && !grids.flame->grid.empty();
   if (grids.flame && !burns) return;
   if (hot) {
+    if (vdb.Le != Rgb(1.0f)) warn_of_Le(context);
     emission.kind = EmissionField::Kind::blackbody;
     emission.values = std::move(grids.temperature);
     emission.temperature_scale = vdb.temperature_scale;

@@ -161,6 +161,19 @@ TEST_CASE("grids of impossible sizes and values are errors that say so") {
   CHECK_THROWS_AS(built(uniform, {}, {}), Error);
 }
 
+TEST_CASE("a colour of emission beside temperatures is ignored with a warning") {
+  UniformGridMedium grid;
+  grid.density = {1};
+  grid.temperature = {1000};
+  std::vector<std::string> notes;
+  built(grid, Transform(), {}, &notes);
+  CHECK(notes.empty());
+  grid.Le = Rgb(2);
+  built(grid, Transform(), {}, &notes);
+  REQUIRE(notes.size() == 1);
+  CHECK(notes[0] == "warning: medium \"test\": Le is ignored beside temperatures; leave out either, or use Lescale");
+}
+
 TEST_CASE("a homogeneous medium is everywhere and emits only what it absorbs") {
   const ParticipatingMedium fog =
       built(HomogeneousMedium{{1, 2, 3}}, {}, {{0.1f, 0.2f, 0.3f}, {1, 1, 1}, HenyeyGreenstein{0.2f}});

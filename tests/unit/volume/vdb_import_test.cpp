@@ -140,12 +140,14 @@ TEST_CASE("temperature and flame make light; what is cold, empty or absent makes
   vdb.Le = {1, 0.5f, 0.25f};
   vdb.temperature_scale = 1e-3f;  // too cold: the flame is alone
   CHECK(import(path, vdb).medium.at({8, 8, 8}).Le.g == doctest::Approx(2 * 0.5 * 0.25));
+  CHECK_FALSE(contains(import(path, vdb).notes, "Le is ignored"));
   vdb.flame_grid.clear();
   CHECK_FALSE(contains(import(path, vdb).notes, "emits nothing"));
   vdb.emission_given = true;
   CHECK(contains(import(path, vdb).notes, "emits nothing"));
   vdb.temperature_scale = 4000;
   CHECK_FALSE(contains(import(path, vdb).notes, "emits nothing"));
+  CHECK(contains(import(path, vdb).notes, "Le is ignored beside temperatures"));
   vdb.flame_grid = "flame";
 
   test::write_vdb(path, {density, flame});
