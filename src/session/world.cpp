@@ -73,6 +73,6 @@ World::Parts::Parts(UnitScene unit_scene, const BuildSettings& settings, std::si
     : to_user(unit_scene.to_user),
       unit(static_cast<float>(unit_scene.unit)),
       user_camera(as_given(unit_scene.scene.camera, to_user), unit_scene.scene.film),
-      built(std::move(unit_scene.scene), settings, volume_memory, summary) {}
+      built(std::move(unit_scene.scene), settings, {volume_memory, unit_scene.unit}, summary) {}
 
 }  // namespace tyndall

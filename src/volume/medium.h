@@ -32,6 +32,7 @@ struct MediumBuildOptions {
   std::size_t most_memory = std::numeric_limits<std::size_t>::max();
   bool float_bricks = false;  ///< keep voxels as 32-bit floats instead of 16-bit steps of each brick's range
   KeptFiles* kept = nullptr;  ///< media of files are taken from it
+  double unit = 1;            ///< one length here is so many of the user's, in which messages are
 };
 
 struct MediumData;  // medium_data.h, for tracking

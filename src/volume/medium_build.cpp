@@ -24,9 +24,9 @@ struct BuildContext {
   [[noreturn]] void fail(const std::string& what) const { throw Error(medium.where, name() + ": " + what); }
 };
 
-std::string shortest(float v) {
+std::string shortest(double v) {
   std::array<char, 32> text;
-  std::snprintf(text.data(), text.size(), "%g", double{v});
+  std::snprintf(text.data(), text.size(), "%g", v);
   return text.data();
 }
 
@@ -274,13 +274,18 @@ void require_range(const BuildContext& context, const MediumData& data) {
   if (data.kind != MediumData::Kind::grid) return;
   constexpr float kLeast = 0x1p-104f, kMost = 0x1p120f;
   const auto fits = [](float v) { return v >= kLeast && v <= kMost; };
+  const bool is_rgb = std::holds_alternative<RgbGridMedium>(context.medium.kind);
+  const auto refuse = [&](float density, const char* sigma, float most) {
+    const std::string values = is_rgb ? "values of sigma_a and sigma_s up to " : "densities up to ";
+    const std::string factor = is_rgb ? "a scale" : std::string("scale * ") + sigma;
+    context.fail(values + shortest(density) + " times " + factor + " of " + shortest(most / context.options.unit) +
+                 " cannot be reckoned with; bring both nearer to 1");
+  };
   for (int channel = 0; channel < data.density.grid.channels(); ++channel) {
     const float density = data.density.grid.range(channel).max;
-    for (const Rgb& sigma : {data.optics.sigma_a, data.optics.sigma_s}) {
+    for (const auto& [name, sigma] : {std::pair{"sigma_a", data.optics.sigma_a}, {"sigma_s", data.optics.sigma_s}}) {
       const float most = max_component(sigma);
-      if (double{density} * most > 1e-9 && !(fits(density) && fits(most) && fits(density * most)))
-        context.fail("densities up to " + shortest(density) + " times a sigma of " + shortest(most) +
-                     " cannot be reckoned with; bring both nearer to 1");
+      if (double{density} * most > 1e-9 && !(fits(density) && fits(most) && fits(density * most))) refuse(density, name, most);
     }
   }
 }

@@ -11,15 +11,16 @@
 namespace tyndall {
 namespace {
 
-std::vector<ParticipatingMedium> build_media(const Scene& scene, const BuildSettings& settings, std::size_t most_memory,
+std::vector<ParticipatingMedium> build_media(const Scene& scene, const BuildSettings& settings, const VolumeLimits& limits,
                                              BuildSummary& summary) {
   const Timer watch;
   std::vector<ParticipatingMedium> media;
   media.reserve(scene.media.size());
   for (const Medium& medium : scene.media) {
-    const std::size_t left = most_memory - std::min(summary.volume_bytes, most_memory);
-    media.push_back(
-        build_medium(medium, {.sanitize = settings.sanitize, .most_memory = left, .kept = settings.kept}, summary.notes));
+    const std::size_t left = limits.memory - std::min(summary.volume_bytes, limits.memory);
+    const MediumBuildOptions how{
+        .sanitize = settings.sanitize, .most_memory = left, .kept = settings.kept, .unit = limits.unit};
+    media.push_back(build_medium(medium, how, summary.notes));
     summary.volume_bytes += media.back().memory_bytes();
   }
   summary.media = media.size();
@@ -118,12 +119,12 @@ MediaState BuiltWorld::media_at_start(Vec3 origin) const {
   return state;
 }
 
-BuiltWorld::BuiltWorld(Scene unit_scene, const BuildSettings& settings, std::size_t volume_memory, BuildSummary& summary)
+BuiltWorld::BuiltWorld(Scene unit_scene, const BuildSettings& settings, const VolumeLimits& volumes, BuildSummary& summary)
     : scene(with_media(std::move(unit_scene))),
       textures(build_textures(scene.textures, settings.kept)),
       materials(scene, textures),
       geometry(build_geometry(scene, textures, settings.threads, summary)),
-      media(build_media(scene, settings, volume_memory, summary)),
+      media(build_media(scene, settings, volumes, summary)),
       camera(off_boundaries(scene.camera, scene.film, geometry), scene.film),
       filter(scene.filter),
       camera_media(find_camera_media(scene.camera.medium, camera.center(), geometry)),

@@ -21,11 +21,15 @@
 
 namespace tyndall {
 
+struct VolumeLimits {
+  std::size_t memory;  ///< bytes that volume files may take
+  double unit = 1;     ///< as MediumBuildOptions
+};
+
 /// Everything that a path may meet, in the units of the scene it was made from.
 struct BuiltWorld {
-  /// `volume_memory`: bytes that volume files may take. Fills its part of `summary`. Throws Error for what is wrong with the
-  /// scene.
-  BuiltWorld(Scene unit_scene, const BuildSettings& settings, std::size_t volume_memory, BuildSummary& summary);
+  /// Fills its part of `summary`. Throws Error for what is wrong with the scene.
+  BuiltWorld(Scene unit_scene, const BuildSettings& settings, const VolumeLimits& volumes, BuildSummary& summary);
   BuiltWorld(const BuiltWorld&) = delete;  // its members refer to each other
 
   Scene scene;

@@ -151,6 +151,21 @@ TEST_CASE("media that cannot be are refused") {
   require_says(with_medium(grid), "has Le_factor");
 }
 
+TEST_CASE("densities that are too large are told of in the units of the scene") {
+  Scene scene = ball();
+  scene.shapes[0].kind = Sphere{.radius = 1000};
+  UniformGridMedium grid;
+  grid.density = {1e37f};
+  scene.media.push_back({grid, {.sigma_a = Rgb(0), .sigma_s = Rgb(7)}, {}, "smoke", {}});
+  CHECK(complaint(scene) ==
+        "medium \"smoke\": densities up to 1e+37 times scale * sigma_s of 7 cannot be reckoned with; bring both nearer to 1");
+  RgbGridMedium rgb;
+  rgb.sigma_s = {Rgb(1e37f)};
+  rgb.scale = 7;
+  scene.media[0].kind = rgb;
+  require_says(complaint(scene), "values of sigma_a and sigma_s up to 1e+37 times a scale of 7 cannot");
+}
+
 TEST_CASE("textures and materials that cannot be are refused") {
   require_says(changed([](Scene& s) { s.textures[0].kind = ConstantTexture{Rgb(kNan)}; }), "texture has a value");
   require_says(changed([](Scene& s) {
