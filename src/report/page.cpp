@@ -77,7 +77,8 @@ std::string embedded_pictures(const std::vector<PagePicture>& pictures) {
   std::string out;
   for (const PagePicture& p : pictures) {
     out += "<script type=\"text/plain\" class=\"picture\" data-group=\"" + escape_html(p.group) + "\" data-name=\"" +
-           escape_html(p.name) + "\" data-kind=\"" + std::string(name_of(p.kind)) + "\" data-width=\"" +
+           escape_html(p.name) + "\" data-kind=\"" + std::string(name_of(p.kind)) + "\" data-x=\"" +
+           std::to_string(p.image.data.x0) + "\" data-y=\"" + std::to_string(p.image.data.y0) + "\" data-width=\"" +
            std::to_string(p.image.width()) + "\" data-height=\"" + std::to_string(p.image.height()) + "\">" +
            encode_picture(p.image) + "</script>\n";
   }

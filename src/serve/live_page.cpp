@@ -214,6 +214,8 @@ std::string LivePage::state_text() const {
     state["pictures"].push_back({{"name", p->name},
                                  {"kind", name_of(p->kind)},
                                  {"planes", p->channels.size()},
+                                 {"x", p->image->data.x0},
+                                 {"y", p->image->data.y0},
                                  {"width", p->image->width()},
                                  {"height", p->image->height()}});
   }

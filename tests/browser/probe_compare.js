@@ -269,7 +269,7 @@ async function checkError(canvas, state) {
   const text = one('.readout').textContent;
   check(
       'values under the pointer',
-      text.includes(`x ${pixel.x}, y ${pixel.y}`) && text.includes(color.map(formatNumber).join('  ')) &&
+      text.includes(`x ${pixel.x + 7}, y ${pixel.y + 3}`) && text.includes(color.map(formatNumber).join('  ')) &&
           text.includes(formatNumber(error)),
       text);
   press('0');

@@ -155,8 +155,8 @@ def check_cancelled(browser):
 
 
 def check_complete(browser):
-    """A page that looks until the end has the last picture when the program is gone."""
-    render = Render("--spp", "4096", "-o", "whole.pfm")
+    """A page that looks until the end has the last picture when the program is gone. Pixels go by their place in the frame."""
+    render = Render("--spp", "4096", "--crop", "6,40,5,24", "-o", "whole.pfm")
     page = browser.open(render.url)
     page.wait_for("live.version > 0")
     code, said = render.end()
@@ -164,6 +164,9 @@ def check_complete(browser):
     page.wait_for("live.root.dataset.stage === 'ended'")
     status = page.run("live.status.textContent")
     check("it is complete", status == "complete with 4096 samples a pixel, written to whole.pfm", status)
+    page.run("live.viewer.set({pixel: {x: 20, y: 12}})")
+    said = page.run("document.querySelector('.readout').textContent")
+    check("the place of a pixel of a crop", said.startswith("x 26, y 17"), said)
     file, seen = pixels_of_pfm("whole.pfm")(20, 12), page.run("live.viewer.pictures[0].color(20, 12)")
     check("the last picture", all(abs(s - w) <= 1e-3 * w for s, w in zip(seen, file)), f"{seen} {list(file)}")
 

@@ -20,6 +20,9 @@ constexpr const char* kHostile = "</script><b>&\"'";
 
 struct Size {
   int width = 160, height = 90;
+
+  /// Of pictures, which are crops of a frame.
+  PixelBounds data() const { return {7, 3, 7 + width, 3 + height}; }
 };
 
 /// A ball in front of a bright haze. Pixel 0, 0 is (0.25, 0.5, 2), exact in half floats.
@@ -39,7 +42,7 @@ Image picture(const Size& size, float noise, unsigned seed) {
   std::mt19937 engine(seed);
   std::gamma_distribution<float> gamma(1 / std::max(noise * noise, 1e-6f), std::max(noise * noise, 1e-6f));  // mean 1
   Image image;
-  image.data = image.display = {0, 0, size.width, size.height};
+  image.data = image.display = size.data();
   for (const char* name : {"R", "G", "B"}) image.add_channel(name);
   for (int y = 0; y < size.height; ++y)
     for (int x = 0; x < size.width; ++x) {
@@ -216,10 +219,11 @@ void write(const std::string& path, const std::string& text) {
 /// Blocks of 8 x 8 pixels with 32 to 352 samples.
 Image sample_counts(const Size& size) {
   Image image;
-  image.data = image.display = {0, 0, size.width, size.height};
+  image.data = image.display = size.data();
   std::vector<float>& counts = image.add_channel("Y").values;
   for (int y = 0; y < size.height; ++y)
-    for (int x = 0; x < size.width; ++x) counts[image.data.index(x, y)] = static_cast<float>(32 * (1 + (x / 8 + y / 8) % 11));
+    for (int x = 0; x < size.width; ++x)
+      counts[image.data.index(image.data.x0 + x, image.data.y0 + y)] = static_cast<float>(32 * (1 + (x / 8 + y / 8) % 11));
   return image;
 }
 

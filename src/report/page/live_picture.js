@@ -10,8 +10,8 @@ function planesOfHalves(buffer, pixels) {
 
 /** As the viewer takes them. The old picture stays until a later one is there. */
 class LivePicture {
-  constructor({name, kind, planes, width, height}) {
-    Object.assign(this, {name, kind, planes, width, height, halves: null, url: null, loading: null});
+  constructor({name, kind, planes, x, y, width, height}) {
+    Object.assign(this, {name, kind, planes, x, y, width, height, halves: null, url: null, loading: null});
   }
 
   isOfSize({width, height}) { return this.width === width && this.height === height; }

@@ -39,6 +39,8 @@ class Picture {
     this.name = script.dataset.name;
     this.kind = script.dataset.kind;
     this.planes = this.kind === 'light' ? 3 : 1;
+    this.x = Number(script.dataset.x);
+    this.y = Number(script.dataset.y);
     this.width = Number(script.dataset.width);
     this.height = Number(script.dataset.height);
     this.halves = null;

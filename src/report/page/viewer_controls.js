@@ -35,6 +35,13 @@ function pixelText(viewer, picture) {
   return `${text}   rel. sq. error ${formatNumber(error)}`;
 }
 
+/** Where the pixel under the pointer lies in the frame, of which the pictures may be a crop. */
+function placeText(viewer) {
+  const {pixel, current, reference} = viewer;
+  if (pixel) return `x ${current.x + pixel.x}, y ${current.y + pixel.y}`;
+  return `Point at a pixel to read its linear R, G, B${reference ? ' and its relative squared error' : ''}.`;
+}
+
 /** Linear R, G, B of the pixel under the pointer, of what is shown and of the reference. */
 function readout(viewer) {
   const out = element('div', {class: 'readout'});
@@ -45,11 +52,9 @@ function readout(viewer) {
     if (viewer.pixel)
       for (const picture of wanted) picture.load();
     const shown = viewer.pixel ? wanted.filter((picture) => picture.halves) : [];
-    const place = viewer.pixel ?
-        `x ${viewer.pixel.x}, y ${viewer.pixel.y}` :
-        `Point at a pixel to read its linear R, G, B${viewer.reference ? ' and its relative squared error' : ''}.`;
     out.replaceChildren(
-        element('span', {class: 'place'}, place), ...shown.map((picture) => element('span', {}, pixelText(viewer, picture))));
+        element('span', {class: 'place'}, placeText(viewer)),
+        ...shown.map((picture) => element('span', {}, pixelText(viewer, picture))));
   });
   return out;
 }

@@ -16,7 +16,8 @@ using test::status_of;
 
 Image small_image(float value) {
   Image image;
-  image.data = image.display = {0, 0, 3, 2};
+  image.data = {5, 7, 8, 9};
+  image.display = {0, 0, 20, 20};
   for (const char* name : {"R", "G", "B"}) image.add_channel(name).values.assign(6, value);
   return image;
 }
@@ -113,8 +114,9 @@ TEST_CASE("live page: where the render stands") {
   CHECK(state["remaining"] == 9);
   CHECK(state["relmse"] == 0.02);
   REQUIRE(state["pictures"].size() == 2);
-  CHECK(state["pictures"][0] ==
-        nlohmann::json{{"name", "rendered"}, {"kind", "light"}, {"planes", 3}, {"width", 3}, {"height", 2}});
+  CHECK(
+      state["pictures"][0] ==
+      nlohmann::json{{"name", "rendered"}, {"kind", "light"}, {"planes", 3}, {"x", 5}, {"y", 7}, {"width", 3}, {"height", 2}});
   CHECK(state["pictures"][1]["kind"] == "error");
   CHECK(state["pictures"][1]["planes"] == 1);
 }
