@@ -19,7 +19,9 @@ class PageFeed {
 
   /// Puts itself beside what `control` does already.
   void join(RenderControl& control);
-  void begin(const std::string& stage, const std::string& output) { page_.begin(stage, output); }
+  void begin(const std::string& stage, const std::string& output) {
+    page_.begin(stage, output, denoiser_ && stage == "rendering" ? "denoising" : "");
+  }
   /// What is written.
   void show(const Rendering& rendering);
 

@@ -21,7 +21,8 @@ std::string left_of(const Progress& p) { return p.remaining > 0 || p.fraction >=
 
 }  // namespace
 
-ProgressDisplay::ProgressDisplay(const std::string& kind) : kind_(kind) {
+ProgressDisplay::ProgressDisplay(const std::string& kind, const std::string& next)
+    : kind_(kind), next_(next.empty() ? "" : ", then " + next) {
   if (kind_ == "auto") kind_ = isatty(STDERR_FILENO) ? "bar" : "line";
 }
 
@@ -42,20 +43,20 @@ void ProgressDisplay::show(const Progress& p) {
     const std::string samples = p.preparing          ? "  looking at the film"
                                 : p.samples_done > 0 ? fmt::format("  {} spp", p.samples_done)
                                                      : "";
-    log("\r{}[{:=<{}}{: <{}}] {:3.0f}%{}  {} left   ", activity_, "", full, "", kBarWidth - full, 100 * p.fraction, samples,
-        left_of(p));
+    log("\r{}[{:=<{}}{: <{}}] {:3.0f}%{}  {} left{}   ", activity_, "", full, "", kBarWidth - full, 100 * p.fraction, samples,
+        left_of(p), next_);
     drawn_ = true;
   } else if (kind_ == "line" && p.seconds - last_line_ >= kLineSeconds) {
     last_line_ = p.seconds;
     const std::string samples = p.preparing          ? "looking at the film, "
                                 : p.samples_done > 0 ? fmt::format("{} spp, ", p.samples_done)
                                                      : "";
-    log("{}{:.0f}%, {}{} done, {} left\n", activity_, 100 * p.fraction, samples, duration(p.seconds), left_of(p));
+    log("{}{:.0f}%, {}{} done, {} left{}\n", activity_, 100 * p.fraction, samples, duration(p.seconds), left_of(p), next_);
   }
 }
 
 void ProgressDisplay::finish() {
-  if (drawn_) log("\r{: <{}}\r", "", kBarWidth + 40 + static_cast<int>(activity_.size()));
+  if (drawn_) log("\r{: <{}}\r", "", kBarWidth + 40 + static_cast<int>(activity_.size() + next_.size()));
   drawn_ = false;
 }
 

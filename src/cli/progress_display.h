@@ -11,7 +11,8 @@ namespace tyndall::cli {
 /// "auto" is bar on a terminal and line elsewhere.
 class ProgressDisplay {
  public:
-  explicit ProgressDisplay(const std::string& kind);
+  /// `next`: what comes after what is shown, and is not in the time that is left; empty: nothing.
+  explicit ProgressDisplay(const std::string& kind, const std::string& next = {});
   ~ProgressDisplay() { finish(); }
   ProgressDisplay(const ProgressDisplay&) = delete;
   ProgressDisplay& operator=(const ProgressDisplay&) = delete;
@@ -24,7 +25,7 @@ class ProgressDisplay {
   void finish();  ///< leaves the cursor on a fresh line
 
  private:
-  std::string kind_, activity_;
+  std::string kind_, next_, activity_;
   double last_line_ = 0;
   bool drawn_ = false;
 };

@@ -29,7 +29,7 @@ int render_picture(const RenderOptions& options, const std::string& command_line
   }
 
   catch_stop_signals(kStopping);
-  ProgressDisplay display(options.quiet ? "none" : options.progress);
+  ProgressDisplay display(options.quiet ? "none" : options.progress, options.denoise ? "denoising" : "");
   std::optional<Summary> done = picture.run(world, command_line, [&](const Progress& p) { display.show(p); });
   display.finish();
   if (!done) {

@@ -88,10 +88,11 @@ LivePage::LivePage(Setup setup)
 
 std::string LivePage::url() const { return "http://" + host_ + ":" + std::to_string(server_->listener().port()) + "/"; }
 
-void LivePage::begin(const std::string& stage, const std::string& output) {
+void LivePage::begin(const std::string& stage, const std::string& output, const std::string& next) {
   const std::lock_guard lock(mutex_);
   if (output != output_) denoised_.clear();
   stage_ = stage;
+  next_ = next;
   output_ = output;
 }
 
@@ -198,6 +199,7 @@ std::vector<const ServedPicture*> LivePage::pictures() const {
 
 std::string LivePage::state_text() const {
   nlohmann::ordered_json state{{"stage", stage_},
+                               {"next", next_},
                                {"output", output_},
                                {"outcome", outcome_},
                                {"cancelled", cancelled_},

@@ -41,8 +41,8 @@ class LivePage {
   std::string url() const;
   bool is_loopback() const { return server_->listener().is_loopback(); }
 
-  /// What goes on: "building", "rendering", "denoising" or "writing", of the picture `output`.
-  void begin(const std::string& stage, const std::string& output);
+  /// What goes on: "building", "rendering", "denoising" or "writing", of the picture `output`. `next`: what takes time after it.
+  void begin(const std::string& stage, const std::string& output, const std::string& next = {});
   void show(const Progress& progress);
 
   bool is_watched() const;
@@ -81,7 +81,7 @@ class LivePage {
   std::condition_variable asked_;
   Viewers viewers_;
   Pace picture_pace_, denoised_pace_;
-  std::string stage_ = "building", output_, outcome_;
+  std::string stage_ = "building", next_, output_, outcome_;
   Progress progress_;
   std::optional<double> relmse_;
   std::vector<ServedPicture> rendered_, denoised_;

@@ -55,7 +55,7 @@ bool PassSchedule::complete(const RenderJob& job) const {
 }
 
 int PassSchedule::next_pass(const RenderJob& job) {
-  pass_ = Begun{{}, job.samples(), job.seconds()};
+  pass_ = Begun{{}, job.samples(), job.seconds(), job.preparing_seconds()};
   if (!begun_) begun_ = pass_;
   if (complete(job)) return 0;
   const int done = job.samples();
@@ -74,14 +74,30 @@ int PassSchedule::next_pass(const RenderJob& job) {
   return std::min(pass, samples_wanted_ - done);
 }
 
-double PassSchedule::fraction(double samples, double seconds) const {
-  double fraction = samples_wanted_ <= kMostSamples ? samples / samples_wanted_ : 0.0;
-  // A time that is up does not end the first sample.
-  if (settings_.time) fraction = std::max(fraction, std::min(seconds / *settings_.time, samples < 1 ? samples : 1.0));
+/// Of the samples that end the render, as far as is known how many these are.
+double PassSchedule::share(double samples) const {
+  double share = samples_wanted_ <= kMostSamples ? samples / samples_wanted_ : 0.0;
   if (samples_needed_ > 0)
-    fraction =
-        std::max(fraction, samples / std::max<double>(samples_needed_, adaptive_ ? SamplePlan::kLeast : kFirstErrorCheck));
-  return std::min(fraction, 1.0);
+    share = std::max(share, samples / std::max<double>(samples_needed_, adaptive_ ? SamplePlan::kLeast : kFirstErrorCheck));
+  return std::min(share, 1.0);
+}
+
+double PassSchedule::fraction(double samples, double seconds) const {
+  if (!settings_.time) return share(samples);
+  // A time that is up does not end the first sample.
+  return std::max(share(samples), std::min(seconds / *settings_.time, samples < 1 ? samples : 1.0));
+}
+
+/// Samples are reckoned to go on as they did, which took `working` seconds: looking at the film, and at what pays, is not done
+/// again.
+double PassSchedule::remaining(double samples, double seconds, double working) const {
+  const double done = share(samples), here = done - share(begun_->samples);  // what a checkpoint restored took no time here
+  double left = here > 0 ? working * (1 - done) / here : kInfinity;
+  if (settings_.time) {
+    const double first_sample = samples > 0 && samples < 1 ? working * (1 - samples) / samples : 0.0;
+    left = std::min(left, std::max(*settings_.time - seconds, first_sample));
+  }
+  return left < kInfinity ? left : 0.0;
 }
 
 std::optional<Progress> PassSchedule::progress(const RenderJob& job, double pass_samples) {
@@ -93,10 +109,12 @@ std::optional<Progress> PassSchedule::progress(const RenderJob& job, double pass
   p.preparing = job.samples() == 0 && pass_samples == 0;
   p.seconds = now;
   // The job's clock stands still until a pass has ended, and so do its samples, but for those before a pilot in its midst.
-  p.fraction = fraction(std::max<double>(p.samples_done, pass_->samples + pass_samples),
-                        std::max(job.seconds(), pass_->seconds + pass_->timer.seconds()));
-  const double here = p.fraction - fraction(begun_->samples, begun_->seconds);  // what a checkpoint restored took no time here
-  p.remaining = here > 0 ? now * (1 - p.fraction) / here : 0.0;
+  const double samples = std::max<double>(p.samples_done, pass_->samples + pass_samples);
+  const double seconds = std::max(job.seconds(), pass_->seconds + pass_->timer.seconds());
+  const bool prepares = pass_samples == 0 && p.samples_done == pass_->samples;
+  const double prepared = prepares ? pass_->preparing + pass_->timer.seconds() : job.preparing_seconds();
+  p.fraction = fraction(samples, seconds);
+  p.remaining = remaining(samples, seconds, now - (prepared - begun_->preparing));
   return p;
 }
 

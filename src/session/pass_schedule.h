@@ -38,13 +38,15 @@ class PassSchedule {
   bool is_time_up(const RenderJob& job) const;
   double excess(const RenderReport& report) const;
   bool is_good_enough(const RenderReport& report) const;
+  double share(double samples) const;
   double fraction(double samples, double seconds) const;
+  double remaining(double samples, double seconds, double working) const;
 
   /// The job as a pass found it: the first one empty, or resumed.
   struct Begun {
     Timer timer;
     int samples;
-    double seconds;
+    double seconds, preparing;
   };
 
   RenderSettings settings_;

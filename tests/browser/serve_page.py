@@ -142,7 +142,7 @@ def check_cancelled(browser):
     first = page.run("live.version")
     page.wait_for(f"live.version > {first}")  # it goes on by itself
     status = page.run("live.status.textContent")
-    check("how far it is", re.fullmatch(r"rendering, \d+ samples a pixel, [\d:]+ done, [\d:]+ left", status), status)
+    check("how far it is", re.fullmatch(r"rendering, \d+ samples a pixel, [\d:]+ done, [\d:]+ left, then denoising", status), status)
     error = page.run("live.error.textContent")
     check("the error", re.fullmatch(r"estimated relMSE of the picture shown: [\d.e-]+", error), error)
     check("the page spoke", browser.spoken == [], browser.spoken)

@@ -75,4 +75,10 @@ wait $render
 expect 0 "$T" info there/p.exr
 says 'tyndall/denoised' out.txt
 
+
+# What is left does not include it.
+expect 0 "$T" render s.pbrt --spp 4 --denoise --progress bar -o bar.exr
+says 'left, then denoising' err.txt
+expect 0 "$T" render s.pbrt --spp 4 --progress bar -o bar.exr
+grep -q denoising err.txt && fail "a render that is not denoised speaks of denoising"
 finish

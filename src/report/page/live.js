@@ -13,7 +13,8 @@ function statusText(state) {
   if (state.stage === 'ended') return state.outcome;
   const doing = state.cancelled ? 'stopping' : state.preparing ? 'looking at the film' : state.stage;
   if (state.stage !== 'rendering') return doing;
-  return `${doing}, ${state.samples} samples a pixel, ${duration(state.seconds)} done, ${duration(state.remaining)} left`;
+  const left = state.remaining > 0 ? duration(state.remaining) : '?', next = state.next ? `, then ${state.next}` : '';
+  return `${doing}, ${state.samples} samples a pixel, ${duration(state.seconds)} done, ${left} left${next}`;
 }
 
 /** Asks once more before it cancels. */

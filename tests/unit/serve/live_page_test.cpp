@@ -103,11 +103,12 @@ TEST_CASE("live page: where the render stands") {
   CHECK(served.state()["stage"] == "building");
   CHECK(served.state()["pictures"].empty());
   CHECK(served.state()["relmse"].is_null());
-  served.page.begin("rendering", "out \"1\".exr");
+  served.page.begin("rendering", "out \"1\".exr", "denoising");
   served.page.show(Progress{.samples_done = 12, .fraction = 0.25, .seconds = 3, .remaining = 9});
   served.page.show({small_image(1), std::vector<float>(6, 0.01f), 0.02});
   const nlohmann::json state = served.state();
   CHECK(state["stage"] == "rendering");
+  CHECK(state["next"] == "denoising");
   CHECK(state["output"] == "out \"1\".exr");
   CHECK(state["samples"] == 12);
   CHECK(state["fraction"] == 0.25);

@@ -34,11 +34,12 @@ TEST_CASE("what is left of a resumed render is measured by what was done here") 
   CHECK(begun->fraction == doctest::Approx(0.5));
   PassSchedule other(settings, false);
   other.next_pass(job);
+  const double before = job.preparing_seconds();
   job.advance(4);
   const auto half = other.progress(job, 0);
   REQUIRE(half);
   CHECK(half->fraction == doctest::Approx(0.75));
-  CHECK(half->remaining == doctest::Approx(half->seconds));  // 4 samples took so long, 4 are left
+  CHECK(half->remaining == doctest::Approx(half->seconds - (job.preparing_seconds() - before)));  // 4 samples took so long, 4 are left
 }
 
 TEST_CASE("the time that a render had before it was resumed counts") {
@@ -123,6 +124,31 @@ TEST_CASE("samples and time count once while a pass finds out what pays") {
   REQUIRE(waiting);
   CHECK(waiting->fraction >= 0.25);
   CHECK(waiting->remaining > 0);
+}
+
+TEST_CASE("what is left is measured by samples alone, not by what is looked at before them") {
+  const World world = test::world_of(test::sphere_scene(16, 16), {.threads = 1});
+  const RenderSettings settings{.spp = 4, .threads = 1};
+  RenderJob job(world, settings);
+  PassSchedule schedule(settings, false);
+  constexpr std::chrono::seconds kLook{1};
+  bool looked = false;
+  REQUIRE(schedule.next_pass(job) == 1);
+  job.advance(1, [&](double samples) {
+    if (samples == 0 && !looked) std::this_thread::sleep_for(kLook);
+    looked |= samples == 0;
+    return true;
+  });
+  const auto after = schedule.progress(job, 0);
+  REQUIRE(after);
+  CHECK(after->seconds > 1);
+  CHECK(after->remaining > 0);
+  CHECK(after->remaining < 1);  // three samples of a few hundred pixels
+  REQUIRE(schedule.next_pass(job) > 0);
+  std::this_thread::sleep_for(kLook);  // as when it is found out what pays
+  const auto looking = schedule.progress(job, 0);
+  REQUIRE(looking);
+  CHECK(looking->remaining == doctest::Approx(after->remaining).epsilon(0.2));
 }
 
 TEST_CASE("a render that looks at the film before its first sample shows that it does") {
