@@ -39,11 +39,33 @@ class Sequence {
         progress_(options.quiet ? "none" : options.progress, frames_.size()) {}
 
   int run() {
+    try {
+      prepare();
+    } catch (const std::exception& problem) {
+      if (page_) page_->end(problem.what());
+      throw;
+    }
+    try {
+      render_frames();
+    } catch (const std::exception& problem) {
+      progress_.finish();
+      finish(problem.what());
+      throw;
+    }
+    progress_.finish();
+    return finish();
+  }
+
+ private:
+  void prepare() {
     SceneFile first = read(frames_.front());
     require_places(first.scene);
     for (const int frame : frames_) require_frame(first, options_.scene, frame);
     if (first.frame_names.empty()) outline_ = outline_of(first.scene);
     next_ = std::move(first);
+  }
+
+  void render_frames() {
     catch_stop_signals(kStopping);
     for (const int frame : frames_) {
       if (stop_requested()) break;
@@ -51,16 +73,11 @@ class Sequence {
       try {
         render_frame(frame);
       } catch (const Error& error) {
-        progress_.finish();
-        finish();
         throw Error(error.failure(), error.what() + (" (frame " + std::to_string(frame) + ")"));
       }
     }
-    progress_.finish();
-    return finish();
   }
 
- private:
   SceneFile read(int frame) {
     kept_.begin_scene();
     return read_scene(options_.scene, {.frame = frame, .kept = &kept_});
@@ -144,14 +161,15 @@ class Sequence {
     if (!options_.quiet) log("{}: is there already\n", picture.output());
   }
 
-  int finish() {
+  /// `problem`: what ended the sequence before its last frame.
+  int finish(const std::string& problem = {}) {
     summary_.output = pattern_;
     summary_.asked = frames_.size();
     summary_.files_read = kept_.made();
     summary_.files_kept = kept_.reused();
     if (!options_.quiet) log_text(as_text(summary_));
     if (options_.json) print("{}\n", as_json(summary_));
-    if (page_) page_->end(outcome_text(summary_));
+    if (page_) page_->end(problem.empty() ? outcome_text(summary_) : outcome_text(summary_) + "; " + problem);
     return stopped_ || summary_.missing() > 0 ? stop_exit_code() : 0;
   }
 

@@ -185,6 +185,21 @@ def test_one_page_for_a_sequence(render, tmp_path):
     assert frames == sorted(frames) and frames[-1] == "f.3.exr" and len(frames) <= 3  # short frames are missed
 
 
+def test_a_sequence_tells_its_page_why_it_ended(render, tmp_path):
+    (tmp_path / "f.2.exr").mkdir()
+    r = render("--frames", "1-3", "--spp", "64", "--serve", name="f.%d.exr")
+    state = None
+    try:
+        while (state := r.state("/viewer/0"))["stage"] != "ended":
+            pass
+    except OSError:
+        pass
+    code, said = r.end()
+    assert code != 0
+    assert state["outcome"].startswith("1 frames of 3 are there, as f.%d.exr; ") and state["outcome"].endswith(" (frame 2)")
+    assert state["outcome"].split("; ", 1)[1] in said
+
+
 def test_a_sequence_that_is_cancelled(render, tmp_path):
     r = render("--frames", "1-3", "--spp", "1000000", "--serve", name="f.%d.exr")
     r.wait_for("rendering")
