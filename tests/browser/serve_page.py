@@ -96,6 +96,17 @@ def check_viewer(page):
     check("the values of a pixel", re.search(r"x 20, y 12\s*rendered  [\d.e-]+  [\d.e-]+  [\d.e-]+$", said), said)
 
 
+def check_refused_cancel(page, render):
+    """As of a page that an earlier program served: the program has another token."""
+    click(page, ".cancel")
+    page.run("RESULTS.kept = RESULTS.token, RESULTS.token = 'of another program'")
+    click(page, ".stop")
+    page.wait_for("!document.querySelector('.cancel-buttons [role=alert]').hidden")
+    check("it says that it was refused", "load the page again" in page.run("document.querySelector('.cancel-buttons').textContent"))
+    check("and can be asked again", not hidden(page, ".cancel") and hidden(page, ".stop") and render.process.poll() is None)
+    page.run("RESULTS.token = RESULTS.kept")
+
+
 def check_cancel(page, render):
     check("no question yet", hidden(page, ".stop") and hidden(page, ".keep") and not hidden(page, ".cancel"))
     click(page, ".cancel")
@@ -149,6 +160,7 @@ def check_cancelled(browser):
     page.screenshot("rendering.png")
     check("a picture of the page", os.path.getsize("rendering.png") > 20000)
     check_others(browser, render)
+    check_refused_cancel(page, render)
     check_cancel(page, render)
     check_last_picture(page)
     check_viewer(page)

@@ -23,20 +23,25 @@ function cancelButtons() {
   const stop =
       element('button', {type: 'button', class: 'stop bad', onclick: () => cancelRender()}, 'Stop and write the image');
   const keep = element('button', {type: 'button', class: 'keep', onclick: () => choose(false)}, 'Go on');
+  const refused = element(
+      'p', {class: 'subtitle bad', role: 'alert', hidden: true},
+      'The program did not take it. If it was started after this page was opened, load the page again and then cancel.');
   const choose = (sure) => {
     ask.hidden = sure;
     stop.hidden = keep.hidden = !sure;
     if (sure) keep.focus();
   };
   const cancelRender = () => {
-    group.hidden = true;
+    group.hidden = refused.hidden = true;
     fetch('cancel', {method: 'POST', headers: {'X-Tyndall-Token': RESULTS.token}})
         .then((answer) => answer.ok, () => false)
         .then((ok) => {
           group.hidden = ok;
+          refused.hidden = ok;
+          choose(false);
         });
   };
-  const group = element('div', {class: 'cancel-buttons'}, ask, stop, keep);
+  const group = element('div', {class: 'cancel-buttons'}, ask, stop, keep, refused);
   choose(false);
   return group;
 }
