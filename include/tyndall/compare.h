@@ -2,8 +2,10 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -47,6 +49,8 @@ struct MethodRace {
   double reference_relmse = 1e-3;             ///< estimated, at which the rendered one is good enough
   std::optional<double> reference_seconds{};  ///< to render it for, at most
   int threads = 0;                            ///< 0: all cores
+  /// Bytes: of BuildSettings.
+  std::size_t max_memory = std::numeric_limits<std::size_t>::max();
 };
 struct MethodRaceControl {
   std::function<void(double)> progress{};   ///< told the fraction that is done, the reference apart; may be empty

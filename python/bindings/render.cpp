@@ -46,6 +46,11 @@ py::tuple render_world(const World& world, const RenderSettings& settings, const
   return py::make_tuple(from_image(std::move(rendering->image)), from_report(rendering->report));
 }
 
+/// None: what the machine allows.
+std::size_t to_memory(py::handle gigabytes) {
+  return memory_limit(unless_none(gigabytes, [](py::handle given) { return positive("max_memory", given); }));
+}
+
 struct BuildOptions {
   bool sanitize = false;
   std::size_t max_memory;
@@ -79,6 +84,7 @@ MethodRace to_race(const Scene& scene, const py::dict& methods, const py::dict& 
   race.reference_relmse = positive("reference_error", plan["reference_error"]);
   race.reference_seconds = seconds("reference_time");
   race.threads = whole("threads", plan["threads"], 0, kMostThreads);
+  race.max_memory = to_memory(plan["max_memory"]);
   for (NamedMethod& m : race.methods) m.settings.threads = race.threads;
   if (!plan["reference"].is_none()) race.reference = to_image(plan["reference"]);
   return race;
@@ -111,8 +117,7 @@ void define_render(py::module_& m) {
         return notes;
       });
   m.def("build", [](const Scene& scene, const py::dict& options, bool sanitize, py::handle max_memory) {
-    const auto gigabytes = unless_none(max_memory, [](py::handle given) { return positive("max_memory", given); });
-    return build_scene(scene, with_options(scene, options), {sanitize, memory_limit(gigabytes)});
+    return build_scene(scene, with_options(scene, options), {sanitize, to_memory(max_memory)});
   });
   m.def("compare", compare_methods);
   m.def("aov_names", [] {

@@ -70,6 +70,14 @@ def color(value: Any, name: str, *, most: float = _LARGEST) -> Vector:
     return float(v[0]), float(v[1]), float(v[2])
 
 
+def emission(value: Any, name: str) -> Vector:
+    """Linear Rec.709 as ``color``; one that lies outside of it, as scene files can give, has channels below 0 beside others."""
+    v = np.asarray(value, dtype=np.float64)
+    if v.shape == (3,) and _is_held(v) and v.max() > 0:
+        return float(v[0]), float(v[1]), float(v[2])
+    return color(value, name)
+
+
 def matrix(value: Optional[ArrayLike], name: str) -> Matrix:
     """A 4 x 4 matrix for column vectors; None is the identity."""
     m = np.eye(4) if value is None else np.array(value, dtype=np.float64)

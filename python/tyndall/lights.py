@@ -26,7 +26,7 @@ class Light:
     def __post_init__(self) -> None:
         for name in ("I", "E", "L"):
             if hasattr(self, name):
-                self._set(name, arrays.color(getattr(self, name), name))
+                self._set(name, arrays.emission(getattr(self, name), name))
         for name in ("position", "direction"):
             if hasattr(self, name):
                 self._set(name, arrays.vector(getattr(self, name), name))

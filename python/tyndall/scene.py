@@ -181,14 +181,14 @@ class Scene:
 
     def compare(self, methods: Mapping[str, Mapping[str, Any]], *, time: Optional[float] = None, spp: Optional[int] = None,
                 seeds: int = 5, seed: int = 1, reference: Any = None, reference_error: float = 1e-3,
-                reference_time: Optional[float] = None, threads: int = 0,
+                reference_time: Optional[float] = None, threads: int = 0, max_memory: Optional[float] = None,
                 progress: Optional[Callable[[float], object]] = None) -> Comparison:
         """Methods side by side, each a name and its options: ``{"tree": {"lights": "tree"}, "power": {"lights": "power"}}``. What
         would change the right picture, such as ``max_depth``, is no option of one: it is for all, in ``settings``.
 
         Every one renders ``seeds`` times for ``time`` seconds (20, unless ``spp`` is given). Errors are measured against
-        ``reference`` (an Image or a path), or one that is rendered with the first method.
+        ``reference`` (an Image or a path), or one that is rendered with the first method. ``max_memory`` is as of ``render``.
         """
         plan = dict(time=time, spp=spp, seeds=seeds, seed=seed, reference=reference, reference_error=reference_error,
-                    reference_time=reference_time, threads=threads)
+                    reference_time=reference_time, threads=threads, max_memory=max_memory)
         return compare(self._core, methods, plan, progress)

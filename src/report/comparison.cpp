@@ -64,7 +64,8 @@ MethodRaceResult race_methods(Scene scene, const MethodRace& race, const MethodR
   CompareContext context;
   context.scene = scene.source;
   context.threads = race.threads;
-  const World world = build(std::move(scene), with_needs_of(plan, plan.variants.front().settings, {.threads = race.threads}));
+  const BuildSettings how{.threads = race.threads, .max_memory = race.max_memory};
+  const World world = build(std::move(scene), with_needs_of(plan, plan.variants.front().settings, how));
   const Reference reference = reference_of(world, plan, race, control);
   CompareResult result;
   if (!reference.stopped) result = compare(world, plan, reference, {.progress = control.progress, .stop = control.stop});

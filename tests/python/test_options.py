@@ -107,3 +107,10 @@ def test_plans_that_cannot_be(unbuildable, plan):
         unbuildable.compare({"a": {}}, **{"spp": None if name == "time" else 4, **plan})
     with pytest.raises(TypeError, match=f"{name} = .* is not understood"):
         unbuildable.compare({"a": {}}, **{"spp": None if name == "time" else 4, name: "x"})
+
+
+def test_a_comparison_has_a_limit_of_memory(floor):
+    with pytest.raises(tyndall.Error, match="memory"):
+        floor.compare({"a": {}}, spp=4, max_memory=1e-6)
+    with pytest.raises(ValueError, match="max_memory must be"):
+        floor.compare({"a": {}}, spp=4, max_memory=0)

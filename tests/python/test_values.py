@@ -127,3 +127,14 @@ def test_what_is_far_away_is_not_singular(floor):
     assert GridMedium(density=np.ones((2, 2, 2)), transform=voxel).transform[0, 3] == 5000
     flat = np.array([[1, 2, 0, 0], [2, 4, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1.0]])
     refused(SpotLight, dict(to_world=flat), "singular")
+
+
+def test_lights_outside_of_rec709_come_out_of_files_and_go_back():
+    text = 'WorldBegin ColorSpace "rec2020" LightSource "point" "rgb I" [0 1 0]'
+    scene = tyndall.loads(text)
+    (light,) = scene.lights
+    assert min(light.I) < 0 < max(light.I)
+    scene.lights = [light]
+    assert scene.lights == (light,)
+    for color in ((-1, 0, 0), (-1, -1, -1), -1, (1, NAN, 1), (1, -INF, 1)):
+        refused(PointLight, dict(I=color))
