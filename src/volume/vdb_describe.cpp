@@ -13,7 +13,8 @@ Description describe_volume(const std::string& path) {
     // Later grids of one name are told apart as OpenVDB does it, and as gridname accepts it.
     std::size_t earlier = 0;
     for (std::size_t j = 0; j < i; ++j) earlier += grids[j].name == grids[i].name ? 1 : 0;
-    const std::string subject = earlier == 0 ? grids[i].name : grids[i].name + "[" + std::to_string(earlier) + "]";
+    std::string subject = printable(grids[i].name);
+    if (earlier > 0) subject += "[" + std::to_string(earlier) + "]";
     for (const auto& [name, value] : file->describe(i)) description.properties.push_back({subject, name, value});
   }
   return description;

@@ -16,7 +16,7 @@ namespace tyndall {
 /// What is known of a grid before its voxels are looked at.
 struct VolumeGridEntry {
   enum class Values { scalar, vector, other } values = Values::other;
-  std::string name;
+  std::string name;        ///< as the file has it, which need not be printable
   std::string type;        ///< "float", "vec3s", "PointDataGrid" ...
   std::string grid_class;  ///< "fog volume", "level set", "unknown" ...
   bool level_set = false;

@@ -22,7 +22,7 @@ Names stand_ins(const std::string& name, bool given, const Names& aliases) {
   return !given || std::find(aliases.begin(), aliases.end(), name) != aliases.end() ? aliases : Names{};
 }
 
-std::string in_quotes(const std::string& name) { return "\"" + name + "\""; }
+std::string in_quotes(const std::string& name) { return "\"" + printable(name) + "\""; }
 
 /// Finds, checks and converts the grids of one file.
 class GridLoader {
@@ -111,11 +111,16 @@ class GridLoader {
     const auto which = static_cast<std::size_t>(std::stoul(digits));
     return which < same.size() ? std::optional(same[which]) : std::nullopt;
   }
+  /// By their names, else by what these look like in messages.
   std::vector<std::size_t> all_called(const std::string& name) const {
-    std::vector<std::size_t> found;
-    for (std::size_t i = 0; i < file_->grids().size(); ++i)
-      if (file_->grids()[i].name == name) found.push_back(i);
-    return found;
+    const auto found_by = [&](const auto& name_of) {
+      std::vector<std::size_t> found;
+      for (std::size_t i = 0; i < file_->grids().size(); ++i)
+        if (name_of(file_->grids()[i].name) == name) found.push_back(i);
+      return found;
+    };
+    std::vector<std::size_t> found = found_by([](const std::string& true_name) { return true_name; });
+    return found.empty() ? found_by(printable) : found;
   }
 
   void refuse_unfit(const VolumeGridEntry& grid, const Use& use) const {

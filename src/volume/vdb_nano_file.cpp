@@ -84,18 +84,27 @@ class NanoReader {
 
   void read_segment(const SegmentHeader& segment, NanoFile& file) {
     std::vector<GridHeader> headers;
+    std::vector<std::string> names;
     for (int i = 0; i < segment.grid_count; ++i) {
       headers.push_back(take<GridHeader>());
       const std::uint32_t name_size = headers.back().name_size;
       if (name_size > kMaxName) fail("has a grid name of " + std::to_string(name_size) + " characters; it is damaged");
       std::string name(name_size, '\0');
       take(name.data(), name_size);
+      names.emplace_back(name.c_str());  // its end is a zero
     }
-    for (const GridHeader& header : headers) {
-      if (header.codec > 2) fail("holds a grid packed by an unknown codec; it is damaged");
-      file.grids.push_back({unpack(header), kCodecs[header.codec]});
-      check_head(file.grids.back());
+    for (std::size_t i = 0; i < headers.size(); ++i) {
+      if (headers[i].codec > 2) fail("holds a grid packed by an unknown codec; it is damaged");
+      NanoBlob& grid = file.grids.emplace_back(NanoBlob{unpack(headers[i]), kCodecs[headers[i].codec], {}});
+      check_head(grid);
+      grid.name = whole_name(grid.head().mGridName, names[i]);
     }
+  }
+
+  /// The head of a grid has room for the beginning of a long name, which the file has whole.
+  static std::string whole_name(const std::string& in_head, const std::string& in_file) {
+    const bool cut = in_head.size() + 1 >= nanovdb::GridData::MaxNameSize;
+    return cut && in_file.starts_with(in_head) ? in_file : in_head;
   }
 
   nanovdb::HostBuffer unpack(const GridHeader& header) {

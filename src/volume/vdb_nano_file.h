@@ -15,6 +15,7 @@ namespace tyndall {
 struct NanoBlob {
   nanovdb::HostBuffer bytes;
   std::string codec;
+  std::string name;
 
   const nanovdb::GridData& head() const { return *reinterpret_cast<const nanovdb::GridData*>(bytes.data()); }
 };

@@ -78,7 +78,7 @@ class NanoVdbFile : public VolumeFile {
   NanoVdbFile(const std::string& path, std::size_t most_memory) : path_(path), file_(read_nano_file(path, most_memory)) {
     for (const NanoBlob& blob : file_.grids) {
       VolumeGridEntry entry;
-      entry.name = printable(blob.head().mGridName);
+      entry.name = blob.name;
       entry.type = type_name(blob.head().mGridType);
       entry.grid_class = class_name(blob.head().mGridClass);
       entry.level_set = blob.head().mGridClass == nanovdb::GridClass::LevelSet;
@@ -160,7 +160,7 @@ class NanoVdbFile : public VolumeFile {
 
  private:
   [[noreturn]] void fail(std::size_t index, const std::string& what) const {
-    throw Error(Failure::scene, path_ + ": grid \"" + entries_[index].name + "\": " + what);
+    throw Error(Failure::scene, path_ + ": grid \"" + printable(entries_[index].name) + "\": " + what);
   }
 
   template <typename Body>

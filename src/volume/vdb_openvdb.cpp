@@ -140,7 +140,7 @@ class OpenVdbFile : public VolumeFile {
     try {
       result.index_to_world = transform_of(base);
     } catch (const Error& e) {
-      throw Error(Failure::scene, path_ + ": grid \"" + entries_[index].name + "\": " + e.what());
+      throw Error(Failure::scene, path_ + ": grid \"" + printable(entries_[index].name) + "\": " + e.what());
     }
     grids_[index]->apply<ReadableGrids>([&](const auto& typed) {
       using GridT = std::decay_t<decltype(typed)>;
@@ -150,8 +150,8 @@ class OpenVdbFile : public VolumeFile {
       result.source = std::move(source);
     });
     if (!result.source)
-      throw Error(Failure::scene,
-                  path_ + ": grid \"" + entries_[index].name + "\" of type " + entries_[index].type + " cannot be used");
+      throw Error(Failure::scene, path_ + ": grid \"" + printable(entries_[index].name) + "\" of type " + entries_[index].type +
+                                      " cannot be used");
     return result;
   }
 
@@ -189,7 +189,7 @@ class OpenVdbFile : public VolumeFile {
  private:
   static VolumeGridEntry entry_of(const openvdb::GridBase& grid) {
     VolumeGridEntry entry;
-    entry.name = printable(grid.getName());
+    entry.name = grid.getName();
     entry.type = grid.isType<openvdb::FloatGrid>() || !is_point_grid(grid) ? printable(grid.valueType()) : "PointDataGrid";
     entry.grid_class = openvdb::GridBase::gridClassToMenuName(grid.getGridClass());
     entry.level_set = grid.getGridClass() == openvdb::GRID_LEVEL_SET;

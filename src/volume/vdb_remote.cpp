@@ -262,7 +262,8 @@ class RemoteVolumeFile : public VolumeFile {
     const auto values = worker_.get<std::underlying_type_t<VolumeGridEntry::Values>>();
     if (values < 0 || values > static_cast<int>(VolumeGridEntry::Values::other)) ReceivedSource::refuse();
     entry.values = static_cast<VolumeGridEntry::Values>(values);
-    for (std::string* text : {&entry.name, &entry.type, &entry.grid_class}) *text = printable(worker_.get_text());
+    entry.name = worker_.get_text();
+    for (std::string* text : {&entry.type, &entry.grid_class}) *text = printable(worker_.get_text());
     entry.level_set = worker_.get_flag();
     entry.linear = worker_.get_flag();
     entry.leaves = worker_.get<std::uint64_t>();

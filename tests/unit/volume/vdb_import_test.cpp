@@ -278,6 +278,25 @@ TEST_CASE("grids are chosen by names in any script") {
   CHECK(contains(error_of(path, named("none")), grid.name));
 }
 
+TEST_CASE("grids are chosen by their true names, however long or unprintable, and by what messages call them") {
+  const test::Scratch scratch;
+  const std::string path = scratch / "names.vdb", begin(400, 'a');
+  const std::vector<std::string> names{begin + "1", begin + "2", "a\tb", "c\nd"};
+  std::vector<VdbGrid> grids;
+  for (const std::string& name : names) {
+    VdbGrid& grid = grids.emplace_back();
+    grid.name = name;
+    grid.boxes = {{{0, 0, 0}, {9, 9, 9}, static_cast<float>(grids.size())}};
+  }
+  test::write_vdb(path, grids);
+  const auto value = [&](const std::string& name) { return import(path, named(name)).medium.at({4, 4, 4}).sigma_a.r; };
+  for (std::size_t i = 0; i < names.size(); ++i) CHECK(value(names[i]) == doctest::Approx(static_cast<double>(i + 1)));
+  CHECK(value("a b") == doctest::Approx(3));
+  const std::string error = error_of(path, named("none"));
+  CHECK(contains(error, "\"a b\""));
+  CHECK(error.find('\n') == std::string::npos);
+}
+
 TEST_CASE("what is no fog is refused by name") {
   const test::Scratch scratch;
   const std::string path = scratch / "x.vdb";
