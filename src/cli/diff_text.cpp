@@ -67,6 +67,8 @@ bool is_said(const std::string& verdict, const Judgement& judgement) {
 
 std::string as_text(const ImageDiff& diff, const Judgement& judgement, const DiffOptions& options) {
   std::string text = fmt::format("{}\n  against {}\n", options.image, options.reference);
+  if (!diff.primaries.empty())
+    text += fmt::format("  warning: {}; their numbers are compared as if they were of the same colours\n", diff.primaries);
   if (diff.windows.empty()) {
     std::size_t width = 7;  // of "channel"
     for (const ChannelDiff& c : diff.channels) width = std::max(width, c.name.size());

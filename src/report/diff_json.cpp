@@ -105,6 +105,7 @@ Json diff_json(const ImageDiff& diff, const Judgement& judgement, const DiffSett
   j["width"] = diff.data.width();
   j["height"] = diff.data.height();
   j["eps"] = kRelativeEpsilon;
+  j["chromaticities_differ"] = diff.primaries.empty() ? Json(nullptr) : Json(diff.primaries);
   if (diff.windows.empty()) add_findings(diff, settings, j);
   return j;
 }

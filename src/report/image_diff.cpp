@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <string_view>
 #include <tuple>
@@ -33,6 +34,24 @@ void require_known(const Image& image, const Image& reference, const DiffSetting
 std::string text(const PixelBounds& b) {
   return std::to_string(b.width()) + " x " + std::to_string(b.height()) + " pixels from (" + std::to_string(b.x0) + ", " +
          std::to_string(b.y0) + ")";
+}
+
+std::string text(const Chromaticities& c) {
+  std::string text;
+  for (const Vec2 xy : {c.red, c.green, c.blue, c.white}) {
+    char part[32];
+    std::snprintf(part, sizeof part, "%s%.4g %.4g", text.empty() ? "" : ", ", double{xy.x}, double{xy.y});
+    text += part;
+  }
+  return text;
+}
+
+std::string primaries_difference(const Image& image, const Image& reference) {
+  const auto a = image.chromaticities.value_or(Chromaticities{}), b = reference.chromaticities.value_or(Chromaticities{});
+  constexpr float kSame = 1e-3f;  // files round them
+  const auto same = [](Vec2 p, Vec2 q) { return std::abs(p.x - q.x) <= kSame && std::abs(p.y - q.y) <= kSame; };
+  if (same(a.red, b.red) && same(a.green, b.green) && same(a.blue, b.blue) && same(a.white, b.white)) return {};
+  return "chromaticities of red, green, blue and white are " + text(a) + ", the reference's " + text(b);
 }
 
 /// Values of the channel that are `bad`, when there are any.
@@ -161,6 +180,7 @@ ImageDiff compare_images(const Image& image, const Image& reference, const DiffS
   require_known(image, reference, settings);
   ImageDiff diff;
   diff.data = image.data;
+  diff.primaries = primaries_difference(image, reference);
   if (!(image.data == reference.data)) {
     diff.windows = "the image has " + text(image.data) + ", the reference " + text(reference.data);
     return diff;

@@ -54,7 +54,10 @@ struct GroupDiff {
 
 struct ImageDiff {
   PixelBounds data;
-  std::string windows;  ///< how the data windows differ; if they do, nothing below is known
+  std::string windows;  ///< how the data windows differ; if they do, nothing below `primaries` is known
+  /// How the chromaticities differ, of which an image that states none has Rec.709's; empty: not. Values are compared as they
+  /// are.
+  std::string primaries;
   std::vector<std::string> only_in_image, only_in_reference;  ///< channels
   std::vector<BadValues> non_finite;
   std::vector<BadValues> negative_variances;

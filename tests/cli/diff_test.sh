@@ -124,6 +124,15 @@ done
 expect 2 "$T" diff a.exr b.exr --level 1
 says '--level: must be a number above 0 and below 1, not 1' err.txt
 expect 0 "$T" diff a.exr b.exr --max-error +1e3
+# Numbers of other primaries are compared as they are, which is said.
+{ echo 'ColorSpace "rec2020"'; cat s.pbrt; } >wide.pbrt
+render wide.pbrt --spp 1 -o wide.exr
+expect 5 "$T" diff wide.exr crop.exr
+says 'warning: chromaticities of red, green, blue and white are 0.708 0.292,' out.txt
+expect 5 "$T" diff wide.exr plain.exr --json
+says '"chromaticities_differ": "chromaticities of red' out.txt
+expect 0 "$T" diff a.exr a.exr --json
+says '"chromaticities_differ": null' out.txt
 expect 0 "$T" diff --help
 says '--max-relmse' out.txt
 finish

@@ -42,6 +42,20 @@ bool says(const Judgement& judgement, const std::string& text) {
 
 }  // namespace
 
+TEST_CASE("images of other chromaticities are told of, and compared all the same") {
+  Image image = flat(4, 4, 1, 1, 1), reference = image;
+  reference.chromaticities = Chromaticities{};  // Rec.709, as where nothing is said
+  CHECK(compare_images(image, reference).primaries.empty());
+  reference.chromaticities->red.x += 2e-5f;  // of a file that rounds
+  CHECK(compare_images(image, reference).primaries.empty());
+  reference.chromaticities->red = {0.708f, 0.292f};
+  const ImageDiff diff = compare_images(image, reference);
+  CHECK(diff.primaries ==
+        "chromaticities of red, green, blue and white are 0.64 0.33, 0.3 0.6, 0.15 0.06, 0.3127 0.329, the reference's "
+        "0.708 0.292, 0.3 0.6, 0.15 0.06, 0.3127 0.329");
+  CHECK(judge(diff, {.exact = true}).same);
+}
+
 TEST_CASE("one channel by hand: means, bias and its error, the largest difference and where") {
   Image reference = picture(2, 2, [](int, int, int) { return 1.0; }, {"Z"}), image = reference;
   image.data = reference.data = {10, 20, 12, 22};
