@@ -41,7 +41,8 @@ class LivePage {
   std::string url() const;
   bool is_loopback() const { return server_->listener().is_loopback(); }
 
-  /// What goes on: "building", "rendering", "denoising" or "writing", of the picture `output`. `next`: what takes time after it.
+  /// What goes on: "building", "rendering", "denoising" or "writing", of the picture `output`. `next`: what takes time after
+  /// it.
   void begin(const std::string& stage, const std::string& output, const std::string& next = {});
   void show(const Progress& progress);
 

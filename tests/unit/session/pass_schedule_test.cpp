@@ -39,7 +39,8 @@ TEST_CASE("what is left of a resumed render is measured by what was done here") 
   const auto half = other.progress(job, 0);
   REQUIRE(half);
   CHECK(half->fraction == doctest::Approx(0.75));
-  CHECK(half->remaining == doctest::Approx(half->seconds - (job.preparing_seconds() - before)));  // 4 samples took so long, 4 are left
+  CHECK(half->remaining ==
+        doctest::Approx(half->seconds - (job.preparing_seconds() - before)));  // 4 samples took so long, 4 are left
 }
 
 TEST_CASE("the time that a render had before it was resumed counts") {
