@@ -15,7 +15,7 @@ constexpr LobeMode kReflected{LobeMode::Transport::radiance, LobeMode::Sides::re
 /// 1 + again + again^2 + ..., `terms` of them.
 double geometric_sum(double again, int terms) { return (1 - std::pow(again, terms)) / (1 - again); }
 
-/// The least of the sines with which light of index `eta` still enters.
+/// Of directions from which light enters.
 float largest_sine(const DielectricLobe& top) { return top.is_specular() ? std::min(top.eta, 1.0f) : 1.0f; }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "math/hash.h"
 #include "math/sobol.h"
 #include "surface/fresnel.h"
 
@@ -54,7 +55,7 @@ double by_facet(const DielectricLobe& top, double thickness, Vec3 wo, Vec2 u, Lo
 
 /// Point number `i` of an even sequence on the square: the grid of a lattice would follow the seams of the map to facets.
 Vec2 even_point(int i) {
-  const auto unit = [](std::uint32_t bits) { return static_cast<float>(bits >> 8) * 0x1p-24f; };
+  const auto unit = [](std::uint32_t bits) { return unit_float(std::uint64_t{bits} << 32); };
   const auto index = static_cast<std::uint32_t>(i);
   return {unit(owen_scramble(sobol_0(index), 0x9e3779b9u)), unit(owen_scramble(sobol_1(index), 0x85ebca6bu))};
 }

@@ -35,8 +35,8 @@ Rgb Path::light_at(const Directions& directions, Rgb beta) {
   return span_search_->tracked ? collision_light(context_, vertex, *sought_.collision, beta) : Rgb();
 }
 
-/// Emitters that the first surface mirrors which spreads light as well: of many paths few go there, and small emitters are
-/// bright. Whether it was looked, by a ray that no path depends on; none that is mirrored counts those.
+/// Emitters that a surface mirrors which does more than that: of many paths few go there, and small emitters are bright.
+/// Whether it was looked, by a ray that no path depends on; paths that are mirrored there count those no more.
 bool Path::look_into_mirror(const Vertex& vertex, Rgb beta) {
   const BuiltWorld& world = context_.world;
   const auto mirror = world.rays_find_lights() ? vertex.mirror_part() : std::nullopt;

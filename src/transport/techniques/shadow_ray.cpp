@@ -31,8 +31,8 @@ float chance_of_tracing(const LightContext& context, const MediaState& media, co
   return faint_chance(guessed_transmittance(depth));
 }
 
-/// Lights that a ray can find are seen through panes as well, by as many as the path may still pass: others, as in pbrt, are
-/// not. From where no media or `media` are; nothing gets through what is no pane.
+/// Of a shadow ray that surfaces stop, from where `media` are: what passes if all of them are panes, as many at most as the
+/// path may still pass. Lights that rays cannot find are not seen through any, as in pbrt.
 Rgb through_panes(const LightContext& context, MediaState media, Ray ray, const LightSample& light, Rng& rng) {
   const BuiltWorld& world = context.world;
   if (!world.has_panes || light.delta || light.volume) return {};
@@ -50,6 +50,7 @@ Rgb through_panes(const LightContext& context, MediaState media, Ray ray, const 
     if (!trace.hit || is_black(T)) return T;
     if (panes <= 0 || !world.materials.is_pane(world.material_of(*trace.hit))) return {};
     const Vertex pane = surface_vertex(world, *trace.hit, -ray.d, media, std::nullopt);
+    if (pane.unbent() == 0) return {};
     T *= pane.unbent();
     left -= trace.hit->t;
     media = pane.media_toward(world.geometry, ray.d);
