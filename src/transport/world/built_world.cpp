@@ -119,12 +119,12 @@ MediaState BuiltWorld::media_at_start(Vec3 origin) const {
   return state;
 }
 
-BuiltWorld::BuiltWorld(Scene unit_scene, const BuildSettings& settings, const VolumeLimits& volumes, BuildSummary& summary)
+BuiltWorld::BuiltWorld(Scene unit_scene, const BuildSettings& settings, const VolumeLimits& limits, BuildSummary& summary)
     : scene(with_media(std::move(unit_scene))),
       textures(build_textures(scene.textures, settings.kept)),
       materials(scene, textures),
       geometry(build_geometry(scene, textures, settings.threads, summary)),
-      media(build_media(scene, settings, volumes, summary)),
+      media(build_media(scene, settings, limits, summary)),
       camera(off_boundaries(scene.camera, scene.film, geometry), scene.film),
       filter(scene.filter),
       camera_media(find_camera_media(scene.camera.medium, camera.center(), geometry)),

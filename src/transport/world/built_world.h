@@ -29,7 +29,7 @@ struct VolumeLimits {
 /// Everything that a path may meet, in the units of the scene it was made from.
 struct BuiltWorld {
   /// Fills its part of `summary`. Throws Error for what is wrong with the scene.
-  BuiltWorld(Scene unit_scene, const BuildSettings& settings, const VolumeLimits& volumes, BuildSummary& summary);
+  BuiltWorld(Scene unit_scene, const BuildSettings& settings, const VolumeLimits& limits, BuildSummary& summary);
   BuiltWorld(const BuiltWorld&) = delete;  // its members refer to each other
 
   Scene scene;
