@@ -27,6 +27,10 @@ struct LobeMode {
   enum class Sides { both, reflection, transmission } sides = Sides::both;        ///< what may be sampled
 };
 
+inline constexpr LobeMode kReflected{LobeMode::Transport::radiance, LobeMode::Sides::reflection};
+inline constexpr LobeMode kTransmitted{LobeMode::Transport::radiance, LobeMode::Sides::transmission};
+inline constexpr LobeMode kTransmittedImportance{LobeMode::Transport::importance, LobeMode::Sides::transmission};
+
 /// Both directions are strictly on the same side of the local xy plane.
 constexpr bool same_side(Vec3 a, Vec3 b) { return (a.z > 0 && b.z > 0) || (a.z < 0 && b.z < 0); }
 constexpr bool opposite_sides(Vec3 a, Vec3 b) { return (a.z > 0 && b.z < 0) || (a.z < 0 && b.z > 0); }

@@ -10,8 +10,6 @@
 namespace tyndall {
 namespace {
 
-constexpr LobeMode kReflected{LobeMode::Transport::radiance, LobeMode::Sides::reflection};
-
 /// 1 + again + again^2 + ..., `terms` of them.
 double geometric_sum(double again, int terms) { return (1 - std::pow(again, terms)) / (1 - again); }
 

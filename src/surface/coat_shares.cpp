@@ -12,9 +12,6 @@
 namespace tyndall {
 namespace {
 
-constexpr LobeMode kReflected{LobeMode::Transport::importance, LobeMode::Sides::reflection};
-constexpr LobeMode kTransmitted{LobeMode::Transport::importance, LobeMode::Sides::transmission};
-
 /// Nodes and weights of Gauss-Legendre quadrature, on [0, 1] [Abramowitz and Stegun 1964, table 25.4].
 constexpr std::array kNodes = {0.0198550717512319, 0.1016667612931866, 0.2372337950418355, 0.4082826787521751,
                                0.5917173212478248, 0.7627662049581645, 0.8983332387068134, 0.9801449282487681};
@@ -68,7 +65,7 @@ Vec3 at_cosine(double cosine, bool above) {
 float entering_at(const DielectricLobe& top, double thickness, double cosine) {
   double sum = 0;
   for (int i = 0; i < kFacets; ++i) {
-    sum += by_facet(top, thickness, at_cosine(cosine, true), even_point(i), kTransmitted);
+    sum += by_facet(top, thickness, at_cosine(cosine, true), even_point(i), kTransmittedImportance);
   }
   return static_cast<float>(sum / kFacets);
 }

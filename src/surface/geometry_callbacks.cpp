@@ -21,7 +21,7 @@ float alpha_threshold(const Ray& ray, std::uint32_t shape, std::uint32_t primiti
   };
   const std::uint64_t h = hash(pair(ray.o.x, ray.o.y), pair(ray.o.z, ray.d.x), pair(ray.d.y, ray.d.z),
                                std::uint64_t{shape} << 32 | primitive, static_cast<std::uint64_t>(which));
-  return static_cast<float>(h >> 40) * 0x1p-24f;
+  return unit_float(h);
 }
 
 /// Whether the surface stops the ray: its alpha against the ray's own number, as pbrt.

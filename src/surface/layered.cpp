@@ -13,9 +13,6 @@ namespace tyndall {
 namespace {
 
 using Event = LayerWalk::Event;
-constexpr LobeMode kReflected{LobeMode::Transport::radiance, LobeMode::Sides::reflection};
-constexpr LobeMode kTransmitted{LobeMode::Transport::radiance, LobeMode::Sides::transmission};
-constexpr LobeMode kTransmittedImportance{LobeMode::Transport::importance, LobeMode::Sides::transmission};
 
 std::uint64_t bits(Vec3 v) {
   return hash(std::bit_cast<std::uint32_t>(v.x), std::bit_cast<std::uint32_t>(v.y), std::bit_cast<std::uint32_t>(v.z));

@@ -12,7 +12,8 @@ namespace tyndall {
 
 namespace {
 
-Rgb clamp01(Rgb c) { return {std::clamp(c.r, 0.0f, 1.0f), std::clamp(c.g, 0.0f, 1.0f), std::clamp(c.b, 0.0f, 1.0f)}; }
+/// Of light, whatever the texture gives.
+Rgb share(Rgb c) { return clamp(c, 0, 1); }
 Rgb at_least_zero(Rgb c) { return {std::max(c.r, 0.0f), std::max(c.g, 0.0f), std::max(c.b, 0.0f)}; }
 
 /// Evaluates one material's textures at one point. Values out of range are clamped as pbrt-v4 clamps them.
@@ -23,7 +24,7 @@ class LobeBuilder {
         query_(query),
         at_{.uv = query.uv, .p = query.p, .n = query.ng, .footprint = query.detail ? &query.detail->footprint : nullptr} {}
 
-  Bsdf::Lobe operator()(const DiffuseMaterial& m) const { return DiffuseLobe{clamp01(rgb(m.reflectance))}; }
+  Bsdf::Lobe operator()(const DiffuseMaterial& m) const { return DiffuseLobe{share(rgb(m.reflectance))}; }
 
   Bsdf::Lobe operator()(const ConductorMaterial& m) const { return conductor(m.optics, m.roughness, 1); }
 
@@ -34,12 +35,12 @@ class LobeBuilder {
   Bsdf::Lobe operator()(const ThinDielectricMaterial& m) const { return ThinDielectricLobe{index(m.eta)}; }
 
   Bsdf::Lobe operator()(const DiffuseTransmissionMaterial& m) const {
-    return DiffuseTransmissionLobe{clamp01(rgb(m.reflectance) * m.scale), clamp01(rgb(m.transmittance) * m.scale)};
+    return DiffuseTransmissionLobe{share(rgb(m.reflectance) * m.scale), share(rgb(m.transmittance) * m.scale)};
   }
 
   Bsdf::Lobe operator()(const CoatedDiffuseMaterial& m) const {
     const DielectricLobe coat_top = top(m.coating);
-    const Rgb reflectance = clamp01(rgb(m.reflectance));
+    const Rgb reflectance = share(rgb(m.reflectance));
     const Coat between = coat(m.coating);
     if (shares_) return ClearCoatLobe(coat_top, reflectance, between, *shares_);
     if (coat_top.is_specular() && is_black(between.albedo))
@@ -66,7 +67,7 @@ class LobeBuilder {
     const auto bits = [](float x) { return std::uint64_t{std::bit_cast<std::uint32_t>(x)}; };
     const Vec3 p = query_.p;
     return {.thickness = std::max(scalar(c.thickness), std::numeric_limits<float>::min()),
-            .albedo = clamp01(rgb(c.albedo)),
+            .albedo = share(rgb(c.albedo)),
             .g = std::clamp(scalar(c.g), -0.99f, 0.99f),
             .max_depth = c.max_depth,
             .samples = std::max(1, c.samples),

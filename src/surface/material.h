@@ -32,6 +32,7 @@ class Materials {
   /// Throws Error (scene) at the material's place: an index out of range, or a mix that contains itself.
   Materials(const Scene& scene, const Textures& textures);
 
+  /// The Bsdf may refer to what is kept here.
   Bsdf bsdf(MaterialId id, const SurfaceQuery& query) const;
   /// No optical effect: the path goes on as if nothing were there.
   bool is_interface(MaterialId id) const;

@@ -86,7 +86,7 @@ bool Path::scatter(const Vertex& vertex) {
   add_estimate(seen, light_at(directions, seen), depth_);
   const bool looked = look_into_mirror(vertex, seen);
   if (is_environment_offered()) offer_->sought = std::make_unique<const SoughtLights>(sought_);
-  if (is_black(beta_) || (is_last_bounce(context_) && !context_.world.rays_find_lights())) return false;
+  if (!may_go_on()) return false;
 
   // What is aimed at lights weighs against the directions of this path alone.
   const bool offered = is_scattered_by_find(depth_);
@@ -112,6 +112,9 @@ bool Path::scatter(const Vertex& vertex) {
   return go_on(vertex, *s);
 }
 
+/// After the last bounce rays can still meet emitters.
+bool Path::may_go_on() const { return !is_black(beta_) && (!is_last_bounce(context_) || context_.world.rays_find_lights()); }
+
 bool Path::go_on(const Vertex& vertex, const ScatterSample& s) {
   media_ = vertex.media_toward(context_.world.geometry, s.wi);
   ray_ = {vertex.origin(context_.world.geometry, s.wi), s.wi};
@@ -129,7 +132,7 @@ bool Path::pass_pane(const Vertex& vertex) {
   const Rgb seen = seen_.value_or(beta_);
   seen_.reset();
   const bool looked = look_into_mirror(vertex, seen);
-  if (is_black(beta_) || (is_last_bounce(context_) && !context_.world.rays_find_lights())) return false;
+  if (!may_go_on()) return false;
   begin(Step::scatter);
   const float uc = context_.sampler.next_1d();
   const auto s = vertex.sample(beta_, uc, context_.sampler.next_2d());

@@ -101,7 +101,6 @@ class Path {
   void dim(const Span& span);
   Rgb light_at(const Directions& directions, Rgb beta);
   bool look_into_mirror(const Vertex& vertex, Rgb beta);
-  Rgb transmittance_to_end(const MediaState& media, const Ray& ray, const Trace& trace);
   float scattering_mis_weight(LightId id, float light_pdf) const;
   Vertex vertex_at(const SurfaceHit& hit, Vec3 wo, const MediaState& media);
   int narrow_to_channel();
@@ -117,6 +116,7 @@ class Path {
   void record_camera_media(const Span& span);
   bool scatter(const Vertex& vertex);
   bool pass_pane(const Vertex& vertex);
+  bool may_go_on() const;
   bool go_on(const Vertex& vertex, const ScatterSample& s);
   bool survive_roulette();
 

@@ -13,8 +13,6 @@ namespace {
 /// Look-ups of the emission that the camera sees, for each one of what paths meet later (docs/measurements.md).
 constexpr float kSeenDensity = 2;
 
-EmitterHit emitter_hit(const SurfaceHit& hit) { return {.p = hit.p, .ng = hit.ng, .uv = hit.uv, .distance = hit.t}; }
-
 }  // namespace
 
 /// Of one light.
@@ -44,10 +42,11 @@ bool Path::look_into_mirror(const Vertex& vertex, Rgb beta) {
   const Ray ray{vertex.origin(world.geometry, mirror->wi), mirror->wi};
   ++context_.counters.rays;
   const Trace trace = world.geometry.trace(ray, 0, kInfinity);
+  MediaState media = vertex.media_toward(world.geometry, ray.d);
   std::optional<Rgb> passed;
   const auto add = [&](LightId id, Rgb L) {
     if (is_black(L)) return;
-    if (!passed) passed = beta * mirror->f * transmittance_to_end(vertex.media_toward(world.geometry, ray.d), ray, trace);
+    if (!passed) passed = beta * mirror->f * transmittance_to_end(context_, ray, trace, media, context_.sampler);
     add_light(id, *passed * L, depth_);
   };
   if (!trace.hit) {
@@ -56,16 +55,6 @@ bool Path::look_into_mirror(const Vertex& vertex, Rgb beta) {
     add(*id, world.lights.emitted(*id, emitter_hit(*trace.hit), -ray.d));
   }
   return true;
-}
-
-/// Of a ray through media, by numbers of its own.
-Rgb Path::transmittance_to_end(const MediaState& media, const Ray& ray, const Trace& trace) {
-  if (!context_.world.has_media()) return Rgb(1.0f);
-  SpanWalk walk(context_.world.media_context(), media, trace.crossings, trace.t_end);
-  Rng rng = context_.sampler.stream();
-  const Rgb T = transmittance_along(context_, walk, ray, rng);
-  context_.counters.parity_errors += walk.parity_errors();
-  return T;
 }
 
 /// MIS weight of a scattered ray that found light `id`, which next-event estimation samples with `light_pdf`.

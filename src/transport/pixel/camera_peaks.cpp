@@ -117,16 +117,9 @@ std::optional<Seen> see(const LightContext& context, const Ray& ray, Sampler& sa
   const Trace trace = world.geometry.trace(ray, 0, kInfinity);
   const float which = sampler.next_1d();
   if (!trace.hit) return std::nullopt;
-  Rgb T(1.0f);
   MediaState media = world.media_at_start(ray.o);
-  if (world.has_media()) {
-    Rng rng = sampler.stream();
-    SpanWalk walk(world.media_context(), media, trace.crossings, trace.t_end);
-    T = transmittance_along(context, walk, ray, rng);
-    if (is_black(T)) return std::nullopt;
-    context.counters.parity_errors += walk.parity_errors();
-    media = walk.state();
-  }
+  Rgb T = transmittance_to_end(context, ray, trace, media, sampler);
+  if (is_black(T)) return std::nullopt;
   std::optional<int> channel;
   if (world.materials.is_dispersive(world.material_of(*trace.hit))) T *= only(channel.emplace(channel_by(which)));
   return Seen{surface_vertex(world, *trace.hit, -ray.d, media, channel), T};

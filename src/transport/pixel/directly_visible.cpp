@@ -20,19 +20,15 @@ std::optional<DirectlyVisible> directly_visible(const BuiltWorld& world, const R
   Trace trace = world.geometry.trace(ray, 0, kInfinity);
   const auto id = trace.hit ? world.light_of(*trace.hit) : std::nullopt;
   if (!id) return std::nullopt;
-  const EmitterHit hit{.p = trace.hit->p, .ng = trace.hit->ng, .uv = trace.hit->uv, .distance = trace.hit->t};
+  const EmitterHit hit = emitter_hit(*trace.hit);
   const Rgb L = world.lights.emitted(*id, hit, -ray.d);
   if (is_black(L)) return std::nullopt;
   return DirectlyVisible{*id, hit, L, std::move(trace)};
 }
 
 Rgb attenuated(const LightContext& context, const Ray& ray, const DirectlyVisible& seen, Sampler& sampler) {
-  if (!context.world.has_media()) return Rgb(1.0f);
-  Rng rng = sampler.stream();
-  SpanWalk walk = walk_to(context.world, ray, seen.trace);
-  const Rgb T = transmittance_along(context, walk, ray, rng);
-  context.counters.parity_errors += walk.parity_errors();
-  return T;
+  MediaState media = context.world.media_at_start(ray.o);
+  return transmittance_to_end(context, ray, seen.trace, media, sampler);
 }
 
 float attenuated_roughly(const BuiltWorld& world, const Ray& ray, const DirectlyVisible& seen) {

@@ -33,20 +33,16 @@ float chance_of_tracing(const LightContext& context, const MediaState& media, co
 
 /// Of a shadow ray that surfaces stop, from where `media` are: what passes if all of them are panes, as many at most as the
 /// path may still pass. Lights that rays cannot find are not seen through any, as in pbrt.
-Rgb through_panes(const LightContext& context, MediaState media, Ray ray, const LightSample& light, Rng& rng) {
+Rgb through_panes(const LightContext& context, MediaState media, Ray ray, const LightSample& light, Sampler& sampler) {
   const BuiltWorld& world = context.world;
   if (!world.has_panes || light.delta || light.volume) return {};
   Rgb T(1.0f);
   float left = light.distance;
   for (int panes = context.settings.max_depth - context.bounce - 1;; --panes) {
     ++context.counters.shadow_rays;
-    const Trace trace = world.geometry.trace(ray, 0, left * kShadowEnd);
-    if (world.has_media()) {
-      SpanWalk walk(world.media_context(), media, trace.crossings, trace.hit ? trace.t_end : left);
-      T *= transmittance_along(context, walk, ray, rng);
-      context.counters.parity_errors += walk.parity_errors();
-      media = walk.state();
-    }
+    Trace trace = world.geometry.trace(ray, 0, left * kShadowEnd);
+    if (!trace.hit) trace.t_end = left;
+    T *= transmittance_to_end(context, ray, trace, media, sampler);
     if (!trace.hit || is_black(T)) return T;
     if (panes <= 0 || !world.materials.is_pane(world.material_of(*trace.hit))) return {};
     const Vertex pane = surface_vertex(world, *trace.hit, -ray.d, media, std::nullopt);
@@ -75,6 +71,16 @@ Rgb transmittance_along(const LightContext& context, SpanWalk& walk, const Ray& 
   return T;
 }
 
+Rgb transmittance_to_end(const LightContext& context, const Ray& ray, const Trace& trace, MediaState& media, Sampler& sampler) {
+  if (!context.world.has_media()) return Rgb(1.0f);
+  Rng rng = sampler.stream();
+  SpanWalk walk(context.world.media_context(), media, trace.crossings, trace.t_end);
+  const Rgb T = transmittance_along(context, walk, ray, rng);
+  context.counters.parity_errors += walk.parity_errors();
+  media = walk.state();
+  return T;
+}
+
 std::optional<LightSample> sample_light(const LightContext& context, LightId light, Vec3 p, Vec2 u) {
   const BuiltWorld& world = context.world;
   if (!world.volume_lights.holds(light)) return world.lights.sample(light, p, u);
@@ -89,15 +95,14 @@ Rgb arriving(const LightContext& context, const MediaState& media, Vec3 origin, 
   if (!world.has_media()) {
     ++context.counters.shadow_rays;
     if (!world.geometry.occluded(ray, 0, end)) return Rgb(1.0f);
-    Rng none(0);
-    return through_panes(context, media, ray, light, none);
+    return through_panes(context, media, ray, light, sampler);
   }
   Rng rng = sampler.stream();
   const float chance = chance_of_tracing(context, media, ray, light.distance);
   if (chance < 1 && rng.uniform() >= chance) return {};
   ++context.counters.shadow_rays;
   const auto crossings = world.geometry.trace_shadow(ray, 0, end);
-  if (!crossings) return through_panes(context, media, ray, light, rng) * (1 / chance);
+  if (!crossings) return through_panes(context, media, ray, light, sampler) * (1 / chance);
 
   // Through media the whole distance counts: at optical depth 4 the last 1e-4 of it is 4e-4 of the light.
   SpanWalk walk(world.media_context(), media, *crossings, light.distance);

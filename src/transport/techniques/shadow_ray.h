@@ -14,6 +14,9 @@ inline constexpr float kShadowEnd = 1 - 1e-4f;
 /// Of a shadow ray's media, by `walk`, which is left where nothing more gets through.
 Rgb transmittance_along(const LightContext& context, SpanWalk& walk, const Ray& ray, Rng& rng);
 
+/// The same of a traced ray to its end, from where `media` are; they become those there. Without any it is 1.
+Rgb transmittance_to_end(const LightContext& context, const Ray& ray, const Trace& trace, MediaState& media, Sampler& sampler);
+
 /// As Lights::sample, for all kinds of light.
 std::optional<LightSample> sample_light(const LightContext& context, LightId light, Vec3 p, Vec2 u);
 

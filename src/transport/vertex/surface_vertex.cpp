@@ -12,7 +12,7 @@ namespace {
 float hash_to_unit(Vec3 p, Vec3 w) {
   const auto bits = [](float f) { return static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(f)); };
   const std::uint64_t h = hash(bits(p.x), bits(p.y), bits(p.z), bits(w.x), bits(w.y), bits(w.z));
-  return static_cast<float>(h >> 40) * 0x1p-24f;
+  return unit_float(h);
 }
 
 /// Every hit takes the camera's footprint, reduced as pbrt reduces it for 64 samples a pixel and more: a picture must not

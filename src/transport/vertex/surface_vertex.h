@@ -16,7 +16,7 @@ Vertex surface_vertex(const BuiltWorld& world, const SurfaceHit& hit, Vec3 wo, c
 
 /// Whether it is on a surface that light goes straight through, or is mirrored by.
 inline bool is_pane(const BuiltWorld& world, const Vertex& vertex) {
-  return vertex.unbent() > 0 && world.materials.is_pane(world.material_of(vertex.surface()->hit));
+  return world.has_panes && vertex.unbent() > 0 && world.materials.is_pane(world.material_of(vertex.surface()->hit));
 }
 
 /// A channel by a number in [0, 1), and the throughput that makes up for the others.

@@ -67,4 +67,7 @@ struct BuiltWorld {
   }
 };
 
+/// What lights need to know of a hit of one of them.
+inline EmitterHit emitter_hit(const SurfaceHit& hit) { return {.p = hit.p, .ng = hit.ng, .uv = hit.uv, .distance = hit.t}; }
+
 }  // namespace tyndall
