@@ -73,6 +73,7 @@ Rng Path::stream_for_emission() {
 bool Path::scatter(const Vertex& vertex) {
   context_.bounce = depth_ - 1;
   if (is_pane(context_.world, vertex)) return pass_pane(vertex);
+  panes_ = 0;
   // How likely others had scattered toward what is shared must not depend on how the path came there.
   context_.guided_weight = is_scattered_by_find(depth_) ? 1 : 1 / guided_pdf_ratio_;
   // On the ray it was about what media scatter.
@@ -104,12 +105,14 @@ bool Path::scatter(const Vertex& vertex) {
   }
   light_sampled_ = !s->specular && vertex.has_smooth();
   end_counted_ = looked && s->mirrored;
-  panes_ = 0;
   from_ = vertex.p();
+  flown_ = Rgb(1.0f);
   pdf_ = sought_.pdf(vertex, s->wi, s->pdf);
   if (vertex.has_smooth()) ++context_.smooth_bounces;
   context_.joint = joint ? &joint_.emplace(*joint, s->wi, vertex.pdf(s->wi, Rgb(1.0f))) : nullptr;
-  return go_on(vertex, *s);
+  const bool goes_on = go_on(vertex, *s);
+  if (leaves_first()) offer_->ray = ray_;
+  return goes_on;
 }
 
 /// After the last bounce rays can still meet emitters.
@@ -118,7 +121,6 @@ bool Path::may_go_on() const { return !is_black(beta_) && (!is_last_bounce(conte
 bool Path::go_on(const Vertex& vertex, const ScatterSample& s) {
   media_ = vertex.media_toward(context_.world.geometry, s.wi);
   ray_ = {vertex.origin(context_.world.geometry, s.wi), s.wi};
-  flown_ = Rgb(1.0f);
   beta_ *= s.weight;
   eta_scale_ *= s.eta * s.eta;
   guided_pdf_ratio_ *= s.guided_pdf_ratio;
@@ -135,8 +137,9 @@ bool Path::pass_pane(const Vertex& vertex) {
   if (!may_go_on()) return false;
   begin(Step::scatter);
   const float uc = context_.sampler.next_1d();
-  const auto s = vertex.sample(beta_, uc, context_.sampler.next_2d());
+  auto s = vertex.sample(beta_, uc, context_.sampler.next_2d());
   if (!s) return false;
+  if (!s->mirrored) s->wi = ray_.d;  // to the last bit: who receives what this path finds must find it by the same ray
   end_counted_ = looked && s->mirrored;
   if (light_sampled_ && !s->mirrored) {
     ++panes_;

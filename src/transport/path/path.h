@@ -148,7 +148,7 @@ class Path {
   std::optional<SpanSearch> span_search_;
   float collision_t_ = 0, collision_density_ = 0;
 
-  Rgb flown_{1.0f};  ///< weight of the flight since the last bounce
+  Rgb flown_{1.0f};  ///< weight of the flight since the last bounce that was none at a pane
   enum class Sharing { none, offering, completing };
   Sharing sharing_ = Sharing::none;  ///< whether an offer is still ahead, or what it is worth is being found
   std::optional<PathOffer> offer_;

@@ -35,6 +35,7 @@ struct PathOffer {
 
   std::optional<Vertex> at;     ///< what was met; nothing: others may still have found something for this path
   std::optional<Vec3> escaped;  ///< instead of it: the direction to an environment, a find at infinity
+  int panes = 0;                ///< that are in between
   Ray ray;                      ///< on which it came there: what alpha lets pass depends on that
   Rgb arrived;                  ///< throughput with which the path itself came there
   Rgb flown;                    ///< the part of it that the flight through media weighs
@@ -51,6 +52,7 @@ struct PathOffer {
 
   /// Of a find, whether what it sends to all on its side is known. Else what comes to it from `wi` is.
   bool scatters_evenly() const { return at->on_surface() && at->surface()->bsdf.diffuse(); }
+  int bounces_of_find() const { return bounces + panes + 1; }
   bool found() const { return at || escaped; }
   /// Radiance of an environment that comes from `w`, were nothing in between.
   Rgb environment(LightId light, Vec3 w) const { return lights.environment(light, {first.p(), w}); }

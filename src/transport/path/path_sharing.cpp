@@ -24,7 +24,7 @@ void Path::run_until_offer() {
   if (!offer_) return;
   if (vertex) offer_->at.emplace(std::move(*vertex));
   if (!offer_->found()) return;
-  offer_->ray = ray_;
+  offer_->panes = panes_;
   offer_->arrived = beta_;
   offer_->flown = flown_;
   context_.sampler.begin_step(kSharingStep);
@@ -43,7 +43,7 @@ void Path::complete_offer() {
   const Rgb scattered = offer_->scatters_evenly() ? Rgb(1.0f) : offer_->scattered;
   offer_->radiance = divided(record_.radiance(), scattered);
   record_ = before;
-  add(offer_->arrived * offer_->own, offer_->bounces + 1);
+  add(offer_->arrived * offer_->own, offer_->bounces_of_find());
   if (!groups) return;
   groups->end_find(found_before);
   for (Rgb& light : groups->find) light = divided(light, scattered);
@@ -113,11 +113,11 @@ bool Path::may_offer(const Vertex& first) const {
   return (depth_ == 1 || (first.on_surface() && depth_ < limits_.max_depth)) && may_share(first);
 }
 
-/// It is at the vertex of its offer: the next may be a find.
-bool Path::leaves_first() const { return sharing_ == Sharing::offering && offer_ && depth_ == offer_->bounces; }
+/// It has left the vertex of its offer, and passed nothing since but panes: what comes next may be a find.
+bool Path::leaves_first() const { return sharing_ == Sharing::offering && offer_ && depth_ - panes_ == offer_->bounces; }
 /// Light of so many bounces is scattered toward the first vertex by the find itself, not a diffuse surface: none but its own
 /// path counts that.
-bool Path::is_scattered_by_find(int bounces) const { return completes_one_direction() && bounces == offer_->bounces + 1; }
+bool Path::is_scattered_by_find(int bounces) const { return completes_one_direction() && bounces == offer_->bounces_of_find(); }
 
 /// Not where others could not tell how likely the path went where it did.
 bool Path::may_share(const Vertex& first) const { return first.has_smooth() && first.has_exact_pdf(); }
@@ -131,7 +131,7 @@ bool Path::is_offered(const Vertex& second) const {
     if (second.surface()->bsdf.diffuse()) return true;
     if (channel_ || !may_share(second) || guides_everywhere(context_, depth_)) return false;
   }
-  return limits_.max_depth > offer_->bounces + 1;
+  return limits_.max_depth > depth_ + 1;
 }
 
 }  // namespace tyndall

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "transport/techniques/shadow_ray.h"
+#include "transport/vertex/surface_vertex.h"
 #include "volume/coarse.h"
 #include "volume/homogeneous.h"
 
@@ -66,28 +67,58 @@ Link::Link(const Between& between, const Vertex& from, PathOffer& find, bool own
   media_ = from.media_toward(geometry, ray_.d);
 }
 
+/// Of a link, from pane to pane.
+struct Link::Piece {
+  Ray ray;
+  MediaState media;
+  float left;  ///< to the find
+};
+
 std::optional<Passage> Link::pass(Rgb throughput) const {
-  const BuiltWorld& world = between_.world;
-  const float distance = find_.escaped ? kInfinity : length(find_.at->p() - ray_.o);
-  ++between_.counters.shadow_rays;
-  const bool on_surface = find_.at && find_.at->on_surface();
-  const auto crossings = world.geometry.trace_shadow(ray_, 0, on_surface ? distance * kShadowEnd : distance);
-  if (!crossings) return std::nullopt;
   Passage passage;
   if (own_) passage.weight = find_.flown;
-  if (!world.has_media()) return passage;
+  std::optional<Piece> piece = Piece{ray_, media_, find_.escaped ? kInfinity : length(find_.at->p() - ray_.o)};
+  for (int panes = 0; panes < find_.panes; ++panes) {
+    piece = beyond_pane(*piece, throughput, passage);
+    if (!piece) return std::nullopt;
+  }
+  ++between_.counters.shadow_rays;
+  const bool on_surface = find_.at && find_.at->on_surface();
+  const float end = on_surface ? piece->left * kShadowEnd : piece->left;
+  const auto crossings = between_.world.geometry.trace_shadow(piece->ray, 0, end);
+  if (!crossings) return std::nullopt;
+  pass_media(*piece, *crossings, piece->left, throughput, passage);
+  return passage;
+}
 
-  SpanWalk walk(world.media_context(), media_, *crossings, distance);
+std::optional<Link::Piece> Link::beyond_pane(const Piece& piece, Rgb& throughput, Passage& passage) const {
+  ++between_.counters.shadow_rays;
+  const Trace trace = between_.world.geometry.trace(piece.ray, 0, piece.left);
+  if (!trace.hit) return std::nullopt;
+  const MediaState there = pass_media(piece, trace.crossings, trace.t_end, throughput, passage);
+  const auto behind = behind_pane(between_.world, piece.ray, *trace.hit, there);
+  if (!behind) return std::nullopt;
+  passage.weight *= own_ ? 1 / behind->unbent : behind->unbent;
+  passage.chance *= behind->unbent;
+  passage.likely *= behind->unbent;
+  return Piece{behind->ray, behind->media, piece.left - trace.hit->t};
+}
+
+/// Membership at the end.
+MediaState Link::pass_media(const Piece& piece, const Crossings& crossings, float t_end, Rgb& throughput,
+                            Passage& passage) const {
+  if (!between_.world.has_media()) return piece.media;
+  SpanWalk walk(between_.world.media_context(), piece.media, crossings, t_end);
   while (const auto interval = walk.next()) {
     if (all_homogeneous(interval->view())) {
       pass_uniform(*interval, throughput, passage);
     } else {
       if (!has_all_channels(throughput)) passage.chance = 0;  // the flight does not tell of all
-      pass_varying(*interval, passage);
+      pass_varying(*interval, piece.ray, passage);
     }
   }
   between_.counters.parity_errors += walk.parity_errors();
-  return passage;
+  return walk.state();
 }
 
 void Link::pass_uniform(const Interval& interval, Rgb& throughput, Passage& passage) const {
@@ -100,13 +131,13 @@ void Link::pass_uniform(const Interval& interval, Rgb& throughput, Passage& pass
   passage.likely *= has_all_channels(T) ? mean(T) : 0.0f;
 }
 
-void Link::pass_varying(const Interval& interval, Passage& passage) const {
+void Link::pass_varying(const Interval& interval, const Ray& ray, Passage& passage) const {
   const MediaView media = interval.view();
   const float t0 = interval.t0, t1 = interval.t1;
   TrackingStats& stats = between_.counters.tracking;
-  passage.weight *= own_ ? inverse_transmittance(kInverseSpacing, media, ray_, t0, t1, find_.rng, stats)
-                         : transmittance({between_.transmittance}, media, ray_, t0, t1, find_.rng, stats);
-  const float passes = std::exp(-coarse_optical_depth(media, ray_, t0, t1, kReads));
+  passage.weight *= own_ ? inverse_transmittance(kInverseSpacing, media, ray, t0, t1, find_.rng, stats)
+                         : transmittance({between_.transmittance}, media, ray, t0, t1, find_.rng, stats);
+  const float passes = std::exp(-coarse_optical_depth(media, ray, t0, t1, kReads));
   passage.chance *= passes;
   passage.likely *= passes;
 }

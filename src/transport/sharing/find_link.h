@@ -47,13 +47,17 @@ class Link {
   static Link own(const Between& between, PathOffer& find) { return Link(between, find.first, find, true); }
   Link(const Between& between, const Vertex& from, PathOffer& find) : Link(between, from, find, false) {}
 
-  /// By light of `throughput` before it. Nothing where surfaces are in between.
+  /// By light of `throughput` before it. Nothing where surfaces are in between, or not as many panes as the find lies behind:
+  /// others leave it another number of bounces.
   std::optional<Passage> pass(Rgb throughput) const;
 
  private:
   Link(const Between& between, const Vertex& from, PathOffer& find, bool own);
+  struct Piece;
+  std::optional<Piece> beyond_pane(const Piece& piece, Rgb& throughput, Passage& passage) const;
+  MediaState pass_media(const Piece& piece, const Crossings& crossings, float t_end, Rgb& throughput, Passage& passage) const;
   void pass_uniform(const Interval& interval, Rgb& throughput, Passage& passage) const;
-  void pass_varying(const Interval& interval, Passage& passage) const;
+  void pass_varying(const Interval& interval, const Ray& ray, Passage& passage) const;
 
   const Between& between_;
   PathOffer& find_;

@@ -44,13 +44,12 @@ Rgb through_panes(const LightContext& context, MediaState media, Ray ray, const 
     if (!trace.hit) trace.t_end = left;
     T *= transmittance_to_end(context, ray, trace, media, sampler);
     if (!trace.hit || is_black(T)) return T;
-    if (panes <= 0 || !world.materials.is_pane(world.material_of(*trace.hit))) return {};
-    const Vertex pane = surface_vertex(world, *trace.hit, -ray.d, media, std::nullopt);
-    if (pane.unbent() == 0) return {};
-    T *= pane.unbent();
+    const auto behind = panes > 0 ? behind_pane(world, ray, *trace.hit, media) : std::nullopt;
+    if (!behind) return {};
+    T *= behind->unbent;
     left -= trace.hit->t;
-    media = pane.media_toward(world.geometry, ray.d);
-    ray.o = pane.origin(world.geometry, ray.d);
+    media = behind->media;
+    ray = behind->ray;
   }
 }
 

@@ -44,4 +44,12 @@ Vertex surface_vertex(const BuiltWorld& world, const SurfaceHit& hit, Vec3 wo, c
   return Vertex(surface, wo, media);
 }
 
+std::optional<BehindPane> behind_pane(const BuiltWorld& world, const Ray& ray, const SurfaceHit& hit, const MediaState& media) {
+  if (!world.materials.is_pane(world.material_of(hit))) return std::nullopt;
+  const Vertex pane = surface_vertex(world, hit, -ray.d, media, std::nullopt);
+  const float unbent = pane.unbent();
+  if (unbent == 0) return std::nullopt;
+  return BehindPane{{pane.origin(world.geometry, ray.d), ray.d}, pane.media_toward(world.geometry, ray.d), unbent};
+}
+
 }  // namespace tyndall

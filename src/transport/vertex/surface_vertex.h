@@ -19,6 +19,15 @@ inline bool is_pane(const BuiltWorld& world, const Vertex& vertex) {
   return world.has_panes && vertex.unbent() > 0 && world.materials.is_pane(world.material_of(vertex.surface()->hit));
 }
 
+/// A ray on the other side of a pane that it has passed straight on.
+struct BehindPane {
+  Ray ray;
+  MediaState media;
+  float unbent;  ///< share of light that passes
+};
+/// Where `ray` has met `hit` from where `media` are; nothing where that is no pane.
+std::optional<BehindPane> behind_pane(const BuiltWorld& world, const Ray& ray, const SurfaceHit& hit, const MediaState& media);
+
 /// A channel by a number in [0, 1), and the throughput that makes up for the others.
 inline int channel_by(float u) { return std::min(static_cast<int>(3 * u), 2); }
 inline Rgb only(int channel) {
