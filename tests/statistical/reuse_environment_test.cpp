@@ -37,11 +37,15 @@ class SkyMap {
     }
     write_exr(map, path_);
   }
-  std::string light(const std::string& more = "") const {
-    return block("Rotate -90 1 0 0\nLightSource \"infinite\" \"string filename\" \"" + path_ + "\" " + more + "\n");
-  }
+  std::string light(const std::string& more = "") const { return turned("-90 1 0 0", more); }
+  /// Its bright half behind the window.
+  std::string light_behind() const { return turned("90 0 1 0"); }
 
  private:
+  std::string turned(const std::string& how, const std::string& more = "") const {
+    return block("Rotate " + how + "\nLightSource \"infinite\" \"string filename\" \"" + path_ + "\" " + more + "\n");
+  }
+
   Scratch folder_;
   std::string path_ = folder_ / "sky.exr";
 };
@@ -82,9 +86,13 @@ TEST_CASE("sharing an environment changes the noise alone: smoke and fog") {
   check_sharing("smoke, one bounce", sharing_camera(1) + open_room() + environment(1) + smoke(), {}, 1.2);
   const std::string fog = homogeneous("f", {.sigma_a = {0.02f, 0.05f, 0.1f}, .sigma_s = {0.3f, 0.15f, 0.2f}, .g = 0.4f}) +
                           medium_box("f", "", {{-3, -3, -5}, {3, 3, 3}});
-  check_sharing("fog, one bounce", sharing_camera(1) + open_room() + environment(1) + fog, {}, 0.8);
-  check_sharing("fog", sharing_camera(4) + open_room() + environment(1) + fog, {}, 1);
-  check_sharing("fog as neighbouring rays see it alike", sharing_camera(4, 16) + open_room() + sky.light() + fog, {}, 1);
+  check_sharing("fog, one bounce", sharing_camera(1) + open_room() + environment(1) + fog, {}, 1.3);
+  check_sharing("fog", sharing_camera(4) + open_room() + environment(1) + fog, {}, 1.7);
+  for (const MediaStrategy media : {MediaStrategy::product, MediaStrategy::vertex})
+    check_sharing("fog as neighbouring rays see it alike", sharing_camera(4, 16) + open_room() + sky.light() + fog,
+                  {.media = media}, 1.7);
+  check_sharing("fog whose lights are chosen along rays", sharing_camera(4, 16) + open_room() + sky.light_behind() + fog,
+                {.distance = DistanceStrategy::profile}, 1.2);
 }
 
 TEST_CASE("sharing an environment changes the noise alone: mirrors and panes") {

@@ -18,7 +18,7 @@ const std::optional<SpanProfile>& CameraSegment::profile() {
 
 float CameraSegment::chance_of_passing() { return profile() ? std::exp(-profile_->optical_depth()) : 1.0f; }
 
-DistanceSampler CameraSegment::distances_to(Vec3 p) {
+DistanceSampler CameraSegment::distances_to(std::optional<Vec3> p) {
   return DistanceSampler(*profile(), span_.ray, LightPlace{.center = p}, DistanceSampler::Weights{g_});
 }
 

@@ -36,8 +36,8 @@ class CameraSegment {
   /// By the profile, for MIS: of colliding at `t` where extinction is `sigma_t`, 1/length; and the chance of passing it all.
   float density(float t, float sigma_t) { return sigma_t * profile()->transmittance(t); }
   float chance_of_passing();
-  /// Of distances at which light from `p` may be gathered.
-  DistanceSampler distances_to(Vec3 p);
+  /// Of distances at which light from `p`, or from infinity, may be gathered.
+  DistanceSampler distances_to(std::optional<Vec3> p);
   /// An estimate of all of it, by roulette where little comes through.
   Rgb transmittance(TransmittanceStrategy strategy, TrackingStats& stats);
 

@@ -48,8 +48,9 @@ class Path {
   /// What of a find, its own or another's, the path counts: `factor` times the find's radiance, or times what it sees of an
   /// environment there itself.
   void take(Rgb factor, const Path& finder, Received where);
-  /// The same of one that it receives in a medium at `t` along the camera's ray, wherever the path itself collides.
-  void take_at(float t, Rgb factor, const Path& finder);
+  /// The same of one that it receives in a medium at `t` along the camera's ray, at `vertex`, wherever the path itself
+  /// collides.
+  void take_at(const Vertex& vertex, float t, Rgb factor, const Path& finder);
   /// The factor of its own find, were it not shared.
   Rgb own_factor() const { return offer_->arrived * offer_->scattered; }
   /// What the ended path has found.
@@ -85,7 +86,9 @@ class Path {
   bool has_environment() const;
   bool is_environment_offered() const;
   void offer_environment();
-  void take_environment(Rgb factor, Vec3 wi, Received where);
+  void be_on_camera_ray();
+  Rgb take_environment(Rgb factor, Vec3 wi, PathOffer& at);
+  SoughtLights sought_along(const Vertex& vertex, float t) const;
   Rgb environment_from(const PathOffer& offer, LightId light, Vec3 wi) const;
   bool completes_one_direction() const;
   std::optional<Vertex> next_vertex();
@@ -153,6 +156,7 @@ class Path {
   Sharing sharing_ = Sharing::none;  ///< whether an offer is still ahead, or what it is worth is being found
   std::optional<PathOffer> offer_;
   std::optional<CameraSegment> segment_;
+  std::optional<SpanSearch> camera_search_;  ///< of the segment's lights, where it may receive of environments
   std::optional<PathOffer> behind_;
 
   std::optional<Beyond> beyond_;  ///< what this path, which collided, leaves to another

@@ -110,6 +110,7 @@ void Path::gather(const Span& span) {
   if (lit_at_collisions(span)) return;
   begin(Step::gather);
   span_search_ = span_search(context_, span);
+  if (depth_ == 0 && segment_ && has_environment()) camera_search_ = span_search_;
   if (!span_search_ || !pairs_along_spans(context_.settings)) return;
   if (depth_ == 0) first_bounce_in_medium_ = true;  // of this light's path
   add_estimate(beta_, span_light(context_, span, *span_search_, beta_), depth_ + 1);

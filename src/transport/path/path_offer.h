@@ -53,6 +53,8 @@ struct PathOffer {
   /// Of a find, whether what it sends to all on its side is known. Else what comes to it from `wi` is.
   bool scatters_evenly() const { return at->on_surface() && at->surface()->bsdf.diffuse(); }
   int bounces_of_find() const { return bounces + panes + 1; }
+  /// Of a find; nothing: at infinity.
+  std::optional<Vec3> place() const { return at ? std::optional(at->p()) : std::nullopt; }
   bool found() const { return at || escaped; }
   /// Radiance of an environment that comes from `w`, were nothing in between.
   Rgb environment(LightId light, Vec3 w) const { return lights.environment(light, {first.p(), w}); }

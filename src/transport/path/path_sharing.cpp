@@ -50,6 +50,12 @@ void Path::complete_offer() {
   GroupedLight::add(offer_->arrived, groups->own, groups->found);
 }
 
+/// What is asked of the path's context is for the first bounce there, wherever the path itself went.
+void Path::be_on_camera_ray() {
+  context_.bounce = context_.smooth_bounces = 0;
+  context_.guided_weight = 1;
+}
+
 /// Not where a path draws numbers for its vertex: others must not.
 PathOffer* Path::behind() {
   if (behind_ || !segment_ || !segment_->end()) return behind_ ? &*behind_ : nullptr;
@@ -57,19 +63,38 @@ PathOffer* Path::behind() {
   if (context_.world.materials.is_dispersive(context_.world.material_of(hit))) return nullptr;
   const Span& span = segment_->span();
   const Vertex vertex = vertex_at(hit, -span.ray.d, span.end);
-  context_.bounce = context_.smooth_bounces = 0;
+  be_on_camera_ray();
   return may_share(vertex) ? &behind_.emplace(context_, vertex, Rgb(1.0f)) : nullptr;
 }
 
 void Path::take(Rgb factor, const Path& finder, Received where) {
-  if (finder.offer_->escaped) return take_environment(factor, *finder.offer_->escaped, where);
-  (where == Received::on_surface ? record_.surface_indirect : record_.volume_indirect) += factor * finder.offer_->radiance;
+  const bool on_surface = where == Received::on_surface, arrived = offer_ && offer_->first.on_surface() == on_surface;
+  if (const auto wi = finder.offer_->escaped) {
+    take_environment(factor, *wi, arrived ? *offer_ : *behind_);
+    return;
+  }
+  (on_surface ? record_.surface_indirect : record_.volume_indirect) += factor * finder.offer_->radiance;
   if (context_.groups) GroupedLight::add(factor, finder.context_.groups->find, context_.groups->found);
 }
 
-void Path::take_at(float t, Rgb factor, const Path& finder) {
-  take(factor, finder, Received::in_medium);
-  if (context_.deep) context_.deep->scattered(t, factor * finder.offer_->radiance);
+void Path::take_at(const Vertex& vertex, float t, Rgb factor, const Path& finder) {
+  Rgb light;
+  if (const auto wi = finder.offer_->escaped) {
+    be_on_camera_ray();
+    PathOffer at(context_, vertex, Rgb(1.0f));
+    at.sought = std::make_unique<const SoughtLights>(sought_along(vertex, t));
+    light = take_environment(factor, *wi, at);
+  } else {
+    take(factor, finder, Received::in_medium);
+    light = factor * finder.offer_->radiance;
+  }
+  if (context_.deep) context_.deep->scattered(t, light);
+}
+
+/// As the path would have sought lights, had it collided there.
+SoughtLights Path::sought_along(const Vertex& vertex, float t) const {
+  if (!camera_search_) return {light_search(context_, vertex), {}};
+  return {{}, SpanCollision{*camera_search_, t, collision_density(segment_->span(), *camera_search_, t)}};
 }
 
 bool Path::has_environment() const { return !context_.world.lights.infinite().empty(); }
@@ -91,17 +116,21 @@ Rgb Path::environment_from(const PathOffer& offer, LightId light, Vec3 wi) const
   return L * offer.sought->scattering_mis_weight(context_, own, light, pdf);
 }
 
-void Path::take_environment(Rgb factor, Vec3 wi, Received where) {
-  const bool on_surface = where == Received::on_surface, arrived = offer_ && offer_->first.on_surface() == on_surface;
-  PathOffer& at = arrived ? *offer_ : *behind_;
+Rgb Path::take_environment(Rgb factor, Vec3 wi, PathOffer& at) {
   if (!at.sought) at.sought = std::make_unique<const SoughtLights>(SoughtLights{light_search(context_, at.first), {}});
-  Rgb& direct = on_surface ? record_.surface_direct : record_.volume_direct;
-  Rgb& indirect = on_surface ? record_.surface_indirect : record_.volume_indirect;
+  Rgb sum;
   for (const LightId light : context_.world.lights.infinite()) {
     const Rgb contribution = factor * environment_from(at, light, wi);
-    (at.bounces == 1 ? direct : indirect) += contribution;
+    sum += contribution;
     if (context_.groups) context_.groups->found[context_.groups->groups().of(light)] += contribution;
   }
+  const bool direct = at.bounces == 1;
+  if (at.first.on_surface()) {
+    (direct ? record_.surface_direct : record_.surface_indirect) += sum;
+  } else {
+    (direct ? record_.volume_direct : record_.volume_indirect) += sum;
+  }
+  return sum;
 }
 
 bool Path::completes_one_direction() const { return sharing_ == Sharing::completing && !offer_->scatters_evenly(); }

@@ -23,8 +23,7 @@ Ray ray_to(const PathOffer& find, const Geometry& geometry, const Vertex& from) 
   return {from.origin(geometry, w), w};
 }
 
-}  // namespace
-
+/// What the find scatters back along `w`, which points to it, and how likely.
 Connection scattered_back(const PathOffer& find, Vec3 w) {
   if (find.by_mirror) return {};
   if (const auto* medium = find.at->medium()) {
@@ -43,22 +42,28 @@ Connection scattered_back(const PathOffer& find, Vec3 w) {
   return {f * cosine, has_all_channels(f) ? bsdf.pdf(-w, find.wi) * cosine : 0};
 }
 
-Connection connect_to_environment(const PathOffer& from, Vec3 w) {
-  return from.sees_environment(w) ? Connection{from.first.eval(w), from.directions.pdf(w, from.beta)} : Connection();
+}  // namespace
+
+std::optional<Sighting> sight(const PathOffer& find, Vec3 p) {
+  if (find.escaped) return Sighting{*find.escaped, {Rgb(1.0f), 1}};
+  const Vec3 v = find.at->p() - p;
+  const float d2 = length_squared(v);
+  if (!(d2 > 0)) return std::nullopt;
+  const Vec3 w = v * (1 / std::sqrt(d2));
+  const Connection back = scattered_back(find, w);
+  if (!(back.pdf > 0)) return std::nullopt;
+  return Sighting{w, {back.f * (1 / d2), back.pdf / d2}};
 }
 
 Connection connect(const PathOffer& from, const PathOffer& find) {
   if (from.bounces != find.bounces) return {};
-  if (find.escaped) return connect_to_environment(from, *find.escaped);
-  const Vec3 v = find.at->p() - from.first.p();
-  const float d2 = length_squared(v);
-  if (!(d2 > 0)) return {};
-  const Vec3 w = v * (1 / std::sqrt(d2));
-  const Connection back = scattered_back(find, w);
-  if (!(back.pdf > 0)) return {};
+  if (find.escaped && !from.sees_environment(*find.escaped)) return {};
+  const auto sighting = sight(find, from.first.p());
+  if (!sighting) return {};
+  const auto& [w, back] = *sighting;
   const float pdf = from.directions.pdf(w, from.beta);
   if (!(pdf > 0)) return {};
-  return {from.first.eval(w) * back.f * (1 / d2), pdf * back.pdf / d2};
+  return {from.first.eval(w) * back.f, pdf * back.pdf};
 }
 
 Link::Link(const Between& between, const Vertex& from, PathOffer& find, bool own) : between_(between), find_(find), own_(own) {

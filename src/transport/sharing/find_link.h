@@ -19,12 +19,16 @@ struct Between {
 /// A scattering function and its density.
 struct Connection {
   Rgb f;          ///< scattering functions times cosine over squared distance
-  float pdf = 0;  ///< 1/area or 1/volume, times that of the find's direction, by which a path would have made the find
+  float pdf = 0;  ///< 1/area, 1/volume or, of an environment, 1/sr, times that of the find's direction, by which a path would
+                  ///< have made the find
 };
-/// What the find scatters back along `w`, which points to it, and how likely: the factors of a Connection that are the find's.
-Connection scattered_back(const PathOffer& find, Vec3 w);
-/// Of the path of `from` with what comes from the direction `w`, in which another has left the scene.
-Connection connect_to_environment(const PathOffer& from, Vec3 w);
+/// Where a find is seen from a place, and what the find adds to the scattering there toward it: factors of a Connection.
+struct Sighting {
+  Vec3 w;
+  Connection back;  ///< what it scatters back, over squared distance, and how likely; 1 of an environment
+};
+/// Nothing where it scatters nothing back.
+std::optional<Sighting> sight(const PathOffer& find, Vec3 p);
 /// By the path of `from`, from its first vertex; without visibility. Nothing after another number of bounces, which leaves
 /// others of the most that paths have.
 Connection connect(const PathOffer& from, const PathOffer& find);

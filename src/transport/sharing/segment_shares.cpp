@@ -38,14 +38,11 @@ struct Collision {
         p(segment.span().ray.at(t)),
         wo(-segment.span().ray.d),
         scattering(Scattering::at(part->media, p)) {
-    const Vec3 v = find.at->p() - p;
-    const float d2 = length_squared(v);
-    if (!(d2 > 0)) return;
-    const Vec3 w = v * (1 / std::sqrt(d2));
-    const Connection back = scattered_back(find, w);
-    if (!(back.pdf > 0)) return;
-    f = scattering.sigma_s * scattering.phase.eval(wo, w) * back.f * (1 / d2);
-    pdf = segment.density(t, scattering.sigma_t) * scattering.pdf(wo, w) * back.pdf / d2;
+    const auto sighting = sight(find, p);
+    if (!sighting) return;
+    const auto& [w, back] = *sighting;
+    f = scattering.sigma_s * scattering.phase.eval(wo, w) * back.f;
+    pdf = segment.density(t, scattering.sigma_t) * scattering.pdf(wo, w) * back.pdf;
   }
 
   const SpanPart* part;
@@ -126,7 +123,7 @@ float SegmentShares::sharers(Path& finder) {
   const PathOffer& offer = finder.offer();
   const Find find = consider(finder);
   const double others = find.might_sum - double{connect(offer, offer).pdf};
-  const double b = others * double{segment.distances_to(offer.at->p()).pdf(segment.collision())};
+  const double b = others * double{segment.distances_to(offer.place()).pdf(segment.collision())};
   const auto all = static_cast<double>(makers_.size() + receivers_.size());
   return static_cast<float>(std::min(1 + b / double{Collision(segment, segment.collision(), offer).pdf}, all));
 }
@@ -184,7 +181,7 @@ void SegmentShares::receive(std::size_t k) {
 void SegmentShares::take_own(const Find& find, std::size_t k) const {
   CameraSegment& segment = *paths_[k]->segment();
   const PathOffer& offer = find.path->offer();
-  const float t = segment.collision(), drawn = segment.distances_to(offer.at->p()).pdf(t);
+  const float t = segment.collision(), drawn = segment.distances_to(offer.place()).pdf(t);
   const Collision collision(segment, t, offer);
   float share = 1;
   if (!is_own(collision, (find.might_sum - double{find.might[k]}) * double{drawn})) {
@@ -200,7 +197,7 @@ std::optional<SegmentShares::Candidate> SegmentShares::draw(const Find& find, st
   const PathOffer& offer = find.path->offer();
   const auto made = static_cast<float>(find.made_sum - double{find.made[k]});
   if (is_black(find.flight) || !(made > 0) || !std::isfinite(made)) return std::nullopt;
-  const auto [t, drawn] = segment.distances_to(offer.at->p()).sample(std::clamp(u, 0.0f, 0x1.fffffep-1f));
+  const auto [t, drawn] = segment.distances_to(offer.place()).sample(std::clamp(u, 0.0f, 0x1.fffffep-1f));
   if (!(drawn > 0) || !std::isfinite(t)) return std::nullopt;
   const Collision collision(segment, t, offer);
   if (t < collision.part->t0 || t > collision.part->t1 || is_black(collision.f)) return std::nullopt;
@@ -215,7 +212,7 @@ void SegmentShares::link(const Candidate& candidate, Path& receiver, Rgb T) cons
   if (!passage) return;
   const float own = collision.pdf * passage->likely;
   if (!(own > 0) || !std::isfinite(own + others)) return;
-  receiver.take_at(t, collision.f * T * passage->weight * find->flight * (find->scale / (own + others)), *find->path);
+  receiver.take_at(vertex, t, collision.f * T * passage->weight * find->flight * (find->scale / (own + others)), *find->path);
 }
 
 }  // namespace tyndall

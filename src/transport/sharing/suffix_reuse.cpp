@@ -68,14 +68,6 @@ void share_among(Shares& shares, std::span<Path* const> finders, std::size_t rec
   }
 }
 
-/// Counts environments with the paths that have found them: they are nowhere that places along rays could be drawn toward.
-/// The other finders.
-std::span<Path* const> keep_environments(std::span<Path*> finders) {
-  const auto middle = std::stable_partition(finders.begin(), finders.end(), [](Path* path) { return !path->offer().escaped; });
-  for (auto escaped = middle; escaped != finders.end(); ++escaped) keep(**escaped);
-  return {finders.begin(), middle};
-}
-
 void share_collisions(const Between& between, std::span<Path* const> finders, std::span<Path* const> paths,
                       std::optional<bool> shared) {
   if (finders.empty()) return;
@@ -97,7 +89,7 @@ void share_suffixes(const Between& between, std::span<Path* const> paths, std::o
   auto* const end = std::copy_if(paths.begin(), paths.end(), finders.begin(), [](const Path* path) { return path->offers(); });
   auto* const middle = std::stable_partition(finders.begin(), end, [](Path* path) { return path->offer().first.on_surface(); });
   const std::span<Path* const> on_surface(finders.begin(), middle);
-  const std::span<Path*> in_medium(middle, end);
+  const std::span<Path* const> in_medium(middle, end);
   VertexShares surfaces(between);
   if (!SegmentShares::pay(paths)) {
     for (Path* path : on_surface) surfaces.add_arrived(*path);
@@ -108,7 +100,7 @@ void share_suffixes(const Between& between, std::span<Path* const> paths, std::o
   for (Path* path : paths) surfaces.add_behind(*path);
   share_among(surfaces, on_surface, paths.size(), kMostFinds / 2);
   SegmentShares segments(between, paths);
-  share_among(segments, keep_environments(in_medium), paths.size(), kMostFinds / 2);
+  share_among(segments, in_medium, paths.size(), kMostFinds / 2);
   segments.hand_out();
 }
 
