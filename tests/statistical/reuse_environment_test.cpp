@@ -87,7 +87,7 @@ TEST_CASE("sharing an environment changes the noise alone: smoke and fog") {
   const std::string fog = homogeneous("f", {.sigma_a = {0.02f, 0.05f, 0.1f}, .sigma_s = {0.3f, 0.15f, 0.2f}, .g = 0.4f}) +
                           medium_box("f", "", {{-3, -3, -5}, {3, 3, 3}});
   check_sharing("fog, one bounce", sharing_camera(1) + open_room() + environment(1) + fog, {}, 1.3);
-  check_sharing("fog", sharing_camera(4) + open_room() + environment(1) + fog, {}, 1.7);
+  check_sharing("fog", sharing_camera(4) + open_room() + environment(1) + fog, {}, 2.7);
   for (const MediaStrategy media : {MediaStrategy::product, MediaStrategy::vertex})
     check_sharing("fog as neighbouring rays see it alike", sharing_camera(4, 16) + open_room() + sky.light() + fog,
                   {.media = media}, 1.7);

@@ -100,7 +100,7 @@ class Path {
   bool lit_at_collisions(const Span& span) const;
   std::optional<Vertex> fly(const Span& span, const Trace& trace);
   void add_volume_emission(const Span& span);
-  int bounces_of_emission(bool weighed) const;
+  int bounces_of_light(bool weighed) const;
   void dim(const Span& span);
   Rgb light_at(const Directions& directions, Rgb beta);
   bool look_into_mirror(const Vertex& vertex, Rgb beta);

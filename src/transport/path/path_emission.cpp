@@ -89,9 +89,12 @@ class Path::ScatteredEmission final : public EmissionGauge {
   const Path& path_;
 };
 
-/// What the ray from such a find passes comes to it from one direction, as later light does, and is shared like that.
-/// What next-event estimation weighs against, which is the path's own, is not.
-int Path::bounces_of_emission(bool weighed) const { return completes_one_direction() && !weighed ? depth_ + 1 : depth_; }
+/// What a find's ray brings it of emission and environments comes from one direction, as later light does, and is shared like
+/// that. What next-event estimation weighs against, which is the path's own, is not.
+int Path::bounces_of_light(bool weighed) const {
+  const int bounces = depth_ - panes_;
+  return completes_one_direction() && !weighed ? bounces + 1 : bounces;
+}
 
 /// All of it that reaches the span's origin: how far the path goes does not matter.
 void Path::add_volume_emission(const Span& span) {
@@ -103,7 +106,7 @@ void Path::add_volume_emission(const Span& span) {
   const bool weighs = light_sampled_ && panes_ == 0 && sought_.volumes();  // no one seeks those through panes
   DeepSample* const deep = depth_ == 0 ? context_.deep : nullptr;
   const EmissionLook look{weighs ? &gauge : nullptr, depth_ == 0 ? kSeenDensity : 1.0f, deep};
-  const int bounces = bounces_of_emission(weighs);
+  const int bounces = bounces_of_light(weighs);
   Rgb T = beta_;
   for (auto part = span.parts.begin(); part != last && !is_black(T); ++part) {
     TrackingStats& stats = context_.counters.tracking;
@@ -130,7 +133,7 @@ void Path::add_environment() {
     const Rgb L = lights.environment(id, ray);
     if (is_black(L)) continue;
     const float pdf = light_sampled_ ? lights.environment_pdf(id, ray) : 0.0f;
-    add_light(id, seen_.value_or(beta_) * L * scattering_mis_weight(id, pdf), depth_ - panes_);
+    add_light(id, seen_.value_or(beta_) * L * scattering_mis_weight(id, pdf), bounces_of_light(pdf > 0));
   }
 }
 
