@@ -92,7 +92,9 @@ TEST_CASE("sharing changes the noise alone: fog as neighbouring rays see it alik
   check_sharing("everywhere", camera(5, kNarrow) + soft_room() + fog + medium_box("m", "", everywhere), {}, 3, kMany);
   check_sharing("in the middle", camera(5, kNarrow) + soft_room() + fog + medium_box("m", "", middle), {}, 3, kMany);
   const std::string lit = emitting_square({-1.2f, 1.2f, 0.5f}, 0.4f, 5) + environment(0.3f);
-  check_sharing("under a sky", camera(4, kNarrow) + lit + fog + medium_box("m", "", middle), {}, 0.8);  // direct light is all
+  // Nearly a furnace: what collides is as bright as what passes, so that a path alone has next to no noise. Sharing takes twice
+  // its variance there, and measured budgets leave it out.
+  check_sharing("under a sky", camera(4, kNarrow) + lit + fog + medium_box("m", "", middle), {}, 0.45);
 
   Grid grid{{{-0.1f, -0.6f, -1}, {0.4f, 0, 0}}, 4, 4, 4, {}};  // for some rays of a block
   for (int i = 0; i < 64; ++i) grid.density.push_back(2 * float(i % 11));
