@@ -52,12 +52,6 @@ class SkyMap {
 
 const Coefficients kSmoke{.sigma_a = {0.02f, 0.05f, 0.1f}, .sigma_s = {1.5f, 1, 0.7f}, .g = 0.3f};
 
-std::string smoke() {
-  Grid grid{{{-1.5f, -1.7f, -1.5f}, {0.6f, 1, 1.5f}}, 4, 4, 4, {}};
-  for (int i = 0; i < 64; ++i) grid.density.push_back(0.1f * float(i % 11));
-  return uniform_grid("m", kSmoke, grid) + medium_box("m", "", grid.bounds);
-}
-
 }  // namespace
 
 TEST_CASE("sharing an environment changes the noise alone: a room with a window") {
@@ -81,9 +75,9 @@ TEST_CASE("sharing an environment changes the noise alone: maps, beside other li
 TEST_CASE("sharing an environment changes the noise alone: smoke and fog") {
   const SkyMap sky;
   for (const MediaStrategy media : {MediaStrategy::product, MediaStrategy::vertex})
-    check_sharing("smoke", sharing_camera(4) + open_room() + environment(1) + smoke(), {.media = media}, 1.7);
-  check_sharing("smoke and a map", sharing_camera(4) + open_room() + sky.light() + smoke(), {}, 1.7);
-  check_sharing("smoke, one bounce", sharing_camera(1) + open_room() + environment(1) + smoke(), {}, 1.2);
+    check_sharing("smoke", sharing_camera(4) + open_room() + environment(1) + sharing_smoke(kSmoke), {.media = media}, 1.7);
+  check_sharing("smoke and a map", sharing_camera(4) + open_room() + sky.light() + sharing_smoke(kSmoke), {}, 1.7);
+  check_sharing("smoke, one bounce", sharing_camera(1) + open_room() + environment(1) + sharing_smoke(kSmoke), {}, 1.2);
   const std::string fog = homogeneous("f", {.sigma_a = {0.02f, 0.05f, 0.1f}, .sigma_s = {0.3f, 0.15f, 0.2f}, .g = 0.4f}) +
                           medium_box("f", "", {{-3, -3, -5}, {3, 3, 3}});
   check_sharing("fog, one bounce", sharing_camera(1) + open_room() + environment(1) + fog, {}, 1.3);

@@ -59,6 +59,12 @@ std::string sharing_things() {
              "-1  -1 0.6 -1.4]\n");
 }
 
+std::string sharing_smoke(const Coefficients& coefficients) {
+  Grid grid{{{-1.5f, -1.7f, -1.5f}, {0.6f, 1, 1.5f}}, 4, 4, 4, {}};
+  for (int i = 0; i < 64; ++i) grid.density.push_back(0.1f * float(i % 11));
+  return uniform_grid("m", coefficients, grid) + medium_box("m", "", grid.bounds);
+}
+
 void check_sharing(const char* name, const std::string& text, Variant variant, double worth, int spp) {
   CAPTURE(name);
   variant.budget = BudgetStrategy::fixed;

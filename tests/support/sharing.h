@@ -16,6 +16,8 @@ std::string sharing_wall(const std::string& rgb, const std::string& corners);
 std::string sharing_sides();       ///< floor, ceiling and the walls at x = -2 and 2
 std::string sharing_end(float z);  ///< a wall across the room
 std::string sharing_things();
+/// A grid of smoke in the middle.
+std::string sharing_smoke(const Coefficients& coefficients);
 
 /// Holds pictures to each other, block by block and in their means, at a level of 1e-3. Pixels that share are not independent:
 /// errors come from the spread of whole blocks between 24 renders: fewer see too little of rare light to tell. A bias of 5.6

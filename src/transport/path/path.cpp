@@ -211,10 +211,8 @@ void Path::add(Rgb contribution, int bounces) {
     offer_->own += contribution;
   } else if (bounces == 0) {
     record_.emission += contribution;
-  } else if (first_bounce_in_medium_) {
-    (bounces == 1 ? record_.volume_direct : record_.volume_indirect) += contribution;
   } else {
-    (bounces == 1 ? record_.surface_direct : record_.surface_indirect) += contribution;
+    record_.scattered(first_bounce_in_medium_, bounces) += contribution;
   }
 }
 

@@ -87,6 +87,7 @@ class Path {
   bool is_environment_offered() const;
   void offer_environment();
   void be_on_camera_ray();
+  bool is_environment_sought(const PathOffer& at, Vec3 wi) const;
   Rgb take_environment(Rgb factor, Vec3 wi, PathOffer& at);
   SoughtLights sought_along(const Vertex& vertex, float t) const;
   Rgb environment_from(const PathOffer& offer, LightId light, Vec3 wi) const;

@@ -1,4 +1,5 @@
 /// What a path offers to those of neighbouring pixels, and takes from them.
+#include <algorithm>
 #include <utility>
 
 #include "transport/path/path.h"
@@ -73,7 +74,7 @@ void Path::take(Rgb factor, const Path& finder, Received where) {
     take_environment(factor, *wi, arrived ? *offer_ : *behind_);
     return;
   }
-  (on_surface ? record_.surface_indirect : record_.volume_indirect) += factor * finder.offer_->radiance;
+  record_.scattered(!on_surface, finder.offer_->bounces_of_find()) += factor * finder.offer_->radiance;
   if (context_.groups) GroupedLight::add(factor, finder.context_.groups->find, context_.groups->found);
 }
 
@@ -82,7 +83,7 @@ void Path::take_at(const Vertex& vertex, float t, Rgb factor, const Path& finder
   if (const auto wi = finder.offer_->escaped) {
     be_on_camera_ray();
     PathOffer at(context_, vertex, Rgb(1.0f));
-    at.sought = std::make_unique<const SoughtLights>(sought_along(vertex, t));
+    if (is_environment_sought(at, *wi)) at.sought = std::make_unique<const SoughtLights>(sought_along(vertex, t));
     light = take_environment(factor, *wi, at);
   } else {
     take(factor, finder, Received::in_medium);
@@ -116,20 +117,22 @@ Rgb Path::environment_from(const PathOffer& offer, LightId light, Vec3 wi) const
   return L * offer.sought->scattering_mis_weight(context_, own, light, pdf);
 }
 
+/// Whether next-event estimation looks there: what it has sought weighs against nothing else.
+bool Path::is_environment_sought(const PathOffer& at, Vec3 wi) const {
+  const auto& infinite = at.lights.infinite();
+  return std::ranges::any_of(infinite, [&](LightId id) { return at.lights.environment_pdf(id, {at.first.p(), wi}) > 0; });
+}
+
 Rgb Path::take_environment(Rgb factor, Vec3 wi, PathOffer& at) {
-  if (!at.sought) at.sought = std::make_unique<const SoughtLights>(SoughtLights{light_search(context_, at.first), {}});
+  if (!at.sought && is_environment_sought(at, wi))
+    at.sought = std::make_unique<const SoughtLights>(SoughtLights{light_search(context_, at.first), {}});
   Rgb sum;
   for (const LightId light : context_.world.lights.infinite()) {
     const Rgb contribution = factor * environment_from(at, light, wi);
     sum += contribution;
     if (context_.groups) context_.groups->found[context_.groups->groups().of(light)] += contribution;
   }
-  const bool direct = at.bounces == 1;
-  if (at.first.on_surface()) {
-    (direct ? record_.surface_direct : record_.surface_indirect) += sum;
-  } else {
-    (direct ? record_.volume_direct : record_.volume_indirect) += sum;
-  }
+  record_.scattered(!at.first.on_surface(), at.bounces) += sum;
   return sum;
 }
 

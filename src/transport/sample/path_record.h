@@ -26,6 +26,11 @@ struct PathRecord {
            tyndall::is_finite(p) && tyndall::is_finite(n) && std::isfinite(alpha + z + z_volume);
   }
   Rgb radiance() const { return emission + surface_direct + surface_indirect + volume_direct + volume_indirect; }
+  /// Light of one bounce or more.
+  Rgb& scattered(bool first_in_medium, int bounces) {
+    if (first_in_medium) return bounces == 1 ? volume_direct : volume_indirect;
+    return bounces == 1 ? surface_direct : surface_indirect;
+  }
   void scale_radiance(float s) {
     for (Rgb* part : {&emission, &surface_direct, &surface_indirect, &volume_direct, &volume_indirect}) *part *= s;
   }

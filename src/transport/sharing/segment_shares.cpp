@@ -197,7 +197,7 @@ std::optional<SegmentShares::Candidate> SegmentShares::draw(const Find& find, st
   const PathOffer& offer = find.path->offer();
   const auto made = static_cast<float>(find.made_sum - double{find.made[k]});
   if (is_black(find.flight) || !(made > 0) || !std::isfinite(made)) return std::nullopt;
-  const auto [t, drawn] = segment.distances_to(offer.place()).sample(std::clamp(u, 0.0f, 0x1.fffffep-1f));
+  const auto [t, drawn] = segment.distances_to(offer.place()).sample(std::min(u, kOneMinusEpsilon));
   if (!(drawn > 0) || !std::isfinite(t)) return std::nullopt;
   const Collision collision(segment, t, offer);
   if (t < collision.part->t0 || t > collision.part->t1 || is_black(collision.f)) return std::nullopt;
