@@ -94,6 +94,7 @@ void PixelGroup::run(const SampleContext& context, Counters& counters) {
     }
     return;
   }
+  const Counters before = counters;
   std::array<Path*, kMostSharing> sharing;
   std::size_t count = 0;
   for (std::size_t i = 0; i < size_; ++i) {
@@ -105,8 +106,11 @@ void PixelGroup::run(const SampleContext& context, Counters& counters) {
   for (std::size_t i = 0; i < count; ++i) {
     if (sharing[i]->offers() && sharing[i]->offer().at) sharing[i]->complete_offer();
   }
+  Counters finding = counters.since(before);
+  for (std::size_t i = 0; i < count; ++i) finding = finding.since(sharing[i]->work_for_outputs());
   const std::optional<bool> collisions_shared = context.budget ? context.budget->collisions_shared : std::nullopt;
-  share_suffixes({context.world.built, context.settings.transmittance, counters}, {sharing.data(), count}, collisions_shared);
+  share_suffixes({context.world.built, context.settings.transmittance, counters}, {sharing.data(), count}, finding,
+                 collisions_shared);
 }
 
 }  // namespace tyndall

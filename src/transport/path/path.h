@@ -51,6 +51,8 @@ class Path {
   /// The same of one that it receives in a medium at `t` along the camera's ray, at `vertex`, wherever the path itself
   /// collides.
   void take_at(const Vertex& vertex, float t, Rgb factor, const Path& finder);
+  /// Work that it has done for other outputs than the picture, which must not depend on them.
+  const Counters& work_for_outputs() const { return work_for_outputs_; }
   /// The factor of its own find, were it not shared.
   Rgb own_factor() const { return offer_->arrived * offer_->scattered; }
   /// What the ended path has found.
@@ -136,6 +138,7 @@ class Path {
   float before_ = 1;            ///< throughput up to an offer's vertex, where beta_ begins anew: for roulette
   float guided_pdf_ratio_ = 1;  ///< of the path: offsets in roulette that guided paths weigh less
   PathRecord record_;
+  Counters work_for_outputs_;
   bool first_bounce_in_medium_ = false;
 
   // The last bounce, for the MIS weight of emitters that its ray hits.

@@ -146,9 +146,12 @@ void Path::dim(const Span& span) {
 }
 
 void Path::record_camera_media(const Span& span) {
+  if (!limits_.want_transmittance && !context_.matte && !context_.deep) return;
+  const Counters before = context_.counters;
   if (limits_.want_transmittance) record_transmittance(span);
   if (context_.matte) context_.matte->see_through(context_, span);
   if (context_.deep) context_.deep->see_through(context_, span);
+  work_for_outputs_ = context_.counters.since(before);
 }
 
 void Path::record_transmittance(const Span& span) {

@@ -42,13 +42,26 @@ struct Counters {
   }
 
   Counters& operator+=(const Counters& other) {
-    const auto add = [&](auto&... sums) {
-      std::apply([&](const auto&... numbers) { ((sums += numbers), ...); }, numbers_of(other));
-    };
-    std::apply(add, numbers_of(*this));
+    combine(other, [](auto& sum, auto number) { sum += number; });
     bad_samples.insert(bad_samples.end(), other.bad_samples.begin(), other.bad_samples.end());
     if (!other.bad_samples.empty()) trim_bad_samples();
     return *this;
+  }
+
+  /// The numbers counted since these were `before`.
+  Counters since(const Counters& before) const {
+    Counters result = *this;
+    result.combine(before, [](auto& all, auto number) { all -= number; });
+    return result;
+  }
+
+ private:
+  template <typename F>
+  void combine(const Counters& other, const F& f) {
+    const auto each = [&](auto&... mine) {
+      std::apply([&](const auto&... theirs) { (f(mine, theirs), ...); }, numbers_of(other));
+    };
+    std::apply(each, numbers_of(*this));
   }
 };
 

@@ -17,6 +17,8 @@ constexpr float kGolden = 0.618034f;
 /// few rays collide, passing and colliding are told apart with little noise anyway (docs/measurements.md).
 constexpr std::size_t kLooks = 4;
 constexpr float kCloser = 4, kLeastColliding = 0.25f;
+/// Of the density with which a path makes a find itself, the least part of others that have part in it.
+constexpr double kLeastPart = 0.05;
 /// Mean free paths between two rays, a third of the block apart, beyond which sharing is more noise than it takes away.
 constexpr float kApart = 2;
 
@@ -54,7 +56,7 @@ struct Collision {
 
 /// Whether the path rather than others finds this: they would hardly have part in it, and cost shadow rays. By what all know
 /// who might receive it there.
-bool is_own(const Collision& collision, double others) { return !(double{collision.pdf} < others); }
+bool is_own(const Collision& collision, double others) { return !(kLeastPart * double{collision.pdf} < others); }
 
 /// Of a block's rays a few tell: number i of them; null where it passes no media that scatter.
 CameraSegment* look(std::span<Path* const> paths, std::size_t i) {

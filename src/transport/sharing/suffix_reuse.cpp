@@ -5,14 +5,32 @@
 #include <cmath>
 #include <limits>
 
+#include "transport/sample/prices.h"
 #include "transport/sharing/segment_shares.h"
 #include "transport/sharing/vertex_shares.h"
 
 namespace tyndall {
 namespace {
 
-/// Finds for each path, at most on average. What is received along its ray and behind it has half of them each.
-constexpr double kMostFinds = 16;
+/// Of the work of finding, what handing out may take: about where variance x cost is least (docs/measurements.md). Where
+/// finding is cheap little but finds makes noise, and so many for each path pay in any case.
+constexpr double kHandingOut = 0.7, kCheapFinds = 16;
+
+/// What a connection takes, by the prices of the same media on the paths' rays.
+double price_of_link(const Prices& prices, const Counters& finding) {
+  Counters link;
+  link.connections = link.shadow_rays = 1;
+  const auto rays = static_cast<double>(finding.rays + finding.shadow_rays);
+  Counters media;
+  media.tracking = finding.tracking;
+  return prices.of(link) + (rays > 0 ? prices.of(media) / rays : 0);
+}
+
+/// Finds for each path, at most on average.
+double finds_that_pay(const Prices& prices, const Counters& finding, std::size_t paths) {
+  const double links = kHandingOut * prices.of(finding) / price_of_link(prices, finding);
+  return std::max(kCheapFinds, links / static_cast<double>(paths));
+}
 
 /// Counts what the path has found where it is alone.
 void keep(Path& path) {
@@ -52,7 +70,7 @@ class Roulette {
 /// n c / (a sum c) times `most` each gets that many, at most; where few finds have nearly all, as where rays pass a flame
 /// by chance, fewer.
 template <typename Shares>
-void share_among(Shares& shares, std::span<Path* const> finders, std::size_t receivers, double most = kMostFinds) {
+void share_among(Shares& shares, std::span<Path* const> finders, std::size_t receivers, double most) {
   std::array<float, kMostSharing> worth;
   double total = 0;
   for (std::size_t j = 0; j < finders.size(); ++j) total += worth[j] = worth_of(*finders[j]);
@@ -68,39 +86,40 @@ void share_among(Shares& shares, std::span<Path* const> finders, std::size_t rec
   }
 }
 
-void share_collisions(const Between& between, std::span<Path* const> finders, std::span<Path* const> paths,
-                      std::optional<bool> shared) {
-  if (finders.empty()) return;
-  if (!(shared ? *shared : SegmentShares::near_each_other(paths))) {
-    for (Path* path : finders) keep(*path);
-    return;
-  }
-  VertexShares collisions(between);
-  for (Path* path : finders) collisions.add_arrived(*path);
-  share_among(collisions, finders, finders.size());
+void share_at_vertices(const Between& between, std::span<Path* const> finders, double most) {
+  VertexShares shares(between);
+  for (Path* path : finders) shares.add_arrived(*path);
+  share_among(shares, finders, finders.size(), most);
 }
 
 }  // namespace
 
 /// Finders on surfaces and in media are not mixed: what they find is found so differently that it is not worth connecting.
-void share_suffixes(const Between& between, std::span<Path* const> paths, std::optional<bool> collisions_shared) {
+void share_suffixes(const Between& between, std::span<Path* const> paths, const Counters& finding,
+                    std::optional<bool> collisions_shared) {
   if (paths.empty()) return;
   std::array<Path*, kMostSharing> finders;
   auto* const end = std::copy_if(paths.begin(), paths.end(), finders.begin(), [](const Path* path) { return path->offers(); });
   auto* const middle = std::stable_partition(finders.begin(), end, [](Path* path) { return path->offer().first.on_surface(); });
   const std::span<Path* const> on_surface(finders.begin(), middle);
   const std::span<Path* const> in_medium(middle, end);
-  VertexShares surfaces(between);
+  const double most = finds_that_pay(Prices(between.world.lights.size()), finding, paths.size());
   if (!SegmentShares::pay(paths)) {
-    for (Path* path : on_surface) surfaces.add_arrived(*path);
-    share_among(surfaces, on_surface, on_surface.size());
-    share_collisions(between, in_medium, paths, collisions_shared);
+    share_at_vertices(between, on_surface, most);
+    if (in_medium.empty()) return;
+    if (collisions_shared ? *collisions_shared : SegmentShares::near_each_other(paths)) {
+      share_at_vertices(between, in_medium, most);
+    } else {
+      for (Path* path : in_medium) keep(*path);
+    }
     return;
   }
+  // What is received along a ray and behind it has half of the work each.
+  VertexShares surfaces(between);
   for (Path* path : paths) surfaces.add_behind(*path);
-  share_among(surfaces, on_surface, paths.size(), kMostFinds / 2);
+  share_among(surfaces, on_surface, paths.size(), most / 2);
   SegmentShares segments(between, paths);
-  share_among(segments, in_medium, paths.size(), kMostFinds / 2);
+  share_among(segments, in_medium, paths.size(), most / 2);
   segments.hand_out();
 }
 

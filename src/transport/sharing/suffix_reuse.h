@@ -15,7 +15,9 @@
 namespace tyndall {
 
 /// Hands out what the offers of `paths` are worth to each of them: at most kMostSharing, whose offers are complete where they
-/// stand at a vertex. `collisions_shared`: whether those beyond collisions in grids are; nothing: by how far apart they are.
-void share_suffixes(const Between& between, std::span<Path* const> paths, std::optional<bool> collisions_shared);
+/// stand at a vertex, which has taken the work `finding`. `collisions_shared`: whether those beyond collisions in grids are;
+/// nothing: by how far apart they are.
+void share_suffixes(const Between& between, std::span<Path* const> paths, const Counters& finding,
+                    std::optional<bool> collisions_shared);
 
 }  // namespace tyndall

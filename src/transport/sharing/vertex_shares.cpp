@@ -9,7 +9,7 @@ namespace {
 
 /// Who makes a find with a smaller part of the largest density is none of those who share it: it would hardly weigh, and
 /// cost a shadow ray. What it finds there by itself is its own. Any value is unbiased.
-constexpr float kLeastPart = 0.05f;
+constexpr float kLeastPart = 0.01f;
 /// Paths, with the finder, that are asked whether they might have made a find.
 constexpr std::size_t kProbes = 8;
 
