@@ -107,7 +107,7 @@ void PixelGroup::run(const SampleContext& context, Counters& counters) {
     if (sharing[i]->offers() && sharing[i]->offer().at) sharing[i]->complete_offer();
   }
   Counters finding = counters.since(before);
-  for (std::size_t i = 0; i < count; ++i) finding = finding.since(sharing[i]->work_for_outputs());
+  for (std::size_t i = 0; i < count; ++i) finding.leave_out(sharing[i]->work_for_outputs());
   const std::optional<bool> collisions_shared = context.budget ? context.budget->collisions_shared : std::nullopt;
   share_suffixes({context.world.built, context.settings.transmittance, counters}, {sharing.data(), count}, finding,
                  collisions_shared);

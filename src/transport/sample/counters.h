@@ -50,9 +50,14 @@ struct Counters {
 
   /// The numbers counted since these were `before`.
   Counters since(const Counters& before) const {
-    Counters result = *this;
-    result.combine(before, [](auto& all, auto number) { all -= number; });
+    Counters result;
+    result.combine(*this, [](auto& all, auto number) { all = number; });
+    result.leave_out(before);
     return result;
+  }
+  /// Numbers alone.
+  void leave_out(const Counters& part) {
+    combine(part, [](auto& all, auto number) { all -= number; });
   }
 
  private:
