@@ -27,9 +27,10 @@ constexpr std::size_t kFirstEach = 256;
 constexpr double kDoubt = 2;
 /// The more samples, the more strata, which spare much of the variance over a pixel and little of what choices among lights
 /// add. What the second sample of a look's sequences leaves of it, at least kLeastLeft, is taken for what one more doubling
-/// leaves: further ones spare less (docs/measurements.md).
+/// leaves: further ones spare less (docs/measurements.md). Strata of one number, as of flights through smoke, leave a quarter
+/// and less.
 constexpr int kDoublings = 2;
-constexpr double kLeastLeft = 0.5;
+constexpr double kLeastLeft = 0.125;
 /// Relative variance of a sample, of which nothing is seen: where there is less, what costs less is better.
 constexpr double kUnseen = 1e-8;
 

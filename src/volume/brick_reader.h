@@ -1,6 +1,9 @@
 /// Reads a grid along one ray, again and again in the same brick.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+
 #include "volume/brick_grid.h"
 #include "volume/grid_ray.h"
 
@@ -48,6 +51,18 @@ class BrickReader {
   /// t at which the ray crosses the plane of brick coordinate `x` on an axis; infinite if it does not.
   double crossing(int axis, double x) const {
     return line_.d[axis] == 0 ? double{kInfinity} : (x - line_.o[axis]) / line_.d[axis];
+  }
+  /// The first t beyond this one at which the ray crosses a face between cells; infinite where the brick has one value.
+  double next_face(double t) const {
+    double first = kInfinity;
+    if (plane_.number == 0) return first;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double x = line_.o[axis] + t * line_.d[axis], ahead = line_.d[axis] > 0 ? 1 : -1;
+      double face = ahead > 0 ? std::floor(x) + 1 : std::ceil(x) - 1;
+      if (!(crossing(axis, face) > t)) face += ahead;  // on it, but for rounding
+      first = std::min(first, crossing(axis, face));
+    }
+    return std::max(first, std::nextafter(t, double{kInfinity}));
   }
   /// Of the brick, that holds the point at t: bit 0, 1, 2 for the upper half along x, y, z.
   unsigned octant(double t) const {

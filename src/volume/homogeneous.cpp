@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "volume/medium_data.h"
+#include "volume/tracking_kernel.h"
 
 namespace tyndall {
 namespace {
@@ -71,6 +72,7 @@ Flight homogeneous_flight(MediaView media, double t0, double t1, Rgb beta, float
   const double length = t1 - t0;
   Flight flight;
   flight.t = static_cast<float>(t1);
+  flight.u_next = u_first;
   if (is_black(m.sigma_s)) {
     flight.weight = m.transmittance(length);
     return flight;
@@ -83,10 +85,12 @@ Flight homogeneous_flight(MediaView media, double t0, double t1, Rgb beta, float
   if (!(total > 0)) return flight;
   mass = mass * (1 / total);
   const float sigma = grey ? s.r : s[choose_channel(mass, rng.uniform())];
-  const double t = sigma > 0 ? -std::log1p(-double{u_first}) / sigma : std::numeric_limits<double>::infinity();
+  const double depth = -std::log1p(-double{u_first});
+  const double t = sigma > 0 ? depth / sigma : std::numeric_limits<double>::infinity();
 
   flight.collided = t < length;
   if (flight.collided) flight.t = static_cast<float>(t0 + t);
+  if (sigma > 0 && !flight.collided) flight.u_next = kernel::uniform_of(depth - sigma * length);
   if (grey) {
     if (flight.collided) flight.weight = m.sigma_s * (1 / s.r);
   } else {

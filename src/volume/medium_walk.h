@@ -99,6 +99,11 @@ class MediumWalk {
     return {sigma_t * values.sum - control_ * static_cast<float>(teeth.count),
             std::max(kernel::max_abs(low), kernel::max_abs(high))};
   }
+  /// Of the current piece, of non-zero rate: whether its coefficients are cubic polynomials of t between next_face()s.
+  bool is_cubic() { return medium_->kind == MediumData::Kind::homogeneous || reads_one_brick(); }
+  /// The first face between cells beyond t. Where is_cubic().
+  double next_face(double t) const { return reading_ ? reader_.next_face(t) : kInf; }
+  bool scatters() const { return !is_black(medium_->optics.sigma_s); }
   /// The lobe of the last optics_at().
   void add_phase(PhaseMix& phase) const { phase.add(last_sigma_s_, medium_->optics.phase); }
 
@@ -106,6 +111,7 @@ class MediumWalk {
   static constexpr double kInf = std::numeric_limits<double>::infinity();
   /// Flights by the same numbers collide alike wherever they must end: nodes are split as if they went on.
   static constexpr bool kSameForAllEnds = Mode == WalkMode::majorant;
+  static constexpr bool kSubtracts = subtracts_control(Mode);
   static constexpr float kScale = Mode == WalkMode::residual ? kOversampling : 1;
 
   bool pass(double until) {
@@ -120,8 +126,8 @@ class MediumWalk {
   bool next_uniform(float control, float spread) {
     const Rgb sigma_t = medium_->optics.sigma_a + medium_->optics.sigma_s;
     t_end_ = inside_end_;
-    rate_ = max_component(sigma_t) * (Mode == WalkMode::majorant ? 1 : spread * kScale);
-    if constexpr (Mode != WalkMode::majorant) control_ = sigma_t * control;
+    rate_ = max_component(sigma_t) * (kSubtracts ? spread * kScale : 1);
+    if constexpr (kSubtracts) control_ = sigma_t * control;
     return true;
   }
 
@@ -176,7 +182,7 @@ class MediumWalk {
 
   /// What splitting a node would make smaller: its majorant, or how far sigma_t varies in it.
   float variation(std::span<const ValueRange> ranges) const {
-    const auto span_of = [](const ValueRange& r) { return Mode == WalkMode::majorant ? r.max : r.max - r.min; };
+    const auto span_of = [](const ValueRange& r) { return kSubtracts ? r.max - r.min : r.max; };
     if (ranges.size() == 1) return span_of(ranges[0]) * top_sigma_;
     float values[kMaxChannels] = {};
     for (std::size_t c = 0; c < ranges.size(); ++c) values[c] = span_of(ranges[c]);
@@ -186,7 +192,7 @@ class MediumWalk {
   /// Rate and control of a node that the ray crosses in `length`.
   void set_rate(std::span<const ValueRange> ranges, double length) {
     rate_ = variation(ranges);
-    if constexpr (Mode != WalkMode::majorant) {
+    if constexpr (kSubtracts) {
       const float mean_share = rate_ == 0 ? 1.0f : std::exp(-static_cast<float>(rate_ * length));
       if (ranges.size() == 1) {
         const float c = control_value(ranges[0], mean_share);

@@ -86,6 +86,22 @@ class MergedWalk {
     }
     return sum;
   }
+  bool is_cubic() {
+    bool all = true;
+    for (std::size_t i = 0; i < count_; ++i) all = all && (walks_[i].rate() == 0 || walks_[i].is_cubic());
+    return all;
+  }
+  double next_face(double t) const {
+    double first = kInfinity;
+    for (std::size_t i = 0; i < count_; ++i)
+      if (walks_[i].rate() > 0) first = std::min(first, walks_[i].next_face(t));
+    return first;
+  }
+  bool scatters() const {
+    bool any = false;
+    for (std::size_t i = 0; i < count_; ++i) any = any || (walks_[i].rate() > 0 && walks_[i].scatters());
+    return any;
+  }
   void add_phase(PhaseMix& phase) const {
     for (std::size_t i = 0; i < count_; ++i)
       if (walks_[i].rate() > 0) walks_[i].add_phase(phase);

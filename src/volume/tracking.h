@@ -34,6 +34,7 @@ struct Flight {
   float t = 0;       ///< of the collision; the end of the interval if there was none
   Rgb weight{1.0f};  ///< multiplies the throughput. All zero after a collision: absorbed, the path ends
   PhaseMix phase;    ///< when collided and not absorbed
+  float u_next = 0;  ///< when it passed: uniform in [0, 1), and stratified as the first was, for a flight from there
 };
 
 /// Sample the next collision in [t0, t1], t1 may be infinite. Survival biasing: a collision always scatters and

@@ -30,6 +30,10 @@ inline Rgb depth_of(Rgb sigma, double length) {
 /// Exponential variate of rate 1, by a number of 24 bits: its difference from 1 is exact.
 inline float exponential(float u) { return -std::log(1 - u); }
 inline float exponential(Rng& rng) { return exponential(rng.uniform()); }
+/// Its inverse: the rest of such a variate that is beyond some depth is one itself.
+inline float uniform_of(double exponential) {
+  return std::min(static_cast<float>(-std::expm1(-exponential)), kOneMinusEpsilon);
+}
 
 /// Slack of the rounding of sums over media.
 inline void count_lookups(int count, float value, float bound, TrackingStats& stats) {

@@ -7,19 +7,24 @@
 
 namespace tyndall {
 
-/// What the pieces must bound. `majorant`: rate >= sigma_t. `march`: rate >= |sigma_t - control|. `residual`: that times
-/// kOversampling, and bricks are walked by octants: both lower the variance of residual tracking more than they cost, where a
-/// march gains more by more look-ups in fewer pieces.
-enum class WalkMode { majorant, residual, march };
+/// What the pieces must bound. `majorant`: rate >= sigma_t. `regular`: likewise, in pieces that are gone through cell by cell.
+/// `march`: rate >= |sigma_t - control|. `residual`: that times kOversampling, and bricks are walked by octants: both lower the
+/// variance of residual tracking more than they cost, where a march gains more by more look-ups in fewer pieces.
+enum class WalkMode { majorant, regular, residual, march };
+inline constexpr bool subtracts_control(WalkMode mode) { return mode == WalkMode::residual || mode == WalkMode::march; }
 inline constexpr float kOversampling = 1.7f;
+
+/// Pieces of a smaller rate * length are not worth going through cell by cell: few rays collide there.
+inline constexpr float kLeastRegular = 0.02f;
 
 /// A node of the grid's tree is split further only while rate * length exceeds this: below it, walking the children
 /// costs more than the look-ups it would save. Finer pieces lower the variance where a control is subtracted; a march gets
 /// that for less by more look-ups.
 template <WalkMode Mode>
-inline constexpr float kRefineDepth = Mode == WalkMode::majorant ? 1.0f
-                                      : Mode == WalkMode::march  ? 0.5f
-                                                                 : 0.125f;
+inline constexpr float kRefineDepth = Mode == WalkMode::majorant  ? 1.0f
+                                      : Mode == WalkMode::regular ? kLeastRegular
+                                      : Mode == WalkMode::march   ? 0.5f
+                                                                  : 0.125f;
 
 /// A brick is walked by octants where its rate * length exceeds this; residual only.
 inline constexpr float kSplitDepth = 0.1f;

@@ -112,7 +112,7 @@ TEST_CASE("rays in a grid end at their collision as if they had been traced past
   check_same_traced([](float Le) {
     Grid grid{kBox, 40, 40, 40, {}};
     for (std::uint32_t i = 0; i < 64'000; ++i) grid.density.push_back((i * 2654435761u >> 20) % 499 == 0 ? 4.0f : 1.0f);
-    const Coefficients smoke{.sigma_a = {0.1f, 0, 0.05f}, .sigma_s = {6, 5, 4}, .g = 0.5f, .Le = Rgb(Le)};
+    const Coefficients smoke{.sigma_a = {0.1f, 0, 0.05f}, .sigma_s = {3, 2.5f, 2}, .g = 0.5f, .Le = Rgb(Le)};
     return view(camera(40)) + environment(0.3f) + distant_light({1, 2, -1}, 3) +
            block("Material \"diffuse\"\nTranslate 0.1 0.2 0.1\nShape \"sphere\" \"float radius\" 0.4\n") +
            uniform_grid("smoke", smoke, grid) + medium_box("smoke", "", kBox);

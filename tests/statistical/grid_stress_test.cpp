@@ -30,8 +30,9 @@ Vec3 middle_of(Vec3 from) {
 }
 
 void check_depth(const std::string& name, const std::string& scene, double tau) {
-  check_agrees(name, scene, grey(std::exp(-tau)),
-               {.d = nightly() ? 0.003 : 0.02, .variant = {.emission = EmissionStrategy::lights}});
+  check_agrees(
+      name, scene, grey(std::exp(-tau)),
+      {.d = nightly() ? 0.003 : 0.02, .rounding = rounding_of_voxels(tau), .variant = {.emission = EmissionStrategy::lights}});
 }
 
 Grid lumps() {

@@ -429,8 +429,8 @@ Variances variances_of(const std::string& text) {
   return {trials.all_variance / (4 * kBlock * kBlock), relmse * 16};  // that of four samples' sum
 }
 
-// A ball under a sun; smoke among lights; thick and thin smoke under a sun, by single scattering: 1.7, 0.88, 0.81 and 0.78 of
-// what pictures have. Without strata it would be 6.1, 1.6, 2.1 and 3.0.
+// A ball under a sun; smoke among lights; thick and thin smoke under a sun, by single scattering: 1.4, 1.1, 1.2 and 1.2 of
+// what pictures have.
 TEST_CASE("a look knows what strata spare a picture") {
   for (const auto& text : {ball(), smoky(2, points(100), 1), smoky(2, sun(), 1), smoky(0.1f, sun(), 1)}) {
     const auto [looked, rendered] = variances_of(text);

@@ -1,6 +1,8 @@
 /// Radiative transfer that is known in closed form or by quadrature.
 #pragma once
 
+#include <cmath>
+
 #include "support/scene_text.h"
 #include "tyndall/math.h"
 
@@ -21,6 +23,8 @@ double chandrasekhar_h(double w, double mu);
 /// Optical depth at sigma_t = 1 along a ray through a grid of cell-centred samples, trilinear; samples outside the bounds are
 /// 0, and there is nothing at all out there.
 double optical_depth(const Grid& grid, const Ray& ray, double t0, double t1);
+/// What exp(-depth) may be off by, as voxels are stored in steps of 2^-16 of their brick's range.
+inline double rounding_of_voxels(double depth) { return 0x1p-16 * depth * std::exp(-depth); }
 
 // ---------------------------------------------------------------------------------------------------------
 

@@ -101,6 +101,7 @@ class Path {
   std::optional<Rgb> seen_beyond(const Span& span, const Trace& trace);
   void gather(const Span& span);
   bool lit_at_collisions(const Span& span) const;
+  bool flies_regularly(MediaView media) const;
   std::optional<Vertex> fly(const Span& span, const Trace& trace);
   void add_volume_emission(const Span& span);
   int bounces_of_light(bool weighed) const;

@@ -9,6 +9,7 @@
 #include "transport/sample/camera_matte.h"
 #include "transport/sample/deep_sample.h"
 #include "volume/homogeneous.h"
+#include "volume/regular_tracking.h"
 
 namespace tyndall {
 namespace {
@@ -31,7 +32,7 @@ std::optional<Vertex> Path::collide_untraced() {
   const auto& groups = world.geometry.groups();
   const Interval inside{0, media_.first_exit(groups, ray_), media_.active(groups, world.media)};
   const MediaView media = inside.view();
-  if (media.size() != 1 || inside.t1 == kInfinity) return std::nullopt;
+  if (media.size() != 1 || inside.t1 == kInfinity || flies_regularly(media)) return std::nullopt;
   context_.bounce = depth_;
   if (seeks_along_spans(context_)) lit_at_collisions_ = collisions_suffice(context_, ray_, inside);
   if (!(lit_at_collisions_ ? *lit_at_collisions_ : is_deep(ray_, inside))) return std::nullopt;
@@ -117,12 +118,18 @@ void Path::gather(const Span& span) {
   if (context_.deep && depth_ == 0) context_.deep->settle(beta_);
 }
 
+/// Whether what the camera sees, mirrored or not, collides, and where, makes much of what a pixel's samples differ by: there it
+/// is stratified.
+bool Path::flies_regularly(MediaView media) const { return context_.smooth_bounces == 0 && !all_homogeneous(media); }
+
 std::optional<Vertex> Path::fly(const Span& span, const Trace& trace) {
   begin(Step::fly);
   Rng rng = context_.sampler.stream();
   float u = context_.sampler.next_1d();
   for (const SpanPart& part : span.parts) {
-    const Flight flight = free_flight(part.view(), ray_, part.t0, part.t1, beta_, u, rng, context_.counters.tracking);
+    const MediaView media = part.view();
+    const auto flies = flies_regularly(media) ? regular_flight : free_flight;
+    const Flight flight = flies(media, ray_, part.t0, part.t1, beta_, u, rng, context_.counters.tracking);
     beta_ *= flight.weight;
     flown_ *= flight.weight;
     if (is_black(beta_)) return std::nullopt;
@@ -132,7 +139,7 @@ std::optional<Vertex> Path::fly(const Span& span, const Trace& trace) {
       if (depth_ == 0) record_collision(collision_t_);
       return Vertex(Vertex::InMedium{ray_.at(collision_t_), flight.phase}, -ray_.d, part.state);
     }
-    u = rng.uniform();
+    u = flight.u_next;
   }
   return std::nullopt;
 }
