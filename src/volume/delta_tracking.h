@@ -15,14 +15,14 @@ inline Rgb normalised(Rgb beta) {
 /// State of a flight between its collisions, real and null.
 struct FlightState {
   /// A channel without throughput stays without: its weights mean nothing and must not overflow.
-  FlightState(Rgb throughput, float t1, float u_first) : beta(normalised(throughput)), depth(exponential(u_first)) {
+  FlightState(Rgb throughput, float t1, float u_first) : beta(normalised(throughput)) {
     flight.t = t1;
     flight.u_next = u_first;
     flight.weight = {beta.r == 0 ? 0.0f : 1.0f, beta.g == 0 ? 0.0f : 1.0f, beta.b == 0 ? 0.0f : 1.0f};
   }
 
-  Rgb beta;     // normalised
-  float depth;  // optical depth still to go: of the majorant, or as it is
+  Rgb beta;         // normalised
+  float depth = 0;  // optical depth still to go: of the majorant, or as it is
   Flight flight;
   LoopGuard guard;
 };

@@ -168,10 +168,11 @@ bool is_procedural(const ParticipatingMedium* medium) { return medium->data().ki
 // NOLINTNEXTLINE(readability-function-size): as free_flight
 Flight regular_flight(MediaView media, const Ray& ray, float t0, float t1, Rgb beta, float u_first, Rng& rng,
                       TrackingStats& stats) {
-  FlightState state(beta, t1, u_first);
-  if (media.empty() || !(t0 < t1) || is_black(state.beta)) return state.flight;
   if (all_homogeneous(media) || std::ranges::any_of(media, is_procedural))
     return free_flight(media, ray, t0, t1, beta, u_first, rng, stats);
+  FlightState state(beta, t1, u_first);
+  if (!(t0 < t1) || is_black(state.beta)) return state.flight;
+  state.depth = exponential(u_first);
   return with_walk<WalkMode::regular>(media, ray, t0, t1, stats, [&](auto& walk) {
     RegularFlight(walk, state, rng, stats).run();
     return state.flight;

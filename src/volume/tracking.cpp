@@ -54,6 +54,7 @@ Flight free_flight(MediaView media, const Ray& ray, float t0, float t1, Rgb beta
     ++stats.segments;
     return homogeneous_flight(media, t0, t1, state.beta, u_first, rng);
   }
+  state.depth = exponential(u_first);
   return with_walk<WalkMode::majorant>(media, ray, t0, t1, stats, [&](auto& walk) {
     while (walk.next())
       if (walk.rate() > 0 && fly_through(walk, state.depth, state, rng, stats)) return state.flight;
