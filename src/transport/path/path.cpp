@@ -75,7 +75,7 @@ bool Path::scatter(const Vertex& vertex) {
   if (is_pane(context_.world, vertex)) return pass_pane(vertex);
   panes_ = 0;
   // How likely others had scattered toward what is shared must not depend on how the path came there.
-  context_.guided_weight = is_scattered_by_find(depth_) ? 1 : 1 / guided_pdf_ratio_;
+  context_.guided_weight = is_at_find() ? 1 : 1 / guided_pdf_ratio_;
   // On the ray it was about what media scatter.
   if (vertex.on_surface()) context_.joint = depth_ == 1 ? context_.joint_at_surface : nullptr;
   begin(Step::light);
@@ -84,13 +84,12 @@ bool Path::scatter(const Vertex& vertex) {
   std::optional<Directions> own;
   const Directions& directions =
       may_offer(vertex) ? offer_.emplace(context_, vertex, beta_).directions : own.emplace(context_, vertex);
-  add_estimate(seen, light_at(directions, seen), depth_);
-  const bool looked = look_into_mirror(vertex, seen);
+  const bool looked = gather_light(directions, seen);
   if (is_environment_offered()) offer_->sought = std::make_unique<const SoughtLights>(sought_);
   if (!may_go_on()) return false;
 
   // What is aimed at lights weighs against the directions of this path alone.
-  const bool offered = is_scattered_by_find(depth_);
+  const bool offered = is_at_find();
   const auto joint = offered ? std::nullopt : joint_search(context_, vertex);
   if (joint) add_estimate(beta_, joint_estimate(context_, vertex, *joint), depth_ + 1);
 
@@ -98,10 +97,11 @@ bool Path::scatter(const Vertex& vertex) {
   const auto s = directions.sample(beta_, context_.sampler);
   if (!s) return false;
   if (offered) {
-    offer_->wi = s->wi;
-    offer_->by_mirror = s->specular;
     offer_->aureole = directions.aureole();
-    offer_->scattered = s->weight;
+    Find& find = offer_->finds.front();
+    find.wi = s->wi;
+    find.by_mirror = s->specular;
+    find.scattered = s->weight;
   }
   light_sampled_ = !s->specular && vertex.has_smooth();
   end_counted_ = looked && s->mirrored;
@@ -207,7 +207,7 @@ int Path::narrow_to_channel() {
 
 /// Light that reached the camera after `bounces` bounces.
 void Path::add(Rgb contribution, int bounces) {
-  if (is_scattered_by_find(bounces)) {
+  if (is_own(bounces)) {
     offer_->own += contribution;
   } else if (bounces == 0) {
     record_.emission += contribution;
@@ -217,9 +217,7 @@ void Path::add(Rgb contribution, int bounces) {
 }
 
 /// The same by light groups: where that light goes.
-GroupedLight::Sums& Path::sums_by_group(int bounces) {
-  return is_scattered_by_find(bounces) ? context_.groups->own : context_.groups->found;
-}
+GroupedLight::Sums& Path::sums_by_group(int bounces) { return is_own(bounces) ? context_.groups->own : context_.groups->found; }
 
 /// Of several lights, times `factor`.
 void Path::add_estimate(Rgb factor, Rgb estimate, int bounces) {

@@ -47,14 +47,14 @@ class Path {
   static Received received_at(const Vertex& first) { return first.on_surface() ? Received::on_surface : Received::in_medium; }
   /// What of a find, its own or another's, the path counts: `factor` times the find's radiance, or times what it sees of an
   /// environment there itself.
-  void take(Rgb factor, const Path& finder, Received where);
+  void take(Rgb factor, const Find& find, Received where);
   /// The same of one that it receives in a medium at `t` along the camera's ray, at `vertex`, wherever the path itself
   /// collides.
-  void take_at(const Vertex& vertex, float t, Rgb factor, const Path& finder);
+  void take_at(const Vertex& vertex, float t, Rgb factor, const Find& find);
   /// Work that it has done for other outputs than the picture, which must not depend on them.
   const Counters& work_for_outputs() const { return work_for_outputs_; }
-  /// The factor of its own find, were it not shared.
-  Rgb own_factor() const { return offer_->arrived * offer_->scattered; }
+  /// The factor of a find of its own, were it not shared.
+  Rgb own_factor(const Find& find) const { return offer_->arrived * find.scattered; }
   /// What the ended path has found.
   PathRecord result();
 
@@ -81,7 +81,10 @@ class Path {
   std::optional<Vertex> follow(std::optional<Vertex> vertex);
   bool may_offer(const Vertex& first) const;
   bool leaves_first() const;
-  bool is_scattered_by_find(int bounces) const;
+  bool is_at_find() const;
+  bool is_own(int bounces) const;
+  bool may_offer_lights(const Vertex& second) const;
+  void offer_lights(const Directions& directions);
   bool may_share(const Vertex& first) const;
   const Span& receive_along(Span span, const Trace& trace);
   bool is_offered(const Vertex& second) const;
@@ -106,6 +109,7 @@ class Path {
   void add_volume_emission(const Span& span);
   int bounces_of_light(bool weighed) const;
   void dim(const Span& span);
+  bool gather_light(const Directions& directions, Rgb beta);
   Rgb light_at(const Directions& directions, Rgb beta);
   bool look_into_mirror(const Vertex& vertex, Rgb beta);
   float scattering_mis_weight(LightId id, float light_pdf) const;

@@ -21,7 +21,20 @@ void Path::add_light(LightId light, Rgb contribution, int bounces) {
   if (context_.groups) sums_by_group(bounces)[context_.groups->groups().of(light)] += contribution;
 }
 
-/// Light from emitters that is scattered at the vertex, by a path of throughput `beta`, without what the span's pairs estimate.
+/// Light from emitters that a path of throughput `beta` brings by scattering at the vertex. Whether its mirror was looked into.
+bool Path::gather_light(const Directions& directions, Rgb beta) {
+  const bool offers = is_at_find() && may_offer_lights(directions.vertex());
+  if (offers) {
+    offer_lights(directions);
+  } else {
+    add_estimate(beta, light_at(directions, beta), depth_);
+  }
+  const bool looked = look_into_mirror(directions.vertex(), beta);
+  if (offers) offer_->has_lights = true;  // what is mirrored toward it remains the path's own
+  return looked;
+}
+
+/// Without what the span's pairs estimate.
 Rgb Path::light_at(const Directions& directions, Rgb beta) {
   const Vertex& vertex = directions.vertex();
   sought_.collision.reset();

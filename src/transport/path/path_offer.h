@@ -5,13 +5,28 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <vector>
 
+#include "transport/sample/grouped_light.h"
 #include "transport/techniques/sought_lights.h"
 
 namespace tyndall {
 
 /// Most paths that share.
 inline constexpr std::size_t kMostSharing = 64;
+
+struct PathOffer;
+
+/// Light that comes from one direction to where a path went after its first vertex: of a light that was sought there, or by the
+/// path's next ray. What a diffuse surface scatters to all alike is a single find, from no direction.
+struct Find {
+  PathOffer* of = nullptr;
+  Vec3 wi{};               ///< where it comes from; of an environment, where that is
+  Rgb radiance{};          ///< an estimate, over no density of wi; of an environment, which all know, what its path counts
+  Rgb scattered{1.0f};     ///< what is scattered of it toward PathOffer::first, over the density of wi
+  bool by_mirror = false;  ///< toward none but the path itself
+  GroupedLight::Sums by_group{};  ///< radiance by light groups, where the scene has such
+};
 
 /// What the path met after its first vertex that spreads light, a surface or a collision, and the light that is scattered
 /// there; or an environment, where it left the scene.
@@ -41,16 +56,12 @@ struct PathOffer {
   Rgb flown;                    ///< the part of it that the flight through media weighs
   Rng rng{0};                   ///< for the connections of others
 
-  /// An estimate: of what a diffuse surface scatters to all on the side of `first`; of what comes to other finds from `wi`. Of
-  /// an environment, which all know, what its own path counts.
-  Rgb radiance;
-  Vec3 wi;                         ///< where the path went on from `at`
-  bool by_mirror = false;          ///< mirrored there: toward none but the path itself
-  std::optional<Aureole> aureole;  ///< by which that was drawn
-  Rgb scattered{1.0f};             ///< what `at` scatters of that toward `first`, over its density
+  std::vector<Find> finds;         ///< none before `at` is complete
+  std::optional<Aureole> aureole;  ///< by which the path went on from `at`
+  bool has_lights = false;         ///< `at` is not diffuse, and lights that were sought there are among the finds
   Rgb own;                         ///< light that `at` scatters toward `first` and that only the path itself counts
 
-  /// Of a find, whether what it sends to all on its side is known. Else what comes to it from `wi` is.
+  /// Whether what `at` sends to all on its side is known. Else what comes to it from a direction is.
   bool scatters_evenly() const { return at->on_surface() && at->surface()->bsdf.diffuse(); }
   int bounces_of_find() const { return bounces + panes + 1; }
   /// Of a find; nothing: at infinity.

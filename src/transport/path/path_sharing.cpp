@@ -35,20 +35,50 @@ void Path::run_until_offer() {
 void Path::complete_offer() {
   const PathRecord before = std::exchange(record_, {});
   GroupedLight* const groups = context_.groups;
-  const GroupedLight::Sums found_before = groups ? groups->begin_find() : GroupedLight::Sums();
+  GroupedLight::Sums found_before = groups ? groups->begin_find() : GroupedLight::Sums();
   before_ = max_component(beta_);
   beta_ = Rgb(1.0f);
   sharing_ = Sharing::completing;
+  offer_->finds.push_back({.of = &*offer_});
   follow(offer_->at);
   sharing_ = Sharing::none;
-  const Rgb scattered = offer_->scatters_evenly() ? Rgb(1.0f) : offer_->scattered;
-  offer_->radiance = divided(record_.radiance(), scattered);
+  Find& find = offer_->finds.front();
+  find.radiance = divided(record_.radiance(), find.scattered);
   record_ = before;
   add(offer_->arrived * offer_->own, offer_->bounces_of_find());
   if (!groups) return;
-  groups->end_find(found_before);
-  for (Rgb& light : groups->find) light = divided(light, scattered);
+  find.by_group = groups->end_find(std::move(found_before));
+  for (Rgb& light : find.by_group) light = divided(light, find.scattered);
   GroupedLight::add(offer_->arrived, groups->own, groups->found);
+}
+
+/// Whether lights that are sought at a second vertex are for all: nothing has found them on the way there, which is this
+/// path's.
+bool Path::may_offer_lights(const Vertex& second) const { return second.on_surface() || (!span_search_ && !context_.joint); }
+
+/// Next-event estimation at the place of a find. Lights come from directions, as what the path's next ray meets does. For one
+/// direction the weights of both, by MIS, are those of the path that found it: times its part of all that might have gone there
+/// they sum to 1 over all paths.
+void Path::offer_lights(const Directions& directions) {
+  std::vector<ArrivedLight> arrived;
+  context_.arrived = &arrived;
+  GroupedLight* const groups = std::exchange(context_.groups, nullptr);
+  light_at(directions, beta_);
+  context_.groups = groups;
+  context_.arrived = nullptr;
+  for (const ArrivedLight& light : arrived) {
+    const Rgb f = directions.vertex().eval(light.wi);
+    const float pdf = directions.pdf(light.wi, beta_);
+    if (!(pdf > 0)) {
+      add_light(light.light, light.scattered, depth_);
+      continue;
+    }
+    Find& find = offer_->finds.emplace_back(
+        Find{.of = &*offer_, .wi = light.wi, .radiance = divided(light.scattered, f) * pdf, .scattered = f / pdf});
+    if (!groups) continue;
+    find.by_group.resize(groups->groups().size());
+    find.by_group[groups->groups().of(light.light)] = find.radiance;
+  }
 }
 
 /// What is asked of the path's context is for the first bounce there, wherever the path itself went.
@@ -68,26 +98,26 @@ PathOffer* Path::behind() {
   return may_share(vertex) ? &behind_.emplace(context_, vertex, Rgb(1.0f)) : nullptr;
 }
 
-void Path::take(Rgb factor, const Path& finder, Received where) {
+void Path::take(Rgb factor, const Find& find, Received where) {
   const bool on_surface = where == Received::on_surface, arrived = offer_ && offer_->first.on_surface() == on_surface;
-  if (const auto wi = finder.offer_->escaped) {
-    take_environment(factor, *wi, arrived ? *offer_ : *behind_);
+  if (find.of->escaped) {
+    take_environment(factor, find.wi, arrived ? *offer_ : *behind_);
     return;
   }
-  record_.scattered(!on_surface, finder.offer_->bounces_of_find()) += factor * finder.offer_->radiance;
-  if (context_.groups) GroupedLight::add(factor, finder.context_.groups->find, context_.groups->found);
+  record_.scattered(!on_surface, find.of->bounces_of_find()) += factor * find.radiance;
+  if (context_.groups) GroupedLight::add(factor, find.by_group, context_.groups->found);
 }
 
-void Path::take_at(const Vertex& vertex, float t, Rgb factor, const Path& finder) {
+void Path::take_at(const Vertex& vertex, float t, Rgb factor, const Find& find) {
   Rgb light;
-  if (const auto wi = finder.offer_->escaped) {
+  if (find.of->escaped) {
     be_on_camera_ray();
     PathOffer at(context_, vertex, Rgb(1.0f));
-    if (is_environment_sought(at, *wi)) at.sought = std::make_unique<const SoughtLights>(sought_along(vertex, t));
-    light = take_environment(factor, *wi, at);
+    if (is_environment_sought(at, find.wi)) at.sought = std::make_unique<const SoughtLights>(sought_along(vertex, t));
+    light = take_environment(factor, find.wi, at);
   } else {
-    take(factor, finder, Received::in_medium);
-    light = factor * finder.offer_->radiance;
+    take(factor, find, Received::in_medium);
+    light = factor * find.radiance;
   }
   if (context_.deep) context_.deep->scattered(t, light);
 }
@@ -104,7 +134,8 @@ bool Path::is_environment_offered() const { return leaves_first() && has_environ
 void Path::offer_environment() {
   if (!offer_->sees_environment(ray_.d)) return;
   offer_->escaped = ray_.d;
-  for (const LightId light : context_.world.lights.infinite()) offer_->radiance += environment_from(*offer_, light, ray_.d);
+  Find& find = offer_->finds.emplace_back(Find{.of = &*offer_, .wi = ray_.d});
+  for (const LightId light : context_.world.lights.infinite()) find.radiance += environment_from(*offer_, light, ray_.d);
 }
 
 /// What a direction brings from there, weighted by MIS against next-event estimation as if the path had gone there itself:
@@ -147,23 +178,26 @@ bool Path::may_offer(const Vertex& first) const {
 
 /// It has left the vertex of its offer, and passed nothing since but panes: what comes next may be a find.
 bool Path::leaves_first() const { return sharing_ == Sharing::offering && offer_ && depth_ - panes_ == offer_->bounces; }
-/// Light of so many bounces is scattered toward the first vertex by the find itself, not a diffuse surface: none but its own
-/// path counts that.
-bool Path::is_scattered_by_find(int bounces) const { return completes_one_direction() && bounces == offer_->bounces_of_find(); }
+/// Where light is scattered toward the first vertex by the place of a find itself, which is no diffuse surface.
+bool Path::is_at_find() const { return completes_one_direction() && depth_ == offer_->bounces_of_find(); }
+/// Light of so many bounces, if it is scattered there, is counted by none but its own path.
+bool Path::is_own(int bounces) const {
+  return completes_one_direction() && !offer_->has_lights && bounces == offer_->bounces_of_find();
+}
 
 /// Not where others could not tell how likely the path went where it did.
 bool Path::may_share(const Vertex& first) const { return first.has_smooth() && first.has_exact_pdf(); }
 
-/// What a diffuse surface sends back does not depend on which of the paths looks at it. Elsewhere only the light of the next
-/// bounce and later is shared, by the direction it comes from: whose density others must be able to tell, without what guides
-/// one path there, and for all channels.
+/// What a diffuse surface sends back does not depend on which of the paths looks at it. Elsewhere light is shared by the
+/// direction it comes from: whose density others must be able to tell, without what guides one path there, and for all
+/// channels.
 bool Path::is_offered(const Vertex& second) const {
   if (!leaves_first() || !light_sampled_) return false;
   if (second.on_surface()) {
     if (second.surface()->bsdf.diffuse()) return true;
     if (channel_ || !may_share(second) || guides_everywhere(context_, depth_)) return false;
   }
-  return limits_.max_depth > depth_ + 1;
+  return limits_.max_depth > depth_ + 1 || may_offer_lights(second);
 }
 
 }  // namespace tyndall

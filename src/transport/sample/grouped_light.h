@@ -21,8 +21,8 @@ class GroupedLight {
 
   explicit GroupedLight(const LightGroups& groups) : found(groups.size()), groups_(groups), estimate_(groups.size()) {}
 
-  Sums found;      ///< radiance of the sample
-  Sums find, own;  ///< what its offer is worth: PathOffer::radiance and PathOffer::own; empty before that is known
+  Sums found;  ///< radiance of the sample
+  Sums own;    ///< PathOffer::own
 
   const LightGroups& groups() const { return groups_; }
 
@@ -42,12 +42,12 @@ class GroupedLight {
     }
   }
 
-  /// While a find is completed `found` is of it; back.
+  /// While an offer is completed `found` is of its last find; back.
   Sums begin_find() {
     own.assign(found.size(), Rgb());
     return std::exchange(found, Sums(found.size()));
   }
-  void end_find(const Sums& found_before) { find = std::exchange(found, found_before); }
+  Sums end_find(Sums found_before) { return std::exchange(found, std::move(found_before)); }
 
   void scale(float s) {
     for (Rgb& light : found) light *= s;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "transport/sample/counters.h"
 #include "transport/sample/sampler.h"
 #include "transport/world/built_world.h"
@@ -14,6 +16,13 @@ class CameraMatte;
 class DeepSample;
 struct LightBudget;
 struct LightTrial;
+
+/// Of a light that was sought, by the direction it comes from: what is scattered of it.
+struct ArrivedLight {
+  LightId light;
+  Vec3 wi;
+  Rgb scattered;
+};
 
 /// What light estimation needs of the render at large.
 struct LightContext {
@@ -36,6 +45,8 @@ struct LightContext {
   const DrawnEmission* drawn_emission = nullptr;
   /// Where the scene has light groups (grouped_light.h).
   GroupedLight* groups = nullptr;
+  /// Where what is scattered of lights is wanted one by one.
+  std::vector<ArrivedLight>* arrived = nullptr;
   /// Where the film has mattes (camera_matte.h), and where a deep image is made (deep_sample.h).
   CameraMatte* matte = nullptr;
   DeepSample* deep = nullptr;

@@ -24,29 +24,30 @@ Ray ray_to(const PathOffer& find, const Geometry& geometry, const Vertex& from) 
 }
 
 /// What the find scatters back along `w`, which points to it, and how likely.
-Connection scattered_back(const PathOffer& find, Vec3 w) {
+Connection scattered_back(const Find& find, Vec3 w) {
+  const PathOffer& of = *find.of;
   if (find.by_mirror) return {};
-  if (const auto* medium = find.at->medium()) {
+  if (const auto* medium = of.at->medium()) {
     const Rgb phase = medium->phase.eval(-w, find.wi);
     if (!has_all_channels(phase)) return {phase, 0};
     float pdf = medium->phase.pdf(-w, find.wi, Rgb(1.0f));
-    if (find.aureole) pdf *= find.aureole->pdf_ratio(medium->phase, -w, find.wi, Rgb(1.0f));
+    if (of.aureole) pdf *= of.aureole->pdf_ratio(medium->phase, -w, find.wi, Rgb(1.0f));
     return {phase, pdf};
   }
-  const SurfaceHit& hit = find.at->surface()->hit;
-  if (!same_side(hit.ng, -w, find.at->wo()) || !same_side(hit.ns, -w, find.at->wo())) return {};
+  const SurfaceHit& hit = of.at->surface()->hit;
+  if (!same_side(hit.ng, -w, of.at->wo()) || !same_side(hit.ns, -w, of.at->wo())) return {};
   const float cosine = abs_dot(hit.ng, w);
-  if (find.scatters_evenly()) return {Rgb(cosine), cosine};
-  const Bsdf& bsdf = find.at->surface()->bsdf;
+  if (of.scatters_evenly()) return {Rgb(cosine), cosine};
+  const Bsdf& bsdf = of.at->surface()->bsdf;
   const Rgb f = bsdf.eval(-w, find.wi);
   return {f * cosine, has_all_channels(f) ? bsdf.pdf(-w, find.wi) * cosine : 0};
 }
 
 }  // namespace
 
-std::optional<Sighting> sight(const PathOffer& find, Vec3 p) {
-  if (find.escaped) return Sighting{*find.escaped, {Rgb(1.0f), 1}};
-  const Vec3 v = find.at->p() - p;
+std::optional<Sighting> sight(const Find& find, Vec3 p) {
+  if (find.of->escaped) return Sighting{find.wi, {Rgb(1.0f), 1}};
+  const Vec3 v = find.of->at->p() - p;
   const float d2 = length_squared(v);
   if (!(d2 > 0)) return std::nullopt;
   const Vec3 w = v * (1 / std::sqrt(d2));
@@ -55,9 +56,9 @@ std::optional<Sighting> sight(const PathOffer& find, Vec3 p) {
   return Sighting{w, {back.f * (1 / d2), back.pdf / d2}};
 }
 
-Connection connect(const PathOffer& from, const PathOffer& find) {
-  if (from.bounces != find.bounces) return {};
-  if (find.escaped && !from.sees_environment(*find.escaped)) return {};
+Connection connect(const PathOffer& from, const Find& find) {
+  if (from.bounces != find.of->bounces) return {};
+  if (find.of->escaped && !from.sees_environment(find.wi)) return {};
   const auto sighting = sight(find, from.first.p());
   if (!sighting) return {};
   const auto& [w, back] = *sighting;

@@ -28,10 +28,10 @@ struct Sighting {
   Connection back;  ///< what it scatters back, over squared distance, and how likely; 1 of an environment
 };
 /// Nothing where it scatters nothing back.
-std::optional<Sighting> sight(const PathOffer& find, Vec3 p);
+std::optional<Sighting> sight(const Find& find, Vec3 p);
 /// By the path of `from`, from its first vertex; without visibility. Nothing after another number of bounces, which leaves
 /// others of the most that paths have.
-Connection connect(const PathOffer& from, const PathOffer& find);
+Connection connect(const PathOffer& from, const Find& find);
 
 /// What lies in between.
 struct Passage {

@@ -35,7 +35,7 @@ float gap(const CameraSegment& a, CameraSegment& b) {
 
 /// Colliding on the camera's ray, and going on toward a find: what both ways to receive it know of that.
 struct Collision {
-  Collision(CameraSegment& segment, float t, const PathOffer& find)
+  Collision(CameraSegment& segment, float t, const Find& find)
       : part(&segment.span().part_at(t)),
         p(segment.span().ray.at(t)),
         wo(-segment.span().ray.d),
@@ -68,7 +68,7 @@ CameraSegment* look(std::span<Path* const> paths, std::size_t i) {
 
 /// Of a find's light at a place of the receiver's ray, before visibility.
 struct SegmentShares::Candidate {
-  const Find* find;
+  const Shared* shared;
   float t;
   Collision collision;
   float others;  ///< density with which others made the find, and the receiver drew the place
@@ -109,51 +109,52 @@ SegmentShares::SegmentShares(const Between& between, std::span<Path* const> path
   }
 }
 
-SegmentShares::Find SegmentShares::consider(Path& finder) const {
-  Find find{.path = &finder, .scale = 1, .flight = {}};
+SegmentShares::Shared SegmentShares::consider(const Find& find) const {
+  Shared shared{.find = &find, .maker = 0, .scale = 1, .flight = {}};
   between_.counters.connections += makers_.size();
   for (const std::size_t k : makers_) {
-    find.might[k] = connect(paths_[k]->offer(), finder.offer()).pdf;
-    find.might_sum += double{find.might[k]};
+    if (&paths_[k]->offer() == find.of) shared.maker = k;
+    shared.might[k] = connect(paths_[k]->offer(), find).pdf;
+    shared.might_sum += double{shared.might[k]};
   }
-  return find;
+  return shared;
 }
 
-float SegmentShares::sharers(Path& finder) {
-  CameraSegment& segment = *finder.segment();
+float SegmentShares::sharers(const Find& find) {
+  const Shared shared = consider(find);
+  CameraSegment& segment = *paths_[shared.maker]->segment();
   if (!segment.profile()) return 1;
-  const PathOffer& offer = finder.offer();
-  const Find find = consider(finder);
-  const double others = find.might_sum - double{connect(offer, offer).pdf};
-  const double b = others * double{segment.distances_to(offer.place()).pdf(segment.collision())};
+  const double others = shared.might_sum - double{shared.might[shared.maker]};
+  const double b = others * double{segment.distances_to(find.of->place()).pdf(segment.collision())};
   const auto all = static_cast<double>(makers_.size() + receivers_.size());
-  return static_cast<float>(std::min(1 + b / double{Collision(segment, segment.collision(), offer).pdf}, all));
+  return static_cast<float>(std::min(1 + b / double{Collision(segment, segment.collision(), find).pdf}, all));
 }
 
-void SegmentShares::share(Path& finder, float scale) {
-  Find find = consider(finder);
-  find.scale = scale;
+void SegmentShares::share(const Find& find, float scale) {
+  Shared shared = consider(find);
+  shared.scale = scale;
   for (const std::size_t k : makers_) {
-    if (!(find.might[k] > 0)) continue;
+    if (!(shared.might[k] > 0)) continue;
     const PathOffer& maker = paths_[k]->offer();
-    const bool own = paths_[k] == &finder;
-    const Link link = own ? Link::own(between_, finder.offer()) : Link(between_, maker.first, finder.offer());
-    const auto passage = link.pass(maker.beta * connect(maker, finder.offer()).f);
+    const bool own = k == shared.maker;
+    const Link link = own ? Link::own(between_, *find.of) : Link(between_, maker.first, *find.of);
+    const auto passage = link.pass(maker.beta * connect(maker, find).f);
     if (!passage) continue;
-    find.made[k] = find.might[k] * passage->chance;
-    find.made_sum += double{find.made[k]};
+    shared.made[k] = shared.might[k] * passage->chance;
+    shared.made_sum += double{shared.made[k]};
     if (!own) continue;
-    find.likely = passage->likely;
-    find.flight = passage->flight();
+    shared.likely = passage->likely;
+    shared.flight = passage->flight();
   }
-  finds_.push_back(find);
+  finds_.push_back(shared);
 }
 
 void SegmentShares::hand_out() {
   for (const std::size_t k : receivers_) receive(k);
-  for (const Find& find : finds_) {
-    if (!find.path->segment()->profile())
-      find.path->take(find.path->own_factor() * find.scale, *find.path, Path::Received::in_medium);
+  for (const Shared& shared : finds_) {
+    Path& path = *paths_[shared.maker];
+    if (!path.segment()->profile())
+      path.take(path.own_factor(*shared.find) * shared.scale, *shared.find, Path::Received::in_medium);
   }
 }
 
@@ -162,11 +163,11 @@ void SegmentShares::receive(std::size_t k) {
   between_.counters.connections += finds_.size();
   std::vector<Candidate> candidates;
   float u = segment.u();
-  for (const Find& find : finds_) {
+  for (const Shared& shared : finds_) {
     u += u < 1 - kGolden ? kGolden : kGolden - 1;
-    if (find.path == paths_[k]) {
-      take_own(find, k);
-    } else if (const auto candidate = draw(find, k, u)) {
+    if (shared.maker == k) {
+      take_own(shared);
+    } else if (const auto candidate = draw(shared, k, u)) {
       candidates.push_back(*candidate);
     }
   }
@@ -180,41 +181,44 @@ void SegmentShares::receive(std::size_t k) {
   }
 }
 
-void SegmentShares::take_own(const Find& find, std::size_t k) const {
+void SegmentShares::take_own(const Shared& shared) const {
+  const std::size_t k = shared.maker;
+  const Find& find = *shared.find;
   CameraSegment& segment = *paths_[k]->segment();
-  const PathOffer& offer = find.path->offer();
-  const float t = segment.collision(), drawn = segment.distances_to(offer.place()).pdf(t);
-  const Collision collision(segment, t, offer);
+  const float t = segment.collision(), drawn = segment.distances_to(find.of->place()).pdf(t);
+  const Collision collision(segment, t, find);
   float share = 1;
-  if (!is_own(collision, (find.might_sum - double{find.might[k]}) * double{drawn})) {
-    const float own = collision.pdf * find.likely;
-    const float others = static_cast<float>(find.made_sum - double{find.made[k]}) * drawn;
+  if (!is_own(collision, (shared.might_sum - double{shared.might[k]}) * double{drawn})) {
+    const float own = collision.pdf * shared.likely;
+    const float others = static_cast<float>(shared.made_sum - double{shared.made[k]}) * drawn;
     if (own > 0 && std::isfinite(own + others)) share = own / (own + others);
   }
-  find.path->take(find.path->own_factor() * (find.scale * share), *find.path, Path::Received::in_medium);
+  paths_[k]->take(paths_[k]->own_factor(find) * (shared.scale * share), find, Path::Received::in_medium);
 }
 
-std::optional<SegmentShares::Candidate> SegmentShares::draw(const Find& find, std::size_t k, float u) const {
+std::optional<SegmentShares::Candidate> SegmentShares::draw(const Shared& shared, std::size_t k, float u) const {
   CameraSegment& segment = *paths_[k]->segment();
-  const PathOffer& offer = find.path->offer();
-  const auto made = static_cast<float>(find.made_sum - double{find.made[k]});
-  if (is_black(find.flight) || !(made > 0) || !std::isfinite(made)) return std::nullopt;
-  const auto [t, drawn] = segment.distances_to(offer.place()).sample(std::min(u, kOneMinusEpsilon));
+  const Find& find = *shared.find;
+  const auto made = static_cast<float>(shared.made_sum - double{shared.made[k]});
+  if (is_black(shared.flight) || !(made > 0) || !std::isfinite(made)) return std::nullopt;
+  const auto [t, drawn] = segment.distances_to(find.of->place()).sample(std::min(u, kOneMinusEpsilon));
   if (!(drawn > 0) || !std::isfinite(t)) return std::nullopt;
-  const Collision collision(segment, t, offer);
+  const Collision collision(segment, t, find);
   if (t < collision.part->t0 || t > collision.part->t1 || is_black(collision.f)) return std::nullopt;
-  if (!(collision.pdf > 0) || is_own(collision, (find.might_sum - double{find.might[k]}) * double{drawn})) return std::nullopt;
-  return Candidate{&find, t, collision, made * drawn};
+  if (!(collision.pdf > 0)) return std::nullopt;
+  if (is_own(collision, (shared.might_sum - double{shared.might[k]}) * double{drawn})) return std::nullopt;
+  return Candidate{&shared, t, collision, made * drawn};
 }
 
 void SegmentShares::link(const Candidate& candidate, Path& receiver, Rgb T) const {
-  const auto& [find, t, collision, others] = candidate;
+  const auto& [shared, t, collision, others] = candidate;
   const Vertex vertex(Vertex::InMedium{collision.p, collision.scattering.phase}, collision.wo, collision.part->state);
-  const auto passage = Link(between_, vertex, find->path->offer()).pass(Rgb(1.0f));
+  const auto passage = Link(between_, vertex, *shared->find->of).pass(Rgb(1.0f));
   if (!passage) return;
   const float own = collision.pdf * passage->likely;
   if (!(own > 0) || !std::isfinite(own + others)) return;
-  receiver.take_at(vertex, t, collision.f * T * passage->weight * find->flight * (find->scale / (own + others)), *find->path);
+  receiver.take_at(vertex, t, collision.f * T * passage->weight * shared->flight * (shared->scale / (own + others)),
+                   *shared->find);
 }
 
 }  // namespace tyndall

@@ -30,16 +30,17 @@ class SegmentShares {
   static bool near_each_other(std::span<Path* const> paths);
 
   /// About how many have part in a find: fewer where its own path is much more likely than others to make it.
-  float sharers(Path& finder);
+  float sharers(const Find& find);
   /// Takes in a find, its light times `scale`.
-  void share(Path& finder, float scale);
+  void share(const Find& find, float scale);
   /// Hands out all of them.
   void hand_out();
 
  private:
   using PerPath = std::array<float, kMostSharing>;
-  struct Find {
-    Path* path;
+  struct Shared {
+    const Find* find;
+    std::size_t maker;  ///< index of its path
     float scale;
     PerPath might{};       ///< density with which a path that collided would make it, were all clear
     double might_sum = 0;  ///< of these
@@ -50,16 +51,16 @@ class SegmentShares {
   };
   struct Candidate;
 
-  Find consider(Path& finder) const;
+  Shared consider(const Find& find) const;
   void receive(std::size_t k);
-  void take_own(const Find& find, std::size_t k) const;
-  std::optional<Candidate> draw(const Find& find, std::size_t k, float u) const;
+  void take_own(const Shared& shared) const;
+  std::optional<Candidate> draw(const Shared& shared, std::size_t k, float u) const;
   void link(const Candidate& candidate, Path& receiver, Rgb T) const;
 
   const Between& between_;
   std::span<Path* const> paths_;
   std::vector<std::size_t> makers_, receivers_;  ///< indices of paths
-  std::vector<Find> finds_;
+  std::vector<Shared> finds_;
 };
 
 }  // namespace tyndall

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "transport/sample/prices.h"
 #include "transport/sharing/segment_shares.h"
@@ -32,23 +33,55 @@ double finds_that_pay(const Prices& prices, const Counters& finding, std::size_t
   return std::max(kCheapFinds, links / static_cast<double>(paths));
 }
 
-/// Counts what the path has found where it is alone.
-void keep(Path& path) {
-  const PathOffer& find = path.offer();
-  if (find.found()) path.take(path.own_factor(), path, Path::received_at(find.first));
-}
+/// Counts a find of the path where it is alone.
+void keep(Path& path, const Find& find) { path.take(path.own_factor(find), find, Path::received_at(find.of->first)); }
 
 /// What the find brings its own path, which is of the order of what it brings others. Zero: there is nothing to share, for none
 /// of them; what brings its own path alone nothing, by its colour or its weight, is worth next to nothing instead. What is not
 /// a number stays with its path, where it is counted once.
-float worth_of(Path& path) {
-  const PathOffer& find = path.offer();
-  if (!find.found() || (find.at && is_black(find.radiance))) return 0;
-  const Rgb own = path.own_factor() * find.radiance;
+float worth_of(Path& path, const Find& find) {
+  if (find.of->at && is_black(find.radiance)) return 0;
+  const Rgb own = path.own_factor(find) * find.radiance;
   if (is_finite(own)) return std::max(mean(absolute(own)), std::numeric_limits<float>::min());
-  keep(path);
+  keep(path, find);
   return 0;
 }
+
+/// Finds that have something to share, each with what it is worth.
+struct Worth {
+  const Find* find;
+  float worth;
+};
+
+std::vector<Worth> worth_of(std::span<Path* const> finders) {
+  std::vector<Worth> finds;
+  for (Path* path : finders) {
+    for (const Find& find : path->offer().finds) {
+      if (const float worth = worth_of(*path, find); worth > 0) finds.push_back({&find, worth});
+    }
+  }
+  return finds;
+}
+
+/// About how many receive a find: asked once for all finds of a path, which are at the same place, as the first of them.
+template <typename Shares>
+class Sharers {
+ public:
+  explicit Sharers(Shares& shares) : shares_(shares) {}
+  double of(const Find& find) {
+    if (find.by_mirror) return 1;
+    if (find.of != asked_) {
+      asked_ = find.of;
+      answer_ = double{shares_.sharers(find)};
+    }
+    return answer_;
+  }
+
+ private:
+  Shares& shares_;
+  const PathOffer* asked_ = nullptr;
+  double answer_ = 0;
+};
 
 /// Roulette by strata of one number: how many survive hardly varies.
 class Roulette {
@@ -71,18 +104,17 @@ class Roulette {
 /// by chance, fewer.
 template <typename Shares>
 void share_among(Shares& shares, std::span<Path* const> finders, std::size_t receivers, double most) {
-  std::array<float, kMostSharing> worth;
+  const std::vector<Worth> finds = worth_of(finders);
+  if (finds.empty()) return;
   double total = 0;
-  for (std::size_t j = 0; j < finders.size(); ++j) total += worth[j] = worth_of(*finders[j]);
-  if (!(total > 0)) return;
-  const auto* const first = std::find_if(worth.begin(), worth.end(), [](float w) { return w > 0; });
-  Roulette roulette(finders[static_cast<std::size_t>(first - worth.begin())]->offer().rng.uniform() + 0x1p-25);
-  for (std::size_t j = 0; j < finders.size(); ++j) {
-    if (!(worth[j] > 0)) continue;
-    double chance = most * worth[j] / total;
-    if (chance < 1) chance *= static_cast<double>(receivers) / static_cast<double>(shares.sharers(*finders[j]));
+  for (const Worth& w : finds) total += double{w.worth};
+  Sharers sharers(shares);
+  Roulette roulette(finds.front().find->of->rng.uniform() + 0x1p-25);
+  for (const auto& [find, worth] : finds) {
+    double chance = most * worth / total;
+    if (chance < 1) chance *= static_cast<double>(receivers) / sharers.of(*find);
     chance = std::min(1.0, chance);
-    if (roulette.survives(chance)) shares.share(*finders[j], static_cast<float>(1 / chance));
+    if (roulette.survives(chance)) shares.share(*find, static_cast<float>(1 / chance));
   }
 }
 
@@ -110,7 +142,9 @@ void share_suffixes(const Between& between, std::span<Path* const> paths, const 
     if (collisions_shared ? *collisions_shared : SegmentShares::near_each_other(paths)) {
       share_at_vertices(between, in_medium, most);
     } else {
-      for (Path* path : in_medium) keep(*path);
+      for (Path* path : in_medium) {
+        for (const Find& find : path->offer().finds) keep(*path, find);
+      }
     }
     return;
   }

@@ -33,11 +33,10 @@ void VertexShares::add_behind(Path& path) {
   receivers_.push_back({&path, offer, arrived, segment->chance_of_passing(), T});
 }
 
-float VertexShares::sharers(Path& finder) const {
-  const PathOffer& find = finder.offer();
-  const float least = kLeastPart * connect(find, find).pdf;
+float VertexShares::sharers(const Find& find) const {
+  const float least = kLeastPart * connect(*find.of, find).pdf;
   if (!(least > 0)) return 1;
-  const auto at = std::find_if(receivers_.begin(), receivers_.end(), [&](const Receiver& r) { return r.path == &finder; });
+  const auto at = std::find_if(receivers_.begin(), receivers_.end(), [&](const Receiver& r) { return r.made(find); });
   const auto own = static_cast<std::size_t>(at - receivers_.begin());
   const std::size_t n = receivers_.size(), step = (n + kProbes - 1) / kProbes;
   int probes = 0, might = 0;
@@ -46,11 +45,10 @@ float VertexShares::sharers(Path& finder) const {
   return might > 0 ? 1 + static_cast<float>(might) / static_cast<float>(probes) * static_cast<float>(n - 1) : 1;
 }
 
-VertexShares::Linked VertexShares::link(const Receiver& receiver, const Connection& connection, Path& finder) const {
-  const bool own = receiver.path == &finder;
+VertexShares::Linked VertexShares::link(const Receiver& receiver, const Connection& connection, const Find& find) const {
+  const bool own = receiver.made(find);
   if (!receiver.arrived && is_black(receiver.throughput)) return {};
-  PathOffer& find = finder.offer();
-  const Link link = own ? Link::own(between_, find) : Link(between_, receiver.offer->first, find);
+  const Link link = own ? Link::own(between_, *find.of) : Link(between_, receiver.offer->first, *find.of);
   const auto passage = link.pass(receiver.offer->beta * connection.f);
   if (!passage) return {};
   Linked linked;
@@ -65,32 +63,32 @@ VertexShares::Linked VertexShares::link(const Receiver& receiver, const Connecti
   return linked;
 }
 
-void VertexShares::share(Path& finder, float scale) {
-  const auto where = Path::received_at(finder.offer().first);
+void VertexShares::share(const Find& find, float scale) {
+  const auto where = Path::received_at(find.of->first);
   const std::size_t n = receivers_.size();
   between_.counters.connections += n;
   std::array<Connection, kMostSharing> to;
   float largest = 0;
   for (std::size_t k = 0; k < n; ++k) {
-    to[k] = connect(*receivers_[k].offer, finder.offer());
+    to[k] = connect(*receivers_[k].offer, find);
     largest = std::max(largest, to[k].pdf);
   }
   std::array<Linked, kMostSharing> linked;
   double sum = 0;
   Rgb flight;
   for (std::size_t k = 0; k < n; ++k) {
-    if (to[k].pdf > 0 && to[k].pdf >= kLeastPart * largest) linked[k] = link(receivers_[k], to[k], finder);
+    if (to[k].pdf > 0 && to[k].pdf >= kLeastPart * largest) linked[k] = link(receivers_[k], to[k], find);
     sum += linked[k].made;
-    if (receivers_[k].path == &finder) flight = linked[k].flight;
+    if (receivers_[k].made(find)) flight = linked[k].flight;
   }
   for (std::size_t k = 0; k < n; ++k) {
     const Receiver& receiver = receivers_[k];
     const auto density = static_cast<float>(linked[k].own + (sum - linked[k].made));
     const bool shares = linked[k].own > 0 && std::isfinite(density);
-    if (receiver.path == &finder) {
-      finder.take(finder.own_factor() * (scale * (shares ? linked[k].own / density : 1.0f)), finder, where);
+    if (receiver.made(find)) {
+      receiver.path->take(receiver.path->own_factor(find) * (scale * (shares ? linked[k].own / density : 1.0f)), find, where);
     } else if (shares && !is_black(flight)) {
-      receiver.path->take(receiver.throughput * linked[k].f * flight * (scale / density), finder, where);
+      receiver.path->take(receiver.throughput * linked[k].f * flight * (scale / density), find, where);
     }
   }
 }

@@ -23,9 +23,9 @@ class VertexShares {
   void add_behind(Path& path);
 
   /// About how many have part in a find: itself, and of the others as many as of some, evenly spread.
-  float sharers(Path& finder) const;
+  float sharers(const Find& find) const;
   /// Hands out a find, its light times `scale`.
-  void share(Path& finder, float scale);
+  void share(const Find& find, float scale);
 
  private:
   struct Receiver {
@@ -34,10 +34,12 @@ class VertexShares {
     bool arrived;
     float passes;    ///< the chance of that, roughly
     Rgb throughput;  ///< up to the vertex: the path's, or an estimate for all paths
+
+    bool made(const Find& find) const { return path->offers() && &path->offer() == find.of; }
   };
   struct Linked;
 
-  Linked link(const Receiver& receiver, const Connection& connection, Path& finder) const;
+  Linked link(const Receiver& receiver, const Connection& connection, const Find& find) const;
 
   const Between& between_;
   std::vector<Receiver> receivers_;

@@ -56,6 +56,7 @@ class NextEvent {
     const Rgb light =
         c.contribution * arriving(context_, media, vertex_.origin(geometry, c.light.wi), c.light, sampler) * scale;
     if (context_.groups) context_.groups->estimate(c.id, light);
+    if (context_.arrived) context_.arrived->push_back({c.id, c.light.wi, light});
     return light;
   }
 
