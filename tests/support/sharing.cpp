@@ -59,6 +59,19 @@ std::string sharing_things() {
              "-1  -1 0.6 -1.4]\n");
 }
 
+std::string sharing_unlit_room() { return sharing_sides() + sharing_end(2) + sharing_end(-4) + sharing_things(); }
+
+std::string sharing_room() {
+  return sharing_unlit_room() + point_light({-1.7f, 1.2f, 1.7f}, 3) + point_light({1.2f, -1.6f, 1.6f}, 0.4f) +
+         emitting_square({0.6f, 0.9f, 1.9f}, 0.25f, 9);
+}
+
+std::string sharing_soft_room() {
+  return sharing_unlit_room() + emitting_square({0.6f, 0.9f, 1.9f}, 0.25f, 9) + emitting_square({-1.2f, 1.2f, 0.5f}, 0.4f, 5);
+}
+
+Coefficients sharing_thin_fog() { return {.sigma_a = {0.02f, 0.05f, 0.1f}, .sigma_s = {0.3f, 0.15f, 0.05f}, .g = 0.4f}; }
+
 std::string sharing_smoke(const Coefficients& coefficients) {
   Grid grid{{{-1.5f, -1.7f, -1.5f}, {0.6f, 1, 1.5f}}, 4, 4, 4, {}};
   for (int i = 0; i < 64; ++i) grid.density.push_back(0.1f * float(i % 11));
