@@ -54,13 +54,9 @@ TEST_CASE("sharing changes the noise alone: fog as neighbouring rays see it alik
 TEST_CASE("sharing changes the noise alone: smoke that leaves some ways open, from which paths are sent toward it") {
   Coefficients smoke = sharing_thin_fog();
   smoke.sigma_s = {3, 2, 1.5f};
-  Grid grid{{{-1.5f, -1.7f, -1.5f}, {0.6f, 1, 1.5f}}, 4, 4, 4, {}};
-  for (int i = 0; i < 64; ++i) grid.density.push_back(0.1f * float(i % 11));
-  check_sharing("smoke", sharing_camera(5) + sharing_room() + uniform_grid("m", smoke, grid) + medium_box("m", "", grid.bounds),
-                {}, 1.3);
+  check_sharing("smoke", sharing_camera(5) + sharing_room() + sharing_smoke(smoke), {}, 1.3);
 }
 
-// Finds in media are scattered toward neighbours with the density of the direction that the sun's aureole drew.
 TEST_CASE("sharing changes the noise alone: a fire that scatters its own light") {
   const Bounds3 hearth{{-0.7f, -1.8f, -0.6f}, {0.7f, -0.2f, 0.8f}};
   Grid flames{hearth, 8, 8, 8, {}};
@@ -75,6 +71,7 @@ TEST_CASE("sharing changes the noise alone: a fire that scatters its own light")
     check_sharing("fire", fire, {.emission = emission}, 1.05);
 }
 
+// Finds in media are scattered toward neighbours with the density of the direction that the sun's aureole drew.
 TEST_CASE("sharing changes the noise alone: a cloud under a sun") {
   const Coefficients drops{.sigma_a = {0.02f, 0.05f, 0.1f}, .sigma_s = {3, 2, 1.5f}, .g = 0.8f};
   Grid grid{{{-1.5f, -1.7f, -1.5f}, {0.6f, 1, 1.5f}}, 4, 4, 4, {}};

@@ -103,7 +103,7 @@ class Path::ScatteredEmission final : public EmissionGauge {
 };
 
 /// What a find's ray brings it of emission and environments comes from one direction, as later light does, and is shared like
-/// that. What next-event estimation weighs against, which is the path's own, is not.
+/// that. What next-event estimation weighs against is the path's own where that is.
 int Path::bounces_of_light(bool weighed) const {
   const int bounces = depth_ - panes_;
   return completes_one_direction() && !weighed ? bounces + 1 : bounces;

@@ -56,7 +56,7 @@ struct PathOffer {
   Rgb flown;                    ///< the part of it that the flight through media weighs
   Rng rng{0};                   ///< for the connections of others
 
-  std::vector<Find> finds;         ///< none before `at` is complete
+  std::vector<Find> finds;         ///< of `at` none before that is complete
   std::optional<Aureole> aureole;  ///< by which the path went on from `at`
   bool has_lights = false;         ///< `at` is not diffuse, and lights that were sought there are among the finds
   Rgb own;                         ///< light that `at` scatters toward `first` and that only the path itself counts
