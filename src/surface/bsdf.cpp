@@ -101,6 +101,16 @@ bool Bsdf::has_exact_pdf() const {
   return !std::holds_alternative<CoatedDiffuseLobe>(lobe_) && !std::holds_alternative<CoatedConductorLobe>(lobe_);
 }
 
+bool Bsdf::separable() const {
+  if (const auto* coat = std::get_if<ClearCoatLobe>(&lobe_)) return coat->separable();
+  return std::holds_alternative<DiffuseLobe>(lobe_) || std::holds_alternative<DiffuseTransmissionLobe>(lobe_);
+}
+
+SeparablePart Bsdf::separable_part(Vec3 wo) const {
+  const auto* coat = std::get_if<ClearCoatLobe>(&lobe_);
+  return coat ? coat->separable_part(frame_.to_local(wo)) : SeparablePart{};
+}
+
 bool Bsdf::reflects() const {
   return std::visit([](const auto& lobe) { return lobe.reflects(); }, lobe_);
 }

@@ -51,8 +51,10 @@ class Bsdf {
   bool has_smooth() const;
   /// pdf() is the density of sample(), no proxy for it.
   bool has_exact_pdf() const;
-  /// It scatters alike in all directions of a side.
-  bool diffuse() const { return std::holds_alternative<DiffuseLobe>(lobe_); }
+  /// For wo on one side eval(wo, wi) is a factor of wo times a function of wi: what is scattered, but for what is mirrored by
+  /// chance, has forgotten where it came from.
+  bool separable() const;
+  SeparablePart separable_part(Vec3 wo) const;
   bool reflects() const;
   bool transmits() const;
   /// Share of the power arriving along wo that is reflected or transmitted; an estimate where no closed form exists.

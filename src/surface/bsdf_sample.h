@@ -21,6 +21,12 @@ struct MirrorPart {
   float f;  ///< share of the light from there that is mirrored, in (0, 1)
 };
 
+/// Of a surface that scatters, but for its mirror, by a factor of either direction.
+struct SeparablePart {
+  float factor = 1;  ///< of wo, up to a constant
+  float chance = 1;  ///< that what is sampled from there is not mirrored
+};
+
 /// A restriction of a dielectric lobe, used by the walk inside a coating.
 struct LobeMode {
   enum class Transport { radiance, importance } transport = Transport::radiance;  ///< importance: no 1/eta^2

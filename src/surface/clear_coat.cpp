@@ -45,6 +45,8 @@ float ClearCoatLobe::top_probability(Vec3 wo) const {
   return top > 0 ? top / (top + even) : 0.0f;
 }
 
+SeparablePart ClearCoatLobe::separable_part(Vec3 wo) const { return {enters(wo), 1 - top_probability(wo)}; }
+
 Rgb ClearCoatLobe::eval(Vec3 wo, Vec3 wi) const {
   if (!same_side(wo, wi)) return {};
   if (wo.z < 0) return eval(-wo, -wi);

@@ -30,6 +30,9 @@ struct ClearCoatLobe {
   /// Share of light that the top's mean plane reflects, and of what the surface under it gives back.
   float reflected(Vec3 wo) const;
   Rgb even_albedo(Vec3 wo) const { return base_ * (enters(wo) * out_); }
+  /// Whether all is mirrored but the even part.
+  bool separable() const { return top_.is_specular() && !is_black(base_); }
+  SeparablePart separable_part(Vec3 wo) const;
 
  private:
   float enters(Vec3 w) const;

@@ -60,8 +60,9 @@ TEST_CASE("sharing changes the noise alone: metals, rough glass and thin sheets"
                 {}, 0.9, kManyToShare);
 }
 
-// Clear coats spread light by a density that others know, and mirror it besides: what they mirror is their path's own. Points
-// have no images in mirrors, which would be most of the noise and are no one else's.
+// Clear coats spread what comes to the surface under them, to all by a factor that others know, and mirror it besides: what
+// they mirror is their path's own. Points have no images in mirrors, which would be most of the noise and are no one else's; of
+// a bright end of the room they have.
 TEST_CASE("sharing changes the noise alone: clear coats") {
   const auto coated = [](const std::string& rgb, const std::string& more, const std::string& corners) {
     return block("Material \"coateddiffuse\" \"float roughness\" 0 \"rgb reflectance\" [" + rgb + "] " + more +
@@ -74,6 +75,8 @@ TEST_CASE("sharing changes the noise alone: clear coats") {
       coated("0.1 0.7 0.2", "\"float eta\" 0.7", "2 -1.8 -4  2 -1.8 2  2 1.8 -4  2 1.8 2") +
       point_light({-1.7f, 1.2f, 1.1f}, 3) + point_light({1.2f, -1, 0.6f}, 0.4f);
   check_sharing("coats", sharing_camera(5) + room, {}, 1.5, kManyToShare);
+  check_sharing("coats with images", sharing_camera(5) + room + emitting_square({0, 0, 1.9f}, 1.5f, 0.6f), {}, 1.2,
+                kManyToShare);
   const std::string fog = homogeneous("m", sharing_thin_fog()) + medium_box("m", "", {{-3, -3, -5}, {3, 3, 3}});
   check_sharing("coats in fog", sharing_camera(4) + room + fog, {}, 1.2, kManyToShare);
 }

@@ -82,6 +82,7 @@ class Path {
   bool may_offer(const Vertex& first) const;
   bool leaves_first() const;
   bool is_at_find() const;
+  bool is_at_directions() const;
   bool is_own(int bounces) const;
   bool may_offer_lights(const Vertex& second) const;
   void offer_lights(const Directions& directions);
@@ -163,6 +164,7 @@ class Path {
   Rgb flown_{1.0f};  ///< weight of the flight since the last bounce that was none at a pane
   enum class Sharing { none, offering, completing };
   Sharing sharing_ = Sharing::none;  ///< whether an offer is still ahead, or what it is worth is being found
+  bool in_mirror_ = false;           ///< of the surface of its find: what comes from there others do not see
   std::optional<PathOffer> offer_;
   std::optional<CameraSegment> segment_;
   std::optional<SpanSearch> camera_search_;  ///< of the segment's lights, where it may receive of environments

@@ -1,5 +1,6 @@
 /// The light that a path gathers: at its bounces, and where its rays end.
 #include <algorithm>
+#include <utility>
 
 #include "transport/path/path.h"
 #include "transport/pixel/film_emitters.h"
@@ -23,14 +24,16 @@ void Path::add_light(LightId light, Rgb contribution, int bounces) {
 
 /// Light from emitters that a path of throughput `beta` brings by scattering at the vertex. Whether its mirror was looked into.
 bool Path::gather_light(const Directions& directions, Rgb beta) {
-  const bool offers = is_at_find() && may_offer_lights(directions.vertex());
+  const bool offers = is_at_directions() && may_offer_lights(directions.vertex());
   if (offers) {
     offer_lights(directions);
   } else {
     add_estimate(beta, light_at(directions, beta), depth_);
   }
+  const bool in_mirror = std::exchange(in_mirror_, in_mirror_ || is_at_find());
   const bool looked = look_into_mirror(directions.vertex(), beta);
-  if (offers) offer_->has_lights = true;  // what is mirrored toward it remains the path's own
+  in_mirror_ = in_mirror;
+  if (offers) offer_->has_lights = true;
   return looked;
 }
 

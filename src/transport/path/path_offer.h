@@ -18,13 +18,12 @@ inline constexpr std::size_t kMostSharing = 64;
 struct PathOffer;
 
 /// Light that comes from one direction to where a path went after its first vertex: of a light that was sought there, or by the
-/// path's next ray. What a diffuse surface scatters to all alike is a single find, from no direction.
+/// path's next ray. What a separable surface scatters, wherever it came from, is a single find, from no direction.
 struct Find {
   PathOffer* of = nullptr;
-  Vec3 wi{};               ///< where it comes from; of an environment, where that is
-  Rgb radiance{};          ///< an estimate, over no density of wi; of an environment, which all know, what its path counts
-  Rgb scattered{1.0f};     ///< what is scattered of it toward PathOffer::first, over the density of wi
-  bool by_mirror = false;  ///< toward none but the path itself
+  Vec3 wi{};            ///< where it comes from; of an environment, where that is
+  Rgb radiance{};       ///< an estimate, over no density of wi; of an environment, which all know, what its path counts
+  Rgb scattered{1.0f};  ///< what is scattered of it toward PathOffer::first, over the density of wi
   GroupedLight::Sums by_group{};  ///< radiance by light groups, where the scene has such
 };
 
@@ -58,11 +57,12 @@ struct PathOffer {
 
   std::vector<Find> finds;         ///< of `at` none before that is complete
   std::optional<Aureole> aureole;  ///< by which the path went on from `at`
-  bool has_lights = false;         ///< `at` is not diffuse, and lights that were sought there are among the finds
+  bool has_lights = false;         ///< `at` is not separable, and lights that were sought there are among the finds
   Rgb own;                         ///< light that `at` scatters toward `first` and that only the path itself counts
 
-  /// Whether what `at` sends to all on its side is known. Else what comes to it from a direction is.
-  bool scatters_evenly() const { return at->on_surface() && at->surface()->bsdf.diffuse(); }
+  /// Whether what `at` sends to all on its side is known, but for the factor of the direction. Else what comes to it from a
+  /// direction is.
+  bool is_separable() const { return at->on_surface() && at->surface()->bsdf.separable(); }
   int bounces_of_find() const { return bounces + panes + 1; }
   /// Of a find; nothing: at infinity.
   std::optional<Vec3> place() const { return at ? std::optional(at->p()) : std::nullopt; }

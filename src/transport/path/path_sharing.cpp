@@ -13,6 +13,12 @@ Rgb divided(Rgb a, Rgb b) {
   return a;
 }
 
+/// Find::scattered; nothing where nothing is.
+Rgb separably_scattered(const Vertex& vertex) {
+  const auto [factor, chance] = vertex.surface()->bsdf.separable_part(vertex.wo());
+  return Rgb(chance > 0 ? factor / chance : 0.0f);
+}
+
 /// The step beyond all others whose numbers the offer takes.
 constexpr int kSharingStep = 1 << 30;
 
@@ -39,9 +45,11 @@ void Path::complete_offer() {
   before_ = max_component(beta_);
   beta_ = Rgb(1.0f);
   sharing_ = Sharing::completing;
-  offer_->finds.push_back({.of = &*offer_});
+  Find& own = offer_->finds.emplace_back(Find{.of = &*offer_});
+  if (offer_->is_separable()) own.scattered = separably_scattered(*offer_->at);
   follow(offer_->at);
   sharing_ = Sharing::none;
+  in_mirror_ = false;
   Find& find = offer_->finds.front();
   find.radiance = divided(record_.radiance(), find.scattered);
   record_ = before;
@@ -167,7 +175,7 @@ Rgb Path::take_environment(Rgb factor, Vec3 wi, PathOffer& at) {
   return sum;
 }
 
-bool Path::completes_one_direction() const { return sharing_ == Sharing::completing && !offer_->scatters_evenly(); }
+bool Path::completes_one_direction() const { return sharing_ == Sharing::completing && !offer_->is_separable(); }
 
 /// At the first vertex that spreads light, which may be behind mirrors and panes; of collisions only on the camera's ray, along
 /// which others receive. Not where dispersion has left a single channel: others want them all.
@@ -178,23 +186,26 @@ bool Path::may_offer(const Vertex& first) const {
 
 /// It has left the vertex of its offer, and passed nothing since but panes: what comes next may be a find.
 bool Path::leaves_first() const { return sharing_ == Sharing::offering && offer_ && depth_ - panes_ == offer_->bounces; }
-/// Where light is scattered toward the first vertex by the place of a find itself, which is no diffuse surface.
-bool Path::is_at_find() const { return completes_one_direction() && depth_ == offer_->bounces_of_find(); }
-/// Light of so many bounces, if it is scattered there, is counted by none but its own path.
+/// Where light is scattered toward the first vertex by the place of a find itself.
+bool Path::is_at_find() const { return sharing_ == Sharing::completing && depth_ == offer_->bounces_of_find(); }
+/// The same where that is no separable surface.
+bool Path::is_at_directions() const { return completes_one_direction() && is_at_find(); }
+/// Light of so many bounces is counted by none but its own path.
 bool Path::is_own(int bounces) const {
+  if (in_mirror_) return true;
   return completes_one_direction() && !offer_->has_lights && bounces == offer_->bounces_of_find();
 }
 
 /// Not where others could not tell how likely the path went where it did.
 bool Path::may_share(const Vertex& first) const { return first.has_smooth() && first.has_exact_pdf(); }
 
-/// What a diffuse surface sends back does not depend on which of the paths looks at it. Elsewhere light is shared by the
-/// direction it comes from: whose density others must be able to tell, without what guides one path there, and for all
+/// Of what a separable surface sends back all know how it depends on which of the paths looks at it. Elsewhere light is shared
+/// by the direction it comes from: whose density others must be able to tell, without what guides one path there, and for all
 /// channels.
 bool Path::is_offered(const Vertex& second) const {
   if (!leaves_first() || !light_sampled_) return false;
   if (second.on_surface()) {
-    if (second.surface()->bsdf.diffuse()) return true;
+    if (second.surface()->bsdf.separable()) return true;
     if (channel_ || !may_share(second) || guides_everywhere(context_, depth_)) return false;
   }
   return limits_.max_depth > depth_ + 1 || may_offer_lights(second);

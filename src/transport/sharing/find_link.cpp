@@ -26,7 +26,6 @@ Ray ray_to(const PathOffer& find, const Geometry& geometry, const Vertex& from) 
 /// What the find scatters back along `w`, which points to it, and how likely.
 Connection scattered_back(const Find& find, Vec3 w) {
   const PathOffer& of = *find.of;
-  if (find.by_mirror) return {};
   if (const auto* medium = of.at->medium()) {
     const Rgb phase = medium->phase.eval(-w, find.wi);
     if (!has_all_channels(phase)) return {phase, 0};
@@ -37,8 +36,11 @@ Connection scattered_back(const Find& find, Vec3 w) {
   const SurfaceHit& hit = of.at->surface()->hit;
   if (!same_side(hit.ng, -w, of.at->wo()) || !same_side(hit.ns, -w, of.at->wo())) return {};
   const float cosine = abs_dot(hit.ng, w);
-  if (of.scatters_evenly()) return {Rgb(cosine), cosine};
   const Bsdf& bsdf = of.at->surface()->bsdf;
+  if (of.is_separable()) {
+    const auto [factor, chance] = bsdf.separable_part(-w);
+    return {Rgb(cosine * factor), cosine * chance};
+  }
   const Rgb f = bsdf.eval(-w, find.wi);
   return {f * cosine, has_all_channels(f) ? bsdf.pdf(-w, find.wi) * cosine : 0};
 }

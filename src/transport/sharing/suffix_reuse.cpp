@@ -69,7 +69,6 @@ class Sharers {
  public:
   explicit Sharers(Shares& shares) : shares_(shares) {}
   double of(const Find& find) {
-    if (find.by_mirror) return 1;
     if (find.of != asked_) {
       asked_ = find.of;
       answer_ = double{shares_.sharers(find)};

@@ -202,3 +202,24 @@ TEST_CASE("a white coat without loss gives everything back") {
       CHECK(double{lobe.albedo(wo).g} == doctest::Approx(1).epsilon(1e-5));
     }
 }
+
+TEST_CASE("what separable surfaces scatter depends on either direction by a factor") {
+  std::vector<Bsdf> separable = {make(DiffuseLobe{kPaint}), make(DiffuseTransmissionLobe{kPaint, {0.3f, 0.1f, 0.2f}})};
+  for (const ClearCoatCase& c : kCases) {
+    const Bsdf coat = closed(c);
+    CHECK(coat.separable() == (c.top.is_specular() && c.coat.max_depth > 0));
+    if (coat.separable()) separable.push_back(coat);
+  }
+  CHECK_FALSE(make(metal(0.3f, 0.3f)).separable());
+  TestRandom random(5);
+  for (const Bsdf& bsdf : separable) {
+    for (int i = 0; i < 200; ++i) {
+      Vec3 wo = square_to_uniform_sphere(random.pair()), other = square_to_uniform_sphere(random.pair());
+      const Vec3 wi = square_to_uniform_sphere(random.pair());
+      if (dot(wo, bsdf.normal()) * dot(other, bsdf.normal()) < 0) other = -other;
+      const Rgb a = bsdf.eval(wo, wi) * bsdf.separable_part(other).factor,
+                b = bsdf.eval(other, wi) * bsdf.separable_part(wo).factor;
+      CHECK(max_component(absolute(a - b)) <= 1e-5f * max_component(a));
+    }
+  }
+}
