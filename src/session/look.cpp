@@ -31,6 +31,9 @@ constexpr double kDoubt = 2;
 /// and less.
 constexpr int kDoublings = 2;
 constexpr double kLeastLeft = 0.125;
+/// A few edges of bright emitters may be most of the noise that two looks see, alike in both and by chance: so many pixels have
+/// no more in common than what others have at most.
+constexpr double kWorstInBoth = 0.01;
 /// Relative variance of a sample, of which nothing is seen: where there is less, what costs less is better.
 constexpr double kUnseen = 1e-8;
 
@@ -49,6 +52,37 @@ PixelPlace spread_place(std::size_t i, const PixelBounds& frame) {
 double unit_of(double mean, const Film& film) {
   return mean * mean + kRelativeEpsilon / (double{film.imaging_ratio} * film.imaging_ratio);
 }
+
+/// Of a block, in two looks at it.
+struct PixelErrors {
+  std::vector<double> mine, others;
+
+  double in_both(std::size_t pixel) const { return std::min(mine[pixel], others[pixel]); }
+  /// Of one of the two, of which no pixel has more than `most` in common.
+  double sum(const std::vector<double>& errors, double most) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < errors.size(); ++i) sum += errors[i] - std::max(in_both(i) - most, 0.0);
+    return sum;
+  }
+};
+
+/// All but kWorstInBoth of the pixels have no more in both.
+double most_in_both(const std::vector<PixelErrors>& blocks) {
+  std::vector<double> errors;
+  for (const PixelErrors& block : blocks) {
+    for (std::size_t i = 0; i < block.mine.size(); ++i) errors.push_back(block.in_both(i));
+  }
+  const auto worst = static_cast<std::ptrdiff_t>(kWorstInBoth * static_cast<double>(errors.size()));
+  const auto most = errors.end() - 1 - worst;
+  std::nth_element(errors.begin(), most, errors.end());
+  return *most;
+}
+
+struct Product {
+  double error = 0, cost = 0;
+  void add(const Product& more, double times) { error += times * more.error, cost += times * more.cost; }
+  double log() const { return std::log(error * cost); }
+};
 
 }  // namespace
 
@@ -71,15 +105,14 @@ Rgb Look::Block::mean() const {
   return count > 0 ? found * (1 / count) : Rgb();
 }
 
-/// More than 0.
-double Look::Block::error(Rgb mean, const Film& film) const {
-  double error = 0;
-  for (const Pixel& pixel : pixels) {
-    if (!pixel.is_finite()) continue;
-    for (int c = 0; c < 3; ++c) error += pixel.error(c) / (3 * unit_of(double{mean[c]}, film));
-    error += kUnseen;
+/// More than 0 each.
+std::vector<double> Look::Block::errors(Rgb mean, const Film& film) const {
+  std::vector<double> errors(pixels.size(), kUnseen);
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    if (!pixels[i].is_finite()) continue;
+    for (int c = 0; c < 3; ++c) errors[i] += pixels[i].error(c) / (3 * unit_of(double{mean[c]}, film));
   }
-  return error;
+  return errors;
 }
 
 std::size_t Look::usual_blocks(const Film& film) {
@@ -150,19 +183,20 @@ Look::Block Look::try_block(std::size_t number) const {
 
 /// Errors are relative to the mean of a block, in both looks together: those of single pixels are too noisy to divide by.
 Look::Ratio Look::over(const Look& other) const {
-  struct Product {
-    double error = 0, cost = 0;
-    void add(const Product& more, double times) { error += times * more.error, cost += times * more.cost; }
-    double log() const { return std::log(error * cost); }
-  };
   const std::size_t count = std::min(blocks_.size(), other.blocks_.size());
-  std::vector<Product> mine, others;
+  std::vector<PixelErrors> errors(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Rgb both = (blocks_[i].mean() + other.blocks_[i].mean()) * 0.5f;
+    errors[i] = {blocks_[i].errors(both, film()), other.blocks_[i].errors(both, film())};
+  }
+  const double most = most_in_both(errors);
+  std::vector<Product> mine(count), others(count);
   Product my_sum, other_sum;
   for (std::size_t i = 0; i < count; ++i) {
-    const Block &my_block = blocks_[i], &other_block = other.blocks_[i];
-    const Rgb both = (my_block.mean() + other_block.mean()) * 0.5f;
-    my_sum.add(mine.emplace_back(my_block.error(both, film()), my_block.cost), 1);
-    other_sum.add(others.emplace_back(other_block.error(both, film()), other_block.cost), 1);
+    mine[i] = {errors[i].sum(errors[i].mine, most), blocks_[i].cost};
+    others[i] = {errors[i].sum(errors[i].others, most), other.blocks_[i].cost};
+    my_sum.add(mine[i], 1);
+    other_sum.add(others[i], 1);
   }
   const double log = my_sum.log() - other_sum.log();
   double squares = 0;

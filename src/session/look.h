@@ -81,7 +81,7 @@ class Look {
     double cost = 0;  ///< ns (Prices), without what only LightTrial wants
 
     Rgb mean() const;
-    double error(Rgb mean, const Film& film) const;
+    std::vector<double> errors(Rgb mean, const Film& film) const;  ///< of each pixel
   };
   Block try_block(std::size_t number) const;
 

@@ -102,14 +102,17 @@ std::string points(int count) {
   return text;
 }
 
-/// A few in each block of a picture of kLooked pixels.
-std::string small_emitters() {
+/// n rows of n before the smoke.
+std::string emitters(int n, float half, float L) {
   std::string text;
-  for (int i = 0; i < 400; ++i) {
-    text += emitting_square({-0.76f + 0.08f * float(i % 20), -0.66f + 0.08f * float(i / 20), -0.6f}, 0.011f, 5);
+  const float step = 1.6f / float(n);
+  for (int i = 0; i < n * n; ++i) {
+    text += emitting_square({-0.76f + step * float(i % n), -0.66f + step * float(i / n), -0.6f}, half, L);
   }
   return text;
 }
+/// A few in each block of a picture of kLooked pixels.
+std::string small_emitters() { return emitters(20, 0.011f, 5); }
 
 /// Means over blocks, whose pixels' noise is correlated.
 MeanImage blocks_of(const std::string& text, BudgetStrategy budget, std::uint64_t seed) {
@@ -389,14 +392,16 @@ Look::Ratio tracked_over_pairs(std::uint64_t seed, std::size_t blocks) {
   return collisions_over_pairs(ball(), settings, blocks);
 }
 
-// Of four samples two strata each: tracked distances in a ball under a sun then have 0.34 of the variance x cost of pairs,
-// where single samples say 0.41 to 0.43; by four seeds. By 256 blocks it is 0.378.
+// Of four samples two strata each: tracked distances in a ball under a sun then have 0.60 of the variance x cost of pairs,
+// where single samples say 0.72. The means of four seeds are known to 0.015 of the logarithm.
 TEST_CASE("looks see what strata spare") {
-  for (std::uint64_t seed = 1; seed <= 4; ++seed) CHECK(tracked_over_pairs(seed, 64).log < std::log(0.38));
+  double sum = 0;
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) sum += tracked_over_pairs(seed, 64).log;
+  CHECK(sum / 4 < std::log(0.66));
 }
 
 // Edges of emitters, a few in each block, are noise that neither has a part in: what pairs cost is lost. The logarithm is
-// 0.42 without them, -1.1 with them, and would be 0.64 by looks that see no emission.
+// 1.93 without them, 0.45 with them.
 TEST_CASE("looks see the noise of what the camera sees of emitters") {
   const std::string lit = smoky(0.5f, points(100), 1);
   const RenderSettings settings{.joint = JointStrategy::off};
@@ -405,6 +410,17 @@ TEST_CASE("looks see the noise of what the camera sees of emitters") {
   std::printf("  without pairs over with them: log %.2f, with emitters in the picture %.2f\n", hidden, dazzled);
   CHECK(hidden > 0.2);
   CHECK(dazzled < hidden - 0.7);
+}
+
+// A few that are brighter and smaller than a pixel are most of the noise, and the same in both: they tell nothing, unless there
+// are many. The logarithm is 0.42 less beside them, and would be 3.1 less were they counted in full.
+TEST_CASE("a few bright pixels do not hide how techniques differ") {
+  const std::string lit = smoky(0.5f, points(100), 1);
+  const RenderSettings settings{.joint = JointStrategy::off};
+  const double alone = collisions_over_pairs(lit, settings, 64).log,
+               speckled = collisions_over_pairs(lit + emitters(10, 0.003f, 100), settings, 64).log;
+  std::printf("  without pairs over with them: log %.2f, with a few bright pixels %.2f\n", alone, speckled);
+  CHECK(std::abs(speckled - alone) < 0.8);
 }
 
 /// Relative variance of a sample, by a look at a frame of `text`, and by pictures of 16 samples.
