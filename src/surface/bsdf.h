@@ -54,7 +54,7 @@ class Bsdf {
   /// For wo on one side eval(wo, wi) is a factor of wo times a function of wi: what is scattered, but for what is mirrored by
   /// chance, has forgotten where it came from.
   bool separable() const;
-  SeparablePart separable_part(Vec3 wo) const;
+  SeparablePart separable_part(Vec3 wo) const;  ///< of a separable one
   bool reflects() const;
   bool transmits() const;
   /// Share of the power arriving along wo that is reflected or transmitted; an estimate where no closed form exists.

@@ -61,8 +61,8 @@ TEST_CASE("sharing changes the noise alone: metals, rough glass and thin sheets"
 }
 
 // Clear coats spread what comes to the surface under them, to all by a factor that others know, and mirror it besides: what
-// they mirror is their path's own. Points have no images in mirrors, which would be most of the noise and are no one else's; of
-// a bright end of the room they have.
+// they mirror is their path's own. Points have no images in mirrors, which would be most of the noise and are no one else's; a
+// bright square has, too large for much noise.
 TEST_CASE("sharing changes the noise alone: clear coats") {
   const auto coated = [](const std::string& rgb, const std::string& more, const std::string& corners) {
     return block("Material \"coateddiffuse\" \"float roughness\" 0 \"rgb reflectance\" [" + rgb + "] " + more +

@@ -75,7 +75,7 @@ bool Path::scatter(const Vertex& vertex) {
   if (is_pane(context_.world, vertex)) return pass_pane(vertex);
   panes_ = 0;
   // How likely others had scattered toward what is shared must not depend on how the path came there.
-  context_.guided_weight = is_at_directions() ? 1 : 1 / guided_pdf_ratio_;
+  context_.guided_weight = shares_directions() ? 1 : 1 / guided_pdf_ratio_;
   // On the ray it was about what media scatter.
   if (vertex.on_surface()) context_.joint = depth_ == 1 ? context_.joint_at_surface : nullptr;
   begin(Step::light);
@@ -89,7 +89,7 @@ bool Path::scatter(const Vertex& vertex) {
   if (!may_go_on()) return false;
 
   // What is aimed at lights weighs against the directions of this path alone.
-  const bool offered = is_at_directions();
+  const bool offered = shares_directions();
   const auto joint = offered ? std::nullopt : joint_search(context_, vertex);
   if (joint) add_estimate(beta_, joint_estimate(context_, vertex, *joint), depth_ + 1);
 

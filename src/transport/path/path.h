@@ -82,7 +82,7 @@ class Path {
   bool may_offer(const Vertex& first) const;
   bool leaves_first() const;
   bool is_at_find() const;
-  bool is_at_directions() const;
+  bool shares_directions() const;
   bool is_own(int bounces) const;
   bool may_offer_lights(const Vertex& second) const;
   void offer_lights(const Directions& directions);

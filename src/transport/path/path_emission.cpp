@@ -24,7 +24,7 @@ void Path::add_light(LightId light, Rgb contribution, int bounces) {
 
 /// Light from emitters that a path of throughput `beta` brings by scattering at the vertex. Whether its mirror was looked into.
 bool Path::gather_light(const Directions& directions, Rgb beta) {
-  const bool offers = is_at_directions() && may_offer_lights(directions.vertex());
+  const bool offers = shares_directions() && may_offer_lights(directions.vertex());
   if (offers) {
     offer_lights(directions);
   } else {

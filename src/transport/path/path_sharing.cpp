@@ -188,8 +188,8 @@ bool Path::may_offer(const Vertex& first) const {
 bool Path::leaves_first() const { return sharing_ == Sharing::offering && offer_ && depth_ - panes_ == offer_->bounces; }
 /// Where light is scattered toward the first vertex by the place of a find itself.
 bool Path::is_at_find() const { return sharing_ == Sharing::completing && depth_ == offer_->bounces_of_find(); }
-/// The same where that is no separable surface.
-bool Path::is_at_directions() const { return completes_one_direction() && is_at_find(); }
+/// The same where that is no separable surface: what comes from each direction is a find of its own.
+bool Path::shares_directions() const { return completes_one_direction() && is_at_find(); }
 /// Light of so many bounces is counted by none but its own path.
 bool Path::is_own(int bounces) const {
   if (in_mirror_) return true;
